@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The subcommands. Each add_* declares its options on `app` and, when chosen, leaves in `run` what to do.
+#pragma once
+
+#include <functional>
+
+#include "lambent/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace lambent::cli {
+
+/// What the chosen subcommand does once all arguments are known to be well formed.
+using Run = std::function<Expected<void>()>;
+
+}  // namespace lambent::cli

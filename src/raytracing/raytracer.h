@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every pass asks of a ray tracer.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+inline constexpr float kInfiniteDistance = std::numeric_limits<float>::infinity();
+
+struct Ray {
+  glm::vec3 origin{0.0f};  ///< World space [m].
+  float t_min = 0.0f;      ///< Hits nearer than this do not count [units of |direction|].
+  glm::vec3 direction{0.0f, 0.0f, 1.0f};  ///< Unit length, so that distances are metres.
+  float t_max = kInfiniteDistance;        ///< Nor farther ones.
+};
+
+/// Where a ray met the scene.
+struct Hit {
+  float distance = kInfiniteDistance;  ///< [m]; infinite: nothing was hit and the rest is undefined.
+  std::uint32_t instance = 0;          ///< Index into Scene::instances.
+  std::uint32_t triangle = 0;          ///< Index into the mesh's triangles.
+  glm::vec2 barycentrics{0.0f};        ///< Weights of the triangle's second and third vertex.
+  bool front_face = true;  ///< The ray met the side from which the vertices run counter-clockwise.
+
+  bool missed() const { return distance == kInfiniteDistance; }
+};
+
+struct AccelerationStatistics {
+  double build_ms = 0.0;        ///< Wall-clock time of the last build.
+  std::size_t bytes = 0;        ///< Memory held by the acceleration structures.
+  std::size_t triangles = 0;    ///< Over all instances.
+  std::size_t instances = 0;
+};
+
+/// Finds what rays meet. Queries are const, single-threaded and safe to call from many threads at once.
+/// Triangles of AlphaMode::mask let rays through where coverage is below the cutoff; those of
+/// AlphaMode::blend let a ray through with probability 1 - coverage, decided by a hash of the hit.
+class RayTracer {
+ public:
+  virtual ~RayTracer() = default;
+
+  /// The nearest hit of each ray. Both spans have the same length.
+  virtual void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
+
+  /// 1 for each ray that meets anything between t_min and t_max, else 0.
+  virtual void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const = 0;
+
+  virtual AccelerationStatistics statistics() const = 0;
+
+  Hit closest_hit(const Ray& ray) const {
+    Hit hit;
+    closest_hits({&ray, 1}, {&hit, 1});
+    return hit;
+  }
+  bool occluded(const Ray& ray) const {
+    std::uint8_t result = 0;
+    occlusions({&ray, 1}, {&result, 1});
+    return result != 0;
+  }
+};
+
+/// A ray tracer on Embree, built over the scene as it is now. The scene must outlive it and keep its geometry.
+/// Throws std::runtime_error where Embree cannot start or runs out of memory.
+std::unique_ptr<RayTracer> make_embree_raytracer(const Scene& scene);
+
+}  // namespace lambent

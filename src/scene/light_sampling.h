@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Emissive triangles as lights, and the sky as a light: tables to draw from, and their densities.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <unordered_map>
+#include <vector>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+/// Light that reaches a point from a light without extent.
+struct PunctualSample {
+  glm::vec3 irradiance{0.0f};  ///< On a surface perpendicular to `to_light`, unoccluded [W/m^2].
+  glm::vec3 to_light{0.0f};    ///< Unit.
+  float distance = 0.0f;       ///< To the light [m]; infinite for directional lights.
+};
+
+/// What `light` sends to `position_ws`; irradiance 0 outside its cone or range.
+PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws);
+
+/// A point drawn from the emissive triangles.
+struct EmissiveSample {
+  glm::vec3 position_ws{0.0f};
+  glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
+  glm::vec3 radiance{0.0f};   ///< [W/(m^2 sr)].
+  float pdf_area = 0.0f;      ///< Density over the area of all emissive triangles [1/m^2]; 0: there are none.
+};
+
+/// All emissive triangles of a scene, drawn with probability proportional to their power.
+class EmissiveTriangles {
+ public:
+  explicit EmissiveTriangles(const Scene& scene);
+
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+
+  /// A point for three uniform numbers: the first picks the triangle, the others the point on it.
+  EmissiveSample sample(const glm::vec3& u) const;
+
+  /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not emit.
+  float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
+
+  /// Power of all triangles, both sides [W], luminance-weighted.
+  float total_power() const { return total_power_; }
+
+ private:
+  struct Entry {
+    std::uint32_t instance, triangle;
+    float area;         // [m^2], world space
+    float probability;  // of being drawn
+  };
+  const Scene* scene_;
+  std::vector<Entry> entries_;
+  std::vector<float> cumulative_;  // upper end of each entry's interval of [0, 1)
+  std::unordered_map<std::uint64_t, std::uint32_t> index_of_;
+  float total_power_ = 0.0f;
+};
+
+/// Radiance of the sky in a unit direction [W/(m^2 sr)].
+glm::vec3 sky_radiance(const Environment& environment, const glm::vec3& direction_ws);
+
+}  // namespace lambent

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Khronos Group, glTF 2.0 specification, Appendix B, "BRDF Implementation"; Heitz,
+// "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018.
+#ifndef LAMBENT_SHARED_BRDF_H
+#define LAMBENT_SHARED_BRDF_H
+
+#include "shared/color.h"
+#include "shared/sampling.h"
+
+LAMBENT_BEGIN
+
+/// How a surface point reflects: a Lambert base under a GGX coat that shares one Fresnel term.
+struct Reflectance {
+  vec3 diffuse;  ///< Albedo of the base, 0 to 1: base color * (1 - metallic).
+  float alpha;   ///< GGX width, roughness squared; at least kMinGgxAlpha.
+  vec3 f0;       ///< Specular reflectance at normal incidence.
+  float f90;     ///< At grazing incidence; 0 with f0 = 0 makes an exact Lambert surface.
+};
+
+/// Narrower lobes are mirrors to float precision; alpha below this makes D overflow.
+const float kMinGgxAlpha = 1e-3f;
+
+/// Schlick 1994: the share reflected by the coat at the angle between direction and half vector.
+LAMBENT_FN vec3 fresnel(Reflectance surface, float v_dot_h) {
+  float m = clamp(1.0f - v_dot_h, 0.0f, 1.0f);
+  float m5 = m * m * m * m * m;
+  return surface.f0 + (vec3(surface.f90) - surface.f0) * m5;
+}
+
+/// Walter et al. 2007, Eq. 33: density of microfacet normals [1/sr].
+LAMBENT_FN float ggx_distribution(float n_dot_h, float alpha) {
+  float a2 = alpha * alpha;
+  float d = n_dot_h * n_dot_h * (a2 - 1.0f) + 1.0f;
+  return a2 * kInvPi / (d * d);
+}
+
+/// Smith's Lambda for GGX, from the cosine to the normal.
+LAMBENT_FN float ggx_lambda(float cos_theta, float alpha) {
+  float c2 = cos_theta * cos_theta;
+  float tan2 = max(0.0f, 1.0f - c2) / max(c2, 1e-12f);
+  return 0.5f * (sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
+}
+
+/// The two parts of the reflection function times cos(theta_l).
+struct ReflectedPair {
+  vec3 diffuse;
+  vec3 specular;
+};
+
+/// BRDF times cosine, for unit directions to the viewer and to the light in the frame whose normal is +Z.
+/// Zero where either is below the surface.
+LAMBENT_FN ReflectedPair evaluate_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
+  ReflectedPair result = {vec3(0.0f), vec3(0.0f)};
+  float n_dot_v = to_viewer.z;
+  float n_dot_l = to_light.z;
+  if (n_dot_v <= 0.0f || n_dot_l <= 0.0f) return result;
+  if (surface.f90 <= 0.0f) {
+    result.diffuse = surface.diffuse * (kInvPi * n_dot_l);
+    return result;
+  }
+  vec3 h = normalize(to_viewer + to_light);
+  vec3 f = fresnel(surface, dot(to_viewer, h));
+  float d = ggx_distribution(h.z, surface.alpha);
+  float g = 1.0f / (1.0f + ggx_lambda(n_dot_v, surface.alpha) + ggx_lambda(n_dot_l, surface.alpha));
+  result.diffuse = (vec3(1.0f) - f) * surface.diffuse * (kInvPi * n_dot_l);
+  result.specular = f * (d * g / (4.0f * n_dot_v));
+  return result;
+}
+
+/// A half vector seen from `to_viewer`. Heitz 2018, listing 1.
+LAMBENT_FN vec3 sample_ggx_visible_normal(vec3 to_viewer, float alpha, vec2 u) {
+  vec3 stretched = normalize(vec3(alpha * to_viewer.x, alpha * to_viewer.y, to_viewer.z));
+  float lensq = stretched.x * stretched.x + stretched.y * stretched.y;
+  vec3 t1 = lensq > 0.0f ? vec3(-stretched.y, stretched.x, 0.0f) * inversesqrt(lensq)
+                         : vec3(1.0f, 0.0f, 0.0f);
+  vec3 t2 = cross(stretched, t1);
+  float radius = sqrt(u.x);
+  float angle = kTwoPi * u.y;
+  float p1 = radius * cos(angle);
+  float p2 = radius * sin(angle);
+  float s = 0.5f * (1.0f + stretched.z);
+  p2 = (1.0f - s) * sqrt(max(0.0f, 1.0f - p1 * p1)) + s * p2;
+  vec3 n = p1 * t1 + p2 * t2 + sqrt(max(0.0f, 1.0f - p1 * p1 - p2 * p2)) * stretched;
+  return normalize(vec3(alpha * n.x, alpha * n.y, max(1e-6f, n.z)));
+}
+
+/// Density of the reflected direction that sample_ggx_visible_normal leads to [1/sr]. Heitz 2018, Eq. 17.
+LAMBENT_FN float pdf_ggx_reflection(vec3 to_viewer, vec3 to_light, float alpha) {
+  if (to_viewer.z <= 0.0f || to_light.z <= 0.0f) return 0.0f;
+  vec3 h = normalize(to_viewer + to_light);
+  float g1 = 1.0f / (1.0f + ggx_lambda(to_viewer.z, alpha));
+  return g1 * ggx_distribution(h.z, alpha) / (4.0f * to_viewer.z);
+}
+
+/// Share of light from a uniform sky that the coat reflects: directional albedo, from fitted polynomials.
+/// Karis, "Physically Based Shading on Mobile", 2014 (after Lazarov 2013).
+LAMBENT_FN vec3 specular_albedo(Reflectance surface, float n_dot_v) {
+  float roughness = sqrt(surface.alpha);
+  float r_x = 1.0f - roughness;
+  float r_y = 0.0425f - 0.0275f * roughness;
+  float r_z = 1.04f - 0.572f * roughness;
+  float r_w = 0.022f * roughness - 0.04f;
+  float a004 = min(r_x * r_x, exp2(-9.28f * n_dot_v)) * r_x + r_y;
+  float scale = -1.04f * a004 + r_z;
+  float bias = 1.04f * a004 + r_w;
+  return surface.f0 * scale + vec3(surface.f90 * bias);
+}
+
+/// Probability with which importance sampling should pick the specular lobe.
+LAMBENT_FN float specular_probability(Reflectance surface, float n_dot_v) {
+  if (surface.f90 <= 0.0f) return 0.0f;
+  float specular = luminance(specular_albedo(surface, n_dot_v));
+  float diffuse = luminance(surface.diffuse);
+  return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 1.0f);
+}
+
+/// A direction to reflect from, drawn from the mix of both lobes. The third number picks the lobe.
+LAMBENT_FN vec3 sample_reflectance(Reflectance surface, vec3 to_viewer, vec3 u) {
+  if (u.z >= specular_probability(surface, to_viewer.z)) return sample_cosine_hemisphere(vec2(u.x, u.y));
+  vec3 h = sample_ggx_visible_normal(to_viewer, surface.alpha, vec2(u.x, u.y));
+  return reflect(-to_viewer, h);
+}
+
+/// Density of sample_reflectance [1/sr].
+LAMBENT_FN float pdf_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
+  float p = specular_probability(surface, to_viewer.z);
+  float pdf = (1.0f - p) * pdf_cosine_hemisphere(to_light.z);
+  if (p > 0.0f) pdf += p * pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
+  return pdf;
+}
+
+LAMBENT_END
+#endif

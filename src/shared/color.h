@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMBENT_SHARED_COLOR_H
+#define LAMBENT_SHARED_COLOR_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+/// Relative luminance of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
+LAMBENT_FN float luminance(vec3 linear) {
+  return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f));
+}
+
+/// IEC 61966-2-1 (sRGB) decoding of one channel, 0 to 1.
+LAMBENT_FN float linear_from_srgb(float encoded) {
+  return encoded <= 0.04045f ? encoded / 12.92f : pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+/// IEC 61966-2-1 (sRGB) encoding of one channel, 0 to 1.
+LAMBENT_FN float srgb_from_linear(float linear) {
+  return linear <= 0.0031308f ? linear * 12.92f : 1.055f * pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+LAMBENT_END
+#endif

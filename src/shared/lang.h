@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The common subset of C++20 and GLSL 4.6: the only file that asks which of the two it is in.
+//
+// Every other header in this folder, and every technique's shared mathematics, is valid in both
+// languages: float literals carry an f, vectors have no swizzles, structs have no defaults.
+#ifndef LAMBENT_SHARED_LANG_H
+#define LAMBENT_SHARED_LANG_H
+
+#ifdef __cplusplus
+
+#include <cmath>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <glm/packing.hpp>
+
+#define LAMBENT_BEGIN namespace lambent {
+#define LAMBENT_END }
+#define LAMBENT_FN inline
+#define LAMBENT_INOUT(T) T&
+#define LAMBENT_OUT(T) T&
+
+namespace lambent {
+using glm::ivec2;
+using glm::ivec3;
+using glm::mat3;
+using glm::mat4;
+using glm::uvec2;
+using glm::uvec3;
+using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+using uint = std::uint32_t;
+
+using glm::clamp;
+using glm::cross;
+using glm::dot;
+using glm::floatBitsToInt;
+using glm::floatBitsToUint;
+using glm::fract;
+using glm::intBitsToFloat;
+using glm::inversesqrt;
+using glm::length;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::normalize;
+using glm::reflect;
+using glm::sign;
+using glm::step;
+using glm::uintBitsToFloat;
+using std::abs;
+using std::acos;
+using std::atan;
+using std::cos;
+using std::exp2;
+using std::floor;
+using std::log2;
+using std::pow;
+using std::sin;
+using std::sqrt;
+inline float atan(float y, float x) { return std::atan2(y, x); }
+inline vec3 abs(const vec3& v) { return glm::abs(v); }
+inline vec2 abs(const vec2& v) { return glm::abs(v); }
+inline vec3 floor(const vec3& v) { return glm::floor(v); }
+inline vec2 floor(const vec2& v) { return glm::floor(v); }
+inline vec3 sqrt(const vec3& v) { return glm::sqrt(v); }
+inline vec3 pow(const vec3& v, const vec3& e) { return glm::pow(v, e); }
+}  // namespace lambent
+
+#else
+
+#define LAMBENT_BEGIN
+#define LAMBENT_END
+#define LAMBENT_FN
+#define LAMBENT_INOUT(T) inout T
+#define LAMBENT_OUT(T) out T
+
+#endif
+#endif
