@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/attributes.h"
+#include "scene/texture.h"
 #include "shared/color.h"
 
 namespace lambent {
@@ -26,14 +27,6 @@ std::array<float, 256> decoding_table(bool srgb) {
     table[i] = srgb ? linear_from_srgb(encoded) : encoded;
   }
   return table;
-}
-
-// KHR_texture_transform: scaled, then rotated counter-clockwise (v runs down), then moved.
-glm::vec2 transformed(const TextureView& view, const glm::vec2& uv) {
-  const glm::vec2 p = uv * view.uv_scale;
-  const float c = std::cos(view.uv_rotation);
-  const float s = std::sin(view.uv_rotation);
-  return glm::vec2(c * p.x + s * p.y, c * p.y - s * p.x) + view.uv_offset;
 }
 
 }  // namespace
@@ -111,9 +104,9 @@ float EmissionMap::mean_luminance(const Mesh& mesh, std::uint32_t triangle) cons
   const std::vector<glm::vec2>& uvs = mesh.uvs[view_.uv_set];
   if (uvs.empty()) return box_mean({0, columns_}, {0, rows_});
   const glm::uvec3 v = mesh.triangles[triangle];
-  const glm::vec2 a = transformed(view_, uvs[v.x]);
-  const glm::vec2 b = transformed(view_, uvs[v.y]);
-  const glm::vec2 c = transformed(view_, uvs[v.z]);
+  const glm::vec2 a = transform_uv(view_, uvs[v.x]);
+  const glm::vec2 b = transform_uv(view_, uvs[v.y]);
+  const glm::vec2 c = transform_uv(view_, uvs[v.z]);
   const glm::vec2 low = glm::min(a, glm::min(b, c));
   const glm::vec2 high = glm::max(a, glm::max(b, c));
   return box_mean(blocks(low.x, high.x, width_, columns_, view_.wrap_u),
