@@ -27,7 +27,7 @@ vec3 effective_albedo(const Reflectance& reflectance, float n_dot_v, float max_a
   vec3 albedo = reflectance.diffuse;
   if (reflectance.f90 > 0.0f) {
     const vec3 specular = specular_albedo(reflectance, n_dot_v);
-    albedo = albedo * (vec3(1.0f) - specular) + specular;
+    albedo = albedo * (vec3(1.0f) - reflectance.f0) + specular;
   }
   return min(albedo, vec3(max_albedo));
 }
