@@ -32,14 +32,6 @@ const Recipe* find(const std::string& name) {
   return found == kRecipes.end() ? nullptr : found;
 }
 
-/// Does to a scene made in memory what load_scene does to one it reads.
-void apply(const LoadOptions& options, Scene& scene) {
-  for (Material& material : scene.materials) {
-    material.lambert = material.lambert || options.lambert;
-    if (!options.normal_maps) material.normal_texture = {};
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> names() {
@@ -71,13 +63,6 @@ Expected<AnimatedScene> make_animated(const std::string& name) {
 
 Expected<Scene> make(const std::string& name) {
   return make_animated(name).map([](AnimatedScene&& made) { return std::move(made.scene); });
-}
-
-Expected<Scene> open_scene(const std::string& path_or_name, const LoadOptions& options) {
-  if (!is_name(path_or_name)) return load_scene(path_or_name, options);
-  Expected<Scene> scene = make(path_or_name);
-  if (scene) apply(options, *scene);
-  return scene;
 }
 
 }  // namespace lambent::scenes

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/parts.h"
 
-#include <glm/gtc/matrix_transform.hpp>
-
 namespace lambent::scenes {
 
 int add_lambert(Scene& scene, std::string name, const glm::vec3& albedo,
@@ -32,10 +30,8 @@ int add_instance(Scene& scene, std::string name, int mesh, const glm::mat4& worl
 
 void add_camera(Scene& scene, std::string name, const glm::vec3& eye, const glm::vec3& target,
                 float vertical_fov, float aspect) {
-  Camera camera;
+  Camera camera = look_at(eye, target, vertical_fov);
   camera.name = std::move(name);
-  camera.world_from_view = glm::inverse(glm::lookAt(eye, target, glm::vec3(0.0f, 1.0f, 0.0f)));
-  camera.vertical_fov = vertical_fov;
   camera.aspect = aspect;
   scene.cameras.push_back(std::move(camera));
 }
