@@ -133,10 +133,10 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
 
 }  // namespace
 
-Frame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
+RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                    const FrameSettings& settings) {
   assert(settings.width > 0 && settings.height > 0 && settings.samples > 0);
-  Frame frame;
+  RenderedFrame frame;
   frame.image.width = settings.width;
   frame.image.height = settings.height;
   Layers layers(frame.image);
