@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
-#include "scene/environment_sampling.h"
+#include "scene/light_sampling.h"
 
 namespace lambent {
 namespace {
