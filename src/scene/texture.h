@@ -7,8 +7,13 @@
 
 namespace lambent {
 
-/// Filtered texel at texture coordinates `uv` (glTF: (0, 0) is the top left corner), after the view's transform
-/// and wrap modes: linear RGBA. `lod` is the MIP level, fractional, clamped to what exists; 0 is full size.
-glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod = 0.0f);
+/// Texture coordinates after the view's transform (KHR_texture_transform), before its wrap modes.
+glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv);
+
+/// Filtered texel at texture coordinates `uv` (glTF: (0, 0) is the top left corner), after the
+/// view's transform and wrap modes: linear RGBA. `lod` is the MIP level, fractional, clamped to
+/// what exists; 0 is full size.
+glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv,
+                         float lod = 0.0f);
 
 }  // namespace lambent

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/texture.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+
+#include "shared/color.h"
+
+namespace lambent {
+namespace {
+
+constexpr float kMaxByte = 255.0f;
+// Entries of the table that encodes linear light: fine enough that its steps stay below a tenth of
+// an 8-bit sRGB step where sRGB is steepest (12.92 * 255 / 65536 = 0.05).
+constexpr int kEncodeEntries = 65536;
+
+const std::array<float, 256>& srgb_decode_table() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values{};
+    for (int i = 0; i < 256; ++i) values[i] = linear_from_srgb(static_cast<float>(i) / kMaxByte);
+    return values;
+  }();
+  return table;
+}
+
+const std::array<float, 256>& linear_decode_table() {
+  static const std::array<float, 256> table = [] {
+    std::array<float, 256> values{};
+    for (int i = 0; i < 256; ++i) values[i] = static_cast<float>(i) / kMaxByte;
+    return values;
+  }();
+  return table;
+}
+
+std::uint8_t byte_from_unit(float value) {
+  return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kMaxByte));
+}
+
+std::uint8_t encode_srgb(float linear) {
+  static const std::vector<std::uint8_t> table = [] {
+    std::vector<std::uint8_t> values(kEncodeEntries + 1);
+    for (int i = 0; i <= kEncodeEntries; ++i) {
+      values[i] = byte_from_unit(srgb_from_linear(static_cast<float>(i) / kEncodeEntries));
+    }
+    return values;
+  }();
+  return table[static_cast<std::size_t>(std::clamp(linear, 0.0f, 1.0f) * kEncodeEntries + 0.5f)];
+}
+
+// The texels of the finer level that one texel of the coarser covers, along one axis.
+struct Taps {
+  std::array<int, 3> index{};
+  std::array<float, 3> weight{};
+  int count = 0;
+};
+
+// Exact coverage of texel `i` of `coarse`, also where `fine` is odd and its texels straddle
+// borders.
+Taps box_taps(int i, int fine, int coarse) {
+  Taps taps;
+  const float width = static_cast<float>(fine) / static_cast<float>(coarse);
+  const float begin = static_cast<float>(i) * width;
+  const float end = begin + width;
+  constexpr float kNoCoverage = 1e-4f;  // Of a texel: less than this is rounding.
+  for (int j = static_cast<int>(begin); j < fine && taps.count < 3; ++j) {
+    const float from = std::max(begin, static_cast<float>(j));
+    const float to = std::min(end, static_cast<float>(j + 1));
+    if (to - from < kNoCoverage) continue;
+    taps.index[taps.count] = j;
+    taps.weight[taps.count] = (to - from) / width;
+    ++taps.count;
+  }
+  return taps;
+}
+
+TextureLevel half_size(const TextureLevel& fine, bool srgb) {
+  TextureLevel coarse;
+  coarse.width = std::max(1, fine.width / 2);
+  coarse.height = std::max(1, fine.height / 2);
+  coarse.rgba.resize(static_cast<std::size_t>(coarse.width) * coarse.height * 4);
+  const auto& color = srgb ? srgb_decode_table() : linear_decode_table();
+  const auto& alpha = linear_decode_table();
+
+  std::vector<Taps> columns(coarse.width);
+  for (int x = 0; x < coarse.width; ++x) columns[x] = box_taps(x, fine.width, coarse.width);
+  for (int y = 0; y < coarse.height; ++y) {
+    const Taps rows = box_taps(y, fine.height, coarse.height);
+    for (int x = 0; x < coarse.width; ++x) {
+      // Average the covered texels in linear light
+      glm::vec4 sum(0.0f);
+      for (int r = 0; r < rows.count; ++r) {
+        for (int c = 0; c < columns[x].count; ++c) {
+          const std::size_t texel =
+              static_cast<std::size_t>(rows.index[r]) * fine.width + columns[x].index[c];
+          const std::uint8_t* p = &fine.rgba[texel * 4];
+          sum += rows.weight[r] * columns[x].weight[c] *
+                 glm::vec4(color[p[0]], color[p[1]], color[p[2]], alpha[p[3]]);
+        }
+      }
+      std::uint8_t* out = &coarse.rgba[(static_cast<std::size_t>(y) * coarse.width + x) * 4];
+      for (int k = 0; k < 3; ++k) out[k] = srgb ? encode_srgb(sum[k]) : byte_from_unit(sum[k]);
+      out[3] = byte_from_unit(sum[3]);
+    }
+  }
+  return coarse;
+}
+
+// Texel index after wrapping; `i` may be any integer that a float near the texture can round to.
+int wrap_index(int i, int size, Wrap wrap) {
+  if (wrap == Wrap::clamp_to_edge) return std::clamp(i, 0, size - 1);
+  if (wrap == Wrap::repeat) {
+    const int m = i % size;
+    return m < 0 ? m + size : m;
+  }
+  const int period = 2 * size;
+  int m = i % period;
+  if (m < 0) m += period;
+  return m < size ? m : period - 1 - m;
+}
+
+// Texture coordinate brought near [0, 1) first, so that scaling by the size cannot overflow an int.
+float wrap_coordinate(float u, Wrap wrap) {
+  if (!std::isfinite(u)) return 0.0f;
+  if (wrap == Wrap::clamp_to_edge) return std::clamp(u, -1.0f, 2.0f);
+  return wrap == Wrap::repeat ? u - std::floor(u) : u - 2.0f * std::floor(0.5f * u);
+}
+
+glm::vec4 fetch(const TextureLevel& level, int x, int y, const std::array<float, 256>& color) {
+  const std::uint8_t* p = &level.rgba[(static_cast<std::size_t>(y) * level.width + x) * 4];
+  return {color[p[0]], color[p[1]], color[p[2]], linear_decode_table()[p[3]]};
+}
+
+glm::vec4 sample_level(const Texture& texture, const TextureLevel& level, const TextureView& view,
+                       glm::vec2 uv) {
+  const auto& color = texture.srgb ? srgb_decode_table() : linear_decode_table();
+  const float x = wrap_coordinate(uv.x, view.wrap_u) * static_cast<float>(level.width);
+  const float y = wrap_coordinate(uv.y, view.wrap_v) * static_cast<float>(level.height);
+  if (view.nearest) {
+    return fetch(level, wrap_index(static_cast<int>(std::floor(x)), level.width, view.wrap_u),
+                 wrap_index(static_cast<int>(std::floor(y)), level.height, view.wrap_v), color);
+  }
+
+  // Blend the four texels whose centres surround the point
+  const float left = std::floor(x - 0.5f);
+  const float top = std::floor(y - 0.5f);
+  const float fx = x - 0.5f - left;
+  const float fy = y - 0.5f - top;
+  const int x0 = wrap_index(static_cast<int>(left), level.width, view.wrap_u);
+  const int x1 = wrap_index(static_cast<int>(left) + 1, level.width, view.wrap_u);
+  const int y0 = wrap_index(static_cast<int>(top), level.height, view.wrap_v);
+  const int y1 = wrap_index(static_cast<int>(top) + 1, level.height, view.wrap_v);
+  const glm::vec4 upper = glm::mix(fetch(level, x0, y0, color), fetch(level, x1, y0, color), fx);
+  const glm::vec4 lower = glm::mix(fetch(level, x0, y1, color), fetch(level, x1, y1, color), fx);
+  return glm::mix(upper, lower, fy);
+}
+
+}  // namespace
+
+void build_mips(Texture& texture) {
+  assert(!texture.levels.empty());
+  texture.levels.resize(1);
+  while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
+    texture.levels.push_back(half_size(texture.levels.back(), texture.srgb));
+  }
+}
+
+// KHR_texture_transform: scale, then rotate counter-clockwise as seen with v pointing down, then
+// offset.
+glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv) {
+  uv *= view.uv_scale;
+  if (view.uv_rotation != 0.0f) {
+    const float c = std::cos(view.uv_rotation);
+    const float s = std::sin(view.uv_rotation);
+    uv = glm::vec2(c * uv.x + s * uv.y, -s * uv.x + c * uv.y);
+  }
+  return uv + view.uv_offset;
+}
+
+glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod) {
+  assert(view.texture >= 0 && view.texture < static_cast<int>(scene.textures.size()));
+  const Texture& texture = scene.textures[view.texture];
+  const glm::vec2 transformed = transform_uv(view, uv);
+  const float last = static_cast<float>(texture.levels.size() - 1);
+  const float level = lod > 0.0f ? std::min(lod, last) : 0.0f;
+  const auto finer = static_cast<std::size_t>(level);
+  const float blend = level - static_cast<float>(finer);
+  const glm::vec4 fine = sample_level(texture, texture.levels[finer], view, transformed);
+  if (blend <= 0.0f) return fine;
+  return glm::mix(fine, sample_level(texture, texture.levels[finer + 1], view, transformed), blend);
+}
+
+}  // namespace lambent
