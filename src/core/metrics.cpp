@@ -37,7 +37,7 @@ Image with_channels(const Image& image, int channels) {
   return result;
 }
 
-/// Valid pixels' means over blocks; `weights` counts the pixels of each.
+/// Valid pixels' means over blocks; `counts` has the pixels of each.
 struct Blocks {
   Image means;
   std::vector<int> counts;
@@ -225,7 +225,11 @@ Expected<Metrics> compare_images(const Image& a, const Image& b, const MetricsOp
 
   metrics.peak = options.display ? 1.0 : percentile(pair->b, kPeakPercentile);
   metrics.psnr_db = 20.0 * std::log10(metrics.peak / metrics.rmse);
-  add_perceptual(*pair, options.display, metrics);
+  if (options.perceptual) {
+    add_perceptual(*pair, options.display, metrics);
+  } else {
+    metrics.ssim = metrics.flip = std::numeric_limits<double>::quiet_NaN();
+  }
   return metrics;
 }
 
