@@ -7,8 +7,10 @@
 
 namespace lambent {
 
-/// Filtered texel at texture coordinates `uv` (glTF: (0, 0) is the top left corner), after the view's transform
-/// and wrap modes: linear RGBA. `lod` is the MIP level, fractional, clamped to what exists; 0 is full size.
-glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod = 0.0f);
+/// Filtered texel at texture coordinates `uv` (glTF: (0, 0) is the top left corner), after the
+/// view's transform and wrap modes: linear RGBA. `lod` is the MIP level, fractional, clamped to
+/// what exists; 0 is full size.
+glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv,
+                         float lod = 0.0f);
 
 }  // namespace lambent
