@@ -16,5 +16,6 @@ namespace lambent::cli {
 using Run = std::function<Expected<void>()>;
 
 void add_info(CLI::App& app, Run& run);
+void add_make_scene(CLI::App& app, Run& run);
 
 }  // namespace lambent::cli

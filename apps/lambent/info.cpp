@@ -11,6 +11,7 @@
 
 #include "lambent/commands.h"
 #include "lambent/scene.h"
+#include "scenes/builtin.h"
 
 namespace lambent::cli {
 namespace {
@@ -23,7 +24,6 @@ struct Totals {
   std::size_t triangles = 0;
   std::size_t emissive_triangles = 0;
   std::size_t texture_bytes = 0;
-  std::size_t textured_materials = 0;
 };
 
 bool emits(const Material& material) {
@@ -270,7 +270,7 @@ struct InfoOptions {
 };
 
 Expected<void> info(const InfoOptions& options) {
-  const Expected<Scene> scene = load_scene(options.scene);
+  const Expected<Scene> scene = scenes::open_scene(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   if (options.json) {
     // Names are UTF-8 already; a path need not be

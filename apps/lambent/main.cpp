@@ -25,6 +25,7 @@ int main(int argc, char** argv) {
 
   lambent::cli::Run run;
   lambent::cli::add_info(app, run);
+  lambent::cli::add_make_scene(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <new>
+#include <optional>
 
 #include "scene/gltf_accessors.h"
 #include "scene/gltf_lights_cameras.h"
@@ -39,6 +40,7 @@ class Importer {
     scene_.materials = std::move(materials);
     LAMBENT_TRY(tree, build_node_tree(document_, options_.scene));
     for (const int node : tree.visible) LAMBENT_CHECK(import_node(tree, node));
+    drop_unused_default_material();
     LAMBENT_TRY(decoded, textures.decode());
     scene_.textures = std::move(decoded);
     describe_source();
@@ -200,6 +202,14 @@ class Importer {
       LAMBENT_CHECK(add_instances(meshes, node, world_from_node * node_from_instance));
     }
     return {};
+  }
+
+  void drop_unused_default_material() {
+    const int fallback = static_cast<int>(scene_.materials.size()) - 1;
+    for (const Mesh& mesh : scene_.meshes) {
+      if (mesh.material == fallback) return;
+    }
+    scene_.materials.pop_back();
   }
 
   void describe_source() {

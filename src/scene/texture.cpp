@@ -157,6 +157,16 @@ glm::vec4 sample_level(const Texture& texture, const TextureLevel& level, const 
   return glm::mix(upper, lower, fy);
 }
 
+}  // namespace
+
+void build_mips(Texture& texture) {
+  assert(!texture.levels.empty());
+  texture.levels.resize(1);
+  while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
+    texture.levels.push_back(half_size(texture.levels.back(), texture.srgb));
+  }
+}
+
 // KHR_texture_transform: scale, then rotate counter-clockwise as seen with v pointing down, then
 // offset.
 glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv) {
@@ -167,16 +177,6 @@ glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv) {
     uv = glm::vec2(c * uv.x + s * uv.y, -s * uv.x + c * uv.y);
   }
   return uv + view.uv_offset;
-}
-
-}  // namespace
-
-void build_mips(Texture& texture) {
-  assert(!texture.levels.empty());
-  texture.levels.resize(1);
-  while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
-    texture.levels.push_back(half_size(texture.levels.back(), texture.srgb));
-  }
 }
 
 glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod) {

@@ -7,6 +7,9 @@
 
 namespace lambent {
 
+/// Texture coordinates after the view's transform (KHR_texture_transform), before its wrap modes.
+glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv);
+
 /// Filtered texel at texture coordinates `uv` (glTF: (0, 0) is the top left corner), after the
 /// view's transform and wrap modes: linear RGBA. `lod` is the MIP level, fractional, clamped to
 /// what exists; 0 is full size.

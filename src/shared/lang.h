@@ -32,6 +32,7 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 
+inline int clamp(int x, int low, int high) { return x < low ? low : (x > high ? high : x); }
 using glm::clamp;
 using glm::cross;
 using glm::dot;

@@ -1,7 +1,81 @@
 // SPDX-License-Identifier: Apache-2.0
+// Small number formats, each as encode and decode. Encoders take a uniform random number per channel and round up or
+// down with the probability that makes the decoded value right on average (dither), so that a value stored again and
+// again neither stalls nor drifts; 0.5 everywhere rounds to nearest.
 #ifndef LAMBENT_SHARED_PACKING_H
 #define LAMBENT_SHARED_PACKING_H
+
 #include "shared/lang.h"
+
 LAMBENT_BEGIN
+
+// Unsigned floats with 5 exponent bits (bias 15) and 5 to 10 mantissa bits: the channels of R11G11B10F and, without
+// its sign, of a half. Numbers below the smallest normal one, 2^-14, are stored as 0 or as 2^-14.
+const float kSmallFloatMin = 6.103515625e-05f;
+const uint kSmallFloatBiasShift = 112u;  // 127 - 15, between the exponent biases
+
+/// Largest finite value with that many mantissa bits.
+LAMBENT_FN float small_float_max(int mantissa_bits) {
+  return 65536.0f * (1.0f - 0.5f * exp2(float(-mantissa_bits)));
+}
+
+LAMBENT_FN float decode_small_float(uint bits, int mantissa_bits) {
+  if (bits == 0u) return 0.0f;
+  return uintBitsToFloat((bits << uint(23 - mantissa_bits)) + (kSmallFloatBiasShift << 23u));
+}
+
+/// The largest code whose value is not above `value`, which is clamped to [0, max].
+LAMBENT_FN uint encode_small_float_down(float value, int mantissa_bits) {
+  if (!(value >= kSmallFloatMin)) return 0u;
+  float clamped = min(value, small_float_max(mantissa_bits));
+  return (floatBitsToUint(clamped) - (kSmallFloatBiasShift << 23u)) >> uint(23 - mantissa_bits);
+}
+
+/// The code after `code`, in order of value; the largest follows itself.
+LAMBENT_FN uint next_small_float(uint code, int mantissa_bits) {
+  if (code == 0u) return 1u << uint(mantissa_bits);
+  return min(code + 1u, (31u << uint(mantissa_bits)) - 1u);
+}
+
+/// Code of a value, dithered by `u` in [0, 1).
+LAMBENT_FN uint encode_small_float(float value, int mantissa_bits, float u) {
+  uint down = encode_small_float_down(value, mantissa_bits);
+  uint up = next_small_float(down, mantissa_bits);
+  float low = decode_small_float(down, mantissa_bits);
+  float step = decode_small_float(up, mantissa_bits) - low;
+  return value - low > u * step ? up : down;
+}
+
+/// Two halves in a word, for numbers >= 0.
+LAMBENT_FN uint encode_half2(vec2 value, vec2 u) {
+  return encode_small_float(value.x, 10, u.x) | (encode_small_float(value.y, 10, u.y) << 16u);
+}
+
+LAMBENT_FN vec2 decode_half2(uint word) {
+  return vec2(decode_small_float(word & 0x7FFFu, 10), decode_small_float((word >> 16u) & 0x7FFFu, 10));
+}
+
+// RGB9E5: three 9-bit mantissas under one 5-bit exponent (bias 15), as in EXT_texture_shared_exponent.
+const float kRgb9e5Max = 65408.0f;
+const float kRgb9e5MantissaMax = 511.0f;
+const int kRgb9e5BiasAndBits = 24;  // exponent bias 15 + 9 mantissa bits
+
+LAMBENT_FN vec3 decode_rgb9e5(uint word) {
+  float scale = exp2(float(int(word >> 27u) - kRgb9e5BiasAndBits));
+  return vec3(float(word & 511u), float((word >> 9u) & 511u), float((word >> 18u) & 511u)) * scale;
+}
+
+LAMBENT_FN uint encode_rgb9e5(vec3 value, vec3 u) {
+  vec3 v = clamp(value, vec3(0.0f), vec3(kRgb9e5Max));
+  float largest = max(v.x, max(v.y, v.z));
+  // The exponent of the largest channel, read off its bits; one more where rounding up would overflow 9 bits.
+  int exponent = max(int(floatBitsToUint(largest) >> 23u) - 127, -16) + 16;
+  if (largest > kRgb9e5MantissaMax * exp2(float(exponent - kRgb9e5BiasAndBits))) exponent += 1;
+  exponent = min(exponent, 31);
+  float per_step = exp2(float(kRgb9e5BiasAndBits - exponent));
+  vec3 q = min(floor(v * per_step + u), vec3(kRgb9e5MantissaMax));
+  return uint(q.x) | (uint(q.y) << 9u) | (uint(q.z) << 18u) | (uint(exponent) << 27u);
+}
+
 LAMBENT_END
 #endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+class RayTracer;
+class EmissiveTriangles;
+
+/// A scene made ready for light: its acceleration structure and its tables of light sources.
+/// Refers to the scene, which must outlive it and keep still.
+class World {
+ public:
+  /// Builds everything. Throws std::runtime_error where the ray tracer cannot start or memory runs out.
+  explicit World(const Scene& scene);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const Scene& scene() const { return *scene_; }
+  const RayTracer& tracer() const { return *tracer_; }
+  const EmissiveTriangles& emissive() const { return *emissive_; }
+
+  /// Wall-clock time [ms] and memory [bytes] of the acceleration structure.
+  double build_ms() const;
+  std::size_t bytes() const;
+
+ private:
+  const Scene* scene_;
+  std::unique_ptr<RayTracer> tracer_;
+  std::unique_ptr<EmissiveTriangles> emissive_;
+};
+
+}  // namespace lambent

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where probes stand, and which eight surround a point.
+#ifndef LAMBENT_FIELD_PROBE_GRID_H
+#define LAMBENT_FIELD_PROBE_GRID_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+/// A regular grid of probes: probe c stands at origin_ws + c * spacing. Index = x + count.x * (y +
+/// count.y * z).
+struct ProbeGrid {
+  vec3 origin_ws;  ///< [m]
+  vec3 spacing;    ///< [m], > 0
+  ivec3 count;     ///< >= 2 along each axis
+};
+
+LAMBENT_FN vec3 probe_position(ProbeGrid grid, ivec3 coords) {
+  return grid.origin_ws + grid.spacing * vec3(coords);
+}
+
+LAMBENT_FN int probe_index(ProbeGrid grid, ivec3 coords) {
+  return coords.x + grid.count.x * (coords.y + grid.count.y * coords.z);
+}
+
+LAMBENT_FN ivec3 probe_coords(ProbeGrid grid, int index) {
+  return ivec3(index % grid.count.x, (index / grid.count.x) % grid.count.y,
+               index / (grid.count.x * grid.count.y));
+}
+
+/// The cell around a point: its lowest probe and the point's place between that and the highest, 0
+/// to 1.
+struct ProbeCell {
+  ivec3 base;
+  vec3 fraction;
+};
+
+/// The cell that holds the point, or the nearest one: a point beyond the grid is lit by the probes
+/// nearest to it.
+LAMBENT_FN ProbeCell probe_cell(ProbeGrid grid, vec3 position_ws) {
+  vec3 cells = vec3(grid.count - ivec3(1));
+  vec3 p = clamp((position_ws - grid.origin_ws) / grid.spacing, vec3(0.0f), cells);
+  vec3 base = min(floor(p), cells - vec3(1.0f));
+  ProbeCell cell = {ivec3(base), p - base};
+  return cell;
+}
+
+/// Corner 0..7 of a cell as an offset: bit 0 is x, bit 1 is y, bit 2 is z.
+LAMBENT_FN ivec3 cell_corner(int corner) {
+  return ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+}
+
+/// Trilinear weight of a corner.
+LAMBENT_FN float trilinear_weight(vec3 fraction, ivec3 corner) {
+  vec3 w = mix(vec3(1.0f) - fraction, fraction, vec3(corner));
+  return w.x * w.y * w.z;
+}
+
+LAMBENT_END
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/probe_store.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "field/irradiance_encoding.h"
+#include "shared/random.h"
+
+namespace lambent {
+namespace {
+
+std::size_t tile_texels(int texels) {
+  return static_cast<std::size_t>(texels + 2) * (texels + 2);
+}
+
+std::size_t texel_index(int probe, const ivec2& with_gutter, int texels) {
+  return static_cast<std::size_t>(probe) * tile_texels(texels) +
+         static_cast<std::size_t>(with_gutter.y) * (texels + 2) + with_gutter.x;
+}
+
+/// Copies what lies across the octahedron's fold into the gutter of a tile whose interior is
+/// filled.
+void fill_gutter(uint* tile, int texels, int words) {
+  const int width = texels + 2;
+  for (int y = 0; y < width; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (x > 0 && x <= texels && y > 0 && y <= texels) continue;
+      const ivec2 source = tile_source({x, y}, texels) + ivec2(1);
+      std::copy_n(tile + (source.y * width + source.x) * words, words,
+                  tile + (y * width + x) * words);
+    }
+  }
+}
+
+template <class Value, class Texel>
+Value bilinear(const vec3& direction, int texels, Texel texel) {
+  const TileFetch fetch = tile_fetch(direction, texels);
+  const ivec2 c = fetch.corner;
+  const Value top = mix(texel(c), texel(c + ivec2(1, 0)), fetch.fraction.x);
+  const Value bottom = mix(texel(c + ivec2(0, 1)), texel(c + ivec2(1, 1)), fetch.fraction.x);
+  return mix(top, bottom, fetch.fraction.y);
+}
+
+}  // namespace
+
+ProbeStore::ProbeStore(const ProbeGrid& grid, const FieldSettings& settings)
+    : grid_(grid),
+      probes_(grid.count.x * grid.count.y * grid.count.z),
+      irradiance_texels_(settings.irradiance_texels),
+      distance_texels_(settings.distance_texels),
+      irradiance_format_(settings.irradiance_format),
+      distance_format_(settings.distance_format),
+      irradiance_(probes_ * tile_texels(irradiance_texels_) * words_per_irradiance_texel()),
+      distance_(probes_ * tile_texels(distance_texels_) * words_per_distance_texel()) {}
+
+void ProbeStore::clear() {
+  std::fill(irradiance_.begin(), irradiance_.end(), 0u);
+  std::fill(distance_.begin(), distance_.end(), 0u);
+}
+
+vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {
+  const std::size_t index = texel_index(probe, with_gutter, irradiance_texels_);
+  switch (irradiance_format_) {
+    case IrradianceFormat::rgb9e5:
+      return decode_rgb9e5(irradiance_[index]);
+    case IrradianceFormat::r11g11b10f:
+      return decode_r11g11b10f(irradiance_[index]);
+    case IrradianceFormat::float32:
+      break;
+  }
+  const uint* words = &irradiance_[3 * index];
+  return {uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2])};
+}
+
+vec2 ProbeStore::moments_texel(int probe, ivec2 with_gutter) const {
+  const std::size_t index = texel_index(probe, with_gutter, distance_texels_);
+  if (distance_format_ == DistanceFormat::rg16f) return decode_half2(distance_[index]);
+  return {uintBitsToFloat(distance_[2 * index]), uintBitsToFloat(distance_[2 * index + 1])};
+}
+
+vec3 ProbeStore::irradiance(int probe, const vec3& direction) const {
+  return bilinear<vec3>(direction, irradiance_texels_,
+                        [&](ivec2 texel) { return irradiance_texel(probe, texel); });
+}
+
+vec2 ProbeStore::moments(int probe, const vec3& direction) const {
+  return bilinear<vec2>(direction, distance_texels_,
+                        [&](ivec2 texel) { return moments_texel(probe, texel); });
+}
+
+void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uint salt) {
+  const int n = irradiance_texels_;
+  assert(interior.size() == static_cast<std::size_t>(n) * n);
+  const int words = words_per_irradiance_texel();
+  for (int t = 0; t < n * n; ++t) {
+    const std::size_t index = texel_index(probe, ivec2(t % n, t / n) + ivec2(1), n);
+    uint* word = &irradiance_[index * words];
+    const vec3 value = interior[t];
+    if (irradiance_format_ == IrradianceFormat::float32) {
+      for (int c = 0; c < 3; ++c) word[c] = floatBitsToUint(value[c]);
+      continue;
+    }
+    const uvec3 bits = hash_pcg3d(uvec3(static_cast<uint>(index), salt, 0u));
+    const vec3 u(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
+    *word = irradiance_format_ == IrradianceFormat::rgb9e5 ? encode_rgb9e5(value, u)
+                                                           : encode_r11g11b10f(value, u);
+  }
+  fill_gutter(&irradiance_[texel_index(probe, {0, 0}, n) * words], n, words);
+}
+
+void ProbeStore::store_moments(int probe, std::span<const vec2> interior, uint salt) {
+  const int n = distance_texels_;
+  assert(interior.size() == static_cast<std::size_t>(n) * n);
+  const int words = words_per_distance_texel();
+  for (int t = 0; t < n * n; ++t) {
+    const std::size_t index = texel_index(probe, ivec2(t % n, t / n) + ivec2(1), n);
+    uint* word = &distance_[index * words];
+    if (distance_format_ == DistanceFormat::rg32f) {
+      word[0] = floatBitsToUint(interior[t].x);
+      word[1] = floatBitsToUint(interior[t].y);
+      continue;
+    }
+    const uvec3 bits = hash_pcg3d(uvec3(static_cast<uint>(index), salt, 1u));
+    *word = encode_half2(interior[t], {uniform_from_bits(bits.x), uniform_from_bits(bits.y)});
+  }
+  fill_gutter(&distance_[texel_index(probe, {0, 0}, n) * words], n, words);
+}
+
+}  // namespace lambent

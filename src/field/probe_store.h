@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// What probes hold between updates: encoded octahedral tiles with gutters.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/probe_grid.h"
+#include "field/tile.h"
+#include "lambent/field.h"
+
+namespace lambent {
+
+/// Tiles of all probes, probe after probe; a tile is (texels + 2)^2 texels, row after row, gutter
+/// included.
+class ProbeStore {
+ public:
+  ProbeStore(const ProbeGrid& grid, const FieldSettings& settings);
+
+  const ProbeGrid& grid() const { return grid_; }
+  int probes() const { return probes_; }
+  int irradiance_texels() const { return irradiance_texels_; }
+  int distance_texels() const { return distance_texels_; }
+  IrradianceFormat irradiance_format() const { return irradiance_format_; }
+  DistanceFormat distance_format() const { return distance_format_; }
+  std::size_t bytes() const { return 4 * (irradiance_.size() + distance_.size()); }
+
+  /// Irradiance [W/m^2] of a texel, coordinates with gutter (0 to texels + 1).
+  vec3 irradiance_texel(int probe, ivec2 with_gutter) const;
+  /// Mean distance [m] and mean squared distance [m^2] of a texel, coordinates with gutter.
+  vec2 moments_texel(int probe, ivec2 with_gutter) const;
+
+  /// Bilinear fetches along a unit direction.
+  vec3 irradiance(int probe, const vec3& direction) const;
+  vec2 moments(int probe, const vec3& direction) const;
+
+  /// Encodes a probe's interior texels, row after row, and fills the gutter. `salt` (say, a hash of
+  /// update and seed) makes the dither of this call its own.
+  void store_irradiance(int probe, std::span<const vec3> interior, uint salt);
+  void store_moments(int probe, std::span<const vec2> interior, uint salt);
+
+  /// The encoded words, for kernels; `words_per_*_texel` of them a texel.
+  std::span<const uint> irradiance_words() const { return irradiance_; }
+  std::span<const uint> distance_words() const { return distance_; }
+  int words_per_irradiance_texel() const {
+    return irradiance_format_ == IrradianceFormat::float32 ? 3 : 1;
+  }
+  int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
+
+  void clear();
+
+ private:
+  ProbeGrid grid_;
+  int probes_;
+  int irradiance_texels_;
+  int distance_texels_;
+  IrradianceFormat irradiance_format_;
+  DistanceFormat distance_format_;
+  std::vector<uint> irradiance_;
+  std::vector<uint> distance_;
+};
+
+}  // namespace lambent

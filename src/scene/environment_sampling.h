@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// A latitude-longitude map as a light: where a direction lies in it, and directions drawn by its
+// brightness.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+/// Where a unit direction lies in a latitude-longitude map: u to the right, v down from +Y, both 0
+/// to 1. Without rotation the middle of the map is -Z and +X is right of it; `rotation` turns the
+/// sky about +Y [rad].
+glm::vec2 latitude_longitude_from_direction(const glm::vec3& direction_ws, float rotation);
+
+/// The unit direction for a point of the map. Inverse of latitude_longitude_from_direction.
+glm::vec3 direction_from_latitude_longitude(const glm::vec2& uv, float rotation);
+
+/// A map read bilinearly; wraps around in u, clamps in v.
+glm::vec3 sample_environment_map(const Image& map, const glm::vec2& uv);
+
+/// A direction drawn from the sky.
+struct EnvironmentSample {
+  glm::vec3 direction_ws{0.0f, 1.0f, 0.0f};  ///< Unit.
+  glm::vec3 radiance{0.0f};                  ///< [W/(m^2 sr)].
+  float pdf = 0.0f;                          ///< Density [1/sr]; 0: the sky is black or has no map.
+};
+
+/// Draws directions with density proportional to the luminance of an environment's map.
+class EnvironmentDistribution {
+ public:
+  /// Empty where the environment has no map: a constant sky is best found by rays that surfaces
+  /// scatter.
+  explicit EnvironmentDistribution(const Environment& environment);
+
+  bool empty() const { return row_cumulative_.empty(); }
+
+  /// A direction for a uniform point of the unit square.
+  EnvironmentSample sample(const glm::vec2& u) const;
+
+  /// The density with which `sample` draws a unit direction [1/sr].
+  float pdf(const glm::vec3& direction_ws) const;
+
+ private:
+  const Environment* environment_;
+  int width_ = 0, height_ = 0;
+  std::vector<float> row_cumulative_;   // height_: upper end of each row's interval of [0, 1)
+  std::vector<float> cell_cumulative_;  // width_ * height_: the same for each cell in its row
+};
+
+}  // namespace lambent

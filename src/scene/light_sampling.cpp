@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/light_sampling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene/attributes.h"
+#include "scene/emission_map.h"
+#include "scene/environment_sampling.h"
+#include "shared/color.h"
+#include "shared/sampling.h"
+
+namespace lambent {
+namespace {
+
+// Cosines of the two cone angles closer than this count as equal, as KHR_lights_punctual
+// recommends.
+constexpr float kMinConeCosineRange = 1e-3f;
+
+std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
+  return (static_cast<std::uint64_t>(instance) << 32) | triangle;
+}
+
+// KHR_lights_punctual, "Inner and Outer Cone Angles"
+float cone_attenuation(const Light& light, const glm::vec3& to_light) {
+  const float cos_outer = std::cos(light.outer_cone_angle);
+  const float scale =
+      1.0f / std::max(kMinConeCosineRange, std::cos(light.inner_cone_angle) - cos_outer);
+  const float falloff =
+      glm::clamp((-glm::dot(light.direction_ws, to_light) - cos_outer) * scale, 0.0f, 1.0f);
+  return falloff * falloff;
+}
+
+// KHR_lights_punctual, "Range Property"
+float range_attenuation(float range, float distance) {
+  if (range <= 0.0f) return 1.0f;
+  const float share = distance / range;
+  return glm::clamp(1.0f - share * share * share * share, 0.0f, 1.0f);
+}
+
+glm::vec3 edge_product(const Mesh& mesh, const Instance& instance, std::uint32_t triangle) {
+  const glm::uvec3 v = mesh.triangles[triangle];
+  const glm::mat3 world_from_object(instance.world_from_object);
+  return glm::cross(world_from_object * (mesh.positions[v.y] - mesh.positions[v.x]),
+                    world_from_object * (mesh.positions[v.z] - mesh.positions[v.x]));
+}
+
+// The brightest vertex colour of a triangle: an unlit surface emits in proportion to it.
+float vertex_color_bound(const Mesh& mesh, const Material& material, const glm::uvec3& v) {
+  if (!material.unlit || mesh.colors.empty()) return 1.0f;
+  return std::max({luminance(glm::vec3(mesh.colors[v.x])), luminance(glm::vec3(mesh.colors[v.y])),
+                   luminance(glm::vec3(mesh.colors[v.z]))});
+}
+
+}  // namespace
+
+PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws) {
+  if (light.type == Light::Type::directional) {
+    return {light.intensity, -light.direction_ws, std::numeric_limits<float>::infinity()};
+  }
+  const glm::vec3 offset = light.position_ws - position_ws;
+  const float squared_distance = glm::dot(offset, offset);
+  if (squared_distance <= 0.0f) return {};
+  PunctualSample sample;
+  sample.distance = std::sqrt(squared_distance);
+  sample.to_light = offset / sample.distance;
+  float attenuation = range_attenuation(light.range, sample.distance);
+  if (light.type == Light::Type::spot) attenuation *= cone_attenuation(light, sample.to_light);
+  sample.irradiance = light.intensity * (attenuation / squared_distance);
+  return sample;
+}
+
+EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
+  // Compute each triangle's power: its area times the mean radiance of what its texture shows there
+  std::vector<EmissionMap> maps;
+  maps.reserve(scene.materials.size());
+  for (const Material& material : scene.materials) maps.emplace_back(scene, material);
+
+  std::vector<double> powers;
+  double total = 0.0;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Material& material = scene.materials[mesh.material];
+    if (!may_emit(material)) continue;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      const float area = 0.5f * glm::length(edge_product(mesh, instance, t));
+      const float radiance = maps[mesh.material].mean_luminance(mesh, t) *
+                             vertex_color_bound(mesh, material, mesh.triangles[t]);
+      // Written so that a NaN, too, is left out
+      if (!(area > 0.0f) || !(radiance > 0.0f)) continue;
+      entries_.push_back({i, t, area, 0.0f});
+      powers.push_back(static_cast<double>(area) * radiance);
+      total += powers.back();
+    }
+  }
+  total_power_ = static_cast<float>(kTwoPi * total);
+
+  // Compute the cumulative distribution
+  double sum = 0.0;
+  cumulative_.reserve(entries_.size());
+  index_of_.reserve(entries_.size());
+  for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+    sum += powers[e];
+    entries_[e].probability = static_cast<float>(powers[e] / total);
+    cumulative_.push_back(static_cast<float>(sum / total));
+    index_of_.emplace(triangle_key(entries_[e].instance, entries_[e].triangle), e);
+  }
+}
+
+EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
+  if (entries_.empty()) return {};
+  const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), u.x);
+  const std::size_t index = std::min<std::size_t>(above - cumulative_.begin(), entries_.size() - 1);
+  const Entry& entry = entries_[index];
+  const Instance& instance = scene_->instances[entry.instance];
+  const Mesh& mesh = scene_->meshes[instance.mesh];
+  const Material& material = scene_->materials[mesh.material];
+  const TrianglePoint point =
+      triangle_point(mesh, entry.triangle, sample_uniform_triangle(glm::vec2(u.y, u.z)));
+
+  EmissiveSample sample;
+  sample.position_ws =
+      glm::vec3(instance.world_from_object * glm::vec4(interpolate(mesh.positions, point), 1.0f));
+  sample.normal_ws = edge_product(mesh, instance, entry.triangle) / (2.0f * entry.area);
+  sample.radiance = emission_at(*scene_, mesh, material, point);
+  if (material.alpha_mode != AlphaMode::opaque) {
+    const float alpha = base_color_at(*scene_, mesh, material, point).a;
+    sample.radiance *= stopping_probability(material, alpha);
+  }
+  sample.pdf_area = entry.probability / entry.area;
+  return sample;
+}
+
+float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle) const {
+  const auto found = index_of_.find(triangle_key(instance, triangle));
+  if (found == index_of_.end()) return 0.0f;
+  const Entry& entry = entries_[found->second];
+  return entry.probability / entry.area;
+}
+
+glm::vec3 sky_radiance(const Environment& environment, const glm::vec3& direction_ws) {
+  if (environment.map.empty()) return environment.radiance;
+  const glm::vec2 uv = latitude_longitude_from_direction(direction_ws, environment.rotation);
+  return environment.radiance * sample_environment_map(environment.map, uv);
+}
+
+}  // namespace lambent
