@@ -114,19 +114,31 @@ LAMBENT_FN float specular_probability(Reflectance surface, float n_dot_v) {
   return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 1.0f);
 }
 
-/// A direction to reflect from, drawn from the mix of both lobes. The third number picks the lobe.
-LAMBENT_FN vec3 sample_reflectance(Reflectance surface, vec3 to_viewer, vec3 u) {
-  if (u.z >= specular_probability(surface, to_viewer.z)) return sample_cosine_hemisphere(vec2(u.x, u.y));
+/// A direction to reflect from: of the specular lobe with probability `specular_share` (u.z decides), else of the
+/// cosine lobe. May point below the surface, where the density is 0.
+LAMBENT_FN vec3 sample_lobes(Reflectance surface, vec3 to_viewer, float specular_share, vec3 u) {
+  if (u.z >= specular_share) return sample_cosine_hemisphere(vec2(u.x, u.y));
   vec3 h = sample_ggx_visible_normal(to_viewer, surface.alpha, vec2(u.x, u.y));
   return reflect(-to_viewer, h);
 }
 
+/// Density of sample_lobes [1/sr].
+LAMBENT_FN float pdf_lobes(Reflectance surface, vec3 to_viewer, float specular_share, vec3 to_light) {
+  float pdf = (1.0f - specular_share) * pdf_cosine_hemisphere(to_light.z);
+  if (specular_share > 0.0f) {
+    pdf += specular_share * pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
+  }
+  return pdf;
+}
+
+/// A direction to reflect from, drawn from the mix of both lobes that suits the surface.
+LAMBENT_FN vec3 sample_reflectance(Reflectance surface, vec3 to_viewer, vec3 u) {
+  return sample_lobes(surface, to_viewer, specular_probability(surface, to_viewer.z), u);
+}
+
 /// Density of sample_reflectance [1/sr].
 LAMBENT_FN float pdf_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
-  float p = specular_probability(surface, to_viewer.z);
-  float pdf = (1.0f - p) * pdf_cosine_hemisphere(to_light.z);
-  if (p > 0.0f) pdf += p * pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
-  return pdf;
+  return pdf_lobes(surface, to_viewer, specular_probability(surface, to_viewer.z), to_light);
 }
 
 LAMBENT_END

@@ -1,0 +1,317 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference/path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/light_sampling.h"
+#include "shared/brdf.h"
+#include "shared/rays.h"
+
+namespace lambent::reference {
+namespace {
+
+// Of the rays that the first surface scatters, at most this share samples its specular lobe: the
+// rest also measures irradiance, which even a mirror has.
+constexpr float kMaxFirstSpecularShare = 0.75f;
+// Bounces before Russian roulette may end a path: fewer would add noise to what carries most light.
+constexpr int kBouncesBeforeRoulette = 2;
+// The roulette's highest chance of survival: paths end even where nothing is absorbed.
+constexpr float kMaxSurvival = 0.95f;
+// Shadow rays to a point of an emissive surface stop this share of the distance short of it.
+constexpr float kShadowShortening = 1e-4f;
+
+float max_component(const glm::vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+Ray ray_from(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,
+             const glm::vec3& direction_ws) {
+  Ray ray;
+  ray.origin = offset_ray_origin(position_ws, geometric_normal_ws);
+  ray.direction = direction_ws;
+  return ray;
+}
+
+}  // namespace
+
+// A point at which a path scatters.
+struct PathIntegrator::Vertex {
+  glm::vec3 position_ws;
+  glm::vec3 geometric_normal_ws;
+  Frame frame;          // around the shading normal
+  glm::vec3 to_viewer;  // in the frame
+  Reflectance reflectance;
+  float specular_share;
+
+  Vertex(const Surface& surface, const glm::vec3& to_viewer_ws, float max_specular_share)
+      : position_ws(surface.position_ws),
+        geometric_normal_ws(surface.geometric_normal_ws),
+        frame(make_frame(surface.normal_ws)),
+        to_viewer(to_local(frame, to_viewer_ws)),
+        reflectance(surface.reflectance),
+        specular_share(
+            std::min(specular_probability(reflectance, to_viewer.z), max_specular_share)) {}
+
+  bool is_black() const {
+    return reflectance.diffuse == glm::vec3(0.0f) && reflectance.f90 <= 0.0f;
+  }
+  // Light reaches the surface only where both normals agree that it does.
+  bool is_lit_from(const glm::vec3& direction_ws) const {
+    return glm::dot(geometric_normal_ws, direction_ws) > 0.0f &&
+           glm::dot(frame.normal, direction_ws) > 0.0f;
+  }
+  ReflectedPair evaluate(const glm::vec3& direction_ws) const {
+    return evaluate_reflectance(reflectance, to_viewer, to_local(frame, direction_ws));
+  }
+  glm::vec3 sample(const glm::vec3& u) const {
+    return to_world(frame, sample_lobes(reflectance, to_viewer, specular_share, u));
+  }
+  float pdf(const glm::vec3& direction_ws) const {
+    return pdf_lobes(reflectance, to_viewer, specular_share, to_local(frame, direction_ws));
+  }
+};
+
+// Light that arrives at a vertex straight from lights drawn at random.
+struct PathIntegrator::Lighting {
+  struct Sample {
+    glm::vec3 to_light_ws;
+    float distance;
+    glm::vec3 weight;  // radiance over density; times BRDF and cosine it is the estimate
+    bool from_sky;
+  };
+  std::array<Sample, 3> samples;
+  int count = 0;
+
+  void add(const Sample& sample) { samples[count++] = sample; }
+};
+
+// Light that arrives along a scattered ray.
+struct PathIntegrator::Incident {
+  glm::vec3 emitted{0.0f};  // by the surface that the ray meets
+  glm::vec3 other{0.0f};
+};
+
+PathIntegrator::PathIntegrator(const World& world, int max_bounces, Strategy strategy)
+    : world_(world),
+      scene_(world.scene()),
+      max_bounces_(max_bounces),
+      strategy_(strategy),
+      environment_(world.scene().environment) {}
+
+// Weight of light that a scattered ray of density `pdf` found, and that could also have been drawn.
+float PathIntegrator::found_weight(float pdf, float light_pdf) const {
+  if (light_pdf <= 0.0f || strategy_ == Strategy::scatter) return 1.0f;
+  return strategy_ == Strategy::light ? 0.0f : mis_power_weight(pdf, light_pdf);
+}
+
+// Weight of light that was drawn, and that a scattered ray could also have found.
+float PathIntegrator::drawn_weight(float light_pdf, float pdf) const {
+  return strategy_ == Strategy::light ? 1.0f : mis_power_weight(light_pdf, pdf);
+}
+
+glm::vec3 PathIntegrator::sky_found(const glm::vec3& direction_ws, float pdf) const {
+  return sky_radiance(scene_.environment, direction_ws) *
+         found_weight(pdf, environment_.pdf(direction_ws));
+}
+
+glm::vec3 PathIntegrator::emission_found(const Surface& surface, const Ray& ray, const Hit& hit,
+                                         float pdf) const {
+  if (surface.emission == glm::vec3(0.0f)) return surface.emission;
+  const float cosine = std::abs(glm::dot(surface.geometric_normal_ws, ray.direction));
+  const float pdf_area = world_.emissive().pdf_area(hit.instance, hit.triangle);
+  const float light_pdf = cosine > 0.0f ? pdf_area * hit.distance * hit.distance / cosine : 0.0f;
+  return surface.emission * found_weight(pdf, light_pdf);
+}
+
+// Picks one light with probability proportional to what it sends here if nothing is in between.
+void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& lighting) const {
+  const auto importance = [&](const PunctualSample& light) {
+    return vertex.is_lit_from(light.to_light)
+               ? max_component(light.irradiance) * glm::dot(vertex.frame.normal, light.to_light)
+               : 0.0f;
+  };
+  float total = 0.0f;
+  for (const Light& light : scene_.lights) {
+    total += importance(sample_punctual(light, vertex.position_ws));
+  }
+  if (!(total > 0.0f)) return;
+  float left = u * total;
+  PunctualSample picked;
+  float picked_importance = 0.0f;
+  for (const Light& light : scene_.lights) {
+    const PunctualSample candidate = sample_punctual(light, vertex.position_ws);
+    const float share = importance(candidate);
+    if (share <= 0.0f) continue;
+    picked = candidate;
+    picked_importance = share;
+    left -= share;
+    if (left < 0.0f) break;
+  }
+  lighting.add(
+      {picked.to_light, picked.distance, picked.irradiance * (total / picked_importance), false});
+}
+
+void PathIntegrator::add_emissive(const Vertex& vertex, const glm::vec3& u,
+                                  Lighting& lighting) const {
+  const EmissiveSample light = world_.emissive().sample(u);
+  const glm::vec3 offset =
+      light.position_ws - offset_ray_origin(vertex.position_ws, vertex.geometric_normal_ws);
+  const float squared_distance = glm::dot(offset, offset);
+  if (light.pdf_area <= 0.0f || squared_distance <= 0.0f) return;
+  const float distance = std::sqrt(squared_distance);
+  const glm::vec3 to_light = offset / distance;
+  const float cosine = std::abs(glm::dot(light.normal_ws, to_light));
+  if (cosine <= 0.0f || !vertex.is_lit_from(to_light) || light.radiance == glm::vec3(0.0f)) return;
+  const float light_pdf = light.pdf_area * squared_distance / cosine;
+  lighting.add({to_light, distance * (1.0f - kShadowShortening),
+                light.radiance * (drawn_weight(light_pdf, vertex.pdf(to_light)) / light_pdf),
+                false});
+}
+
+void PathIntegrator::add_environment(const Vertex& vertex, const glm::vec2& u,
+                                     Lighting& lighting) const {
+  const EnvironmentSample sky = environment_.sample(u);
+  if (sky.pdf <= 0.0f || !vertex.is_lit_from(sky.direction_ws)) return;
+  lighting.add({sky.direction_ws, kInfiniteDistance,
+                sky.radiance * (drawn_weight(sky.pdf, vertex.pdf(sky.direction_ws)) / sky.pdf),
+                true});
+}
+
+void PathIntegrator::drop_occluded(const Vertex& vertex, Lighting& lighting,
+                                   std::uint64_t& rays) const {
+  int kept = 0;
+  for (int i = 0; i < lighting.count; ++i) {
+    Ray ray =
+        ray_from(vertex.position_ws, vertex.geometric_normal_ws, lighting.samples[i].to_light_ws);
+    ray.t_max = lighting.samples[i].distance;
+    ++rays;
+    if (!world_.tracer().occluded(ray)) lighting.samples[kept++] = lighting.samples[i];
+  }
+  lighting.count = kept;
+}
+
+PathIntegrator::Lighting PathIntegrator::sample_lights(const Vertex& vertex, SobolSampler& random,
+                                                       std::uint64_t& rays) const {
+  Lighting lighting;
+  if (!scene_.lights.empty()) add_punctual(vertex, random.next1(), lighting);
+  if (strategy_ != Strategy::scatter) {
+    if (!world_.emissive().empty()) {
+      const glm::vec2 point = random.next2();
+      add_emissive(vertex, glm::vec3(random.next1(), point), lighting);
+    }
+    if (!environment_.empty()) add_environment(vertex, random.next2(), lighting);
+  }
+  drop_occluded(vertex, lighting, rays);
+  return lighting;
+}
+
+PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, SobolSampler& random,
+                                                         std::uint64_t& rays) const {
+  Incident incident;
+  glm::vec3 throughput(1.0f);
+  for (int bounce = 1;; ++bounce) {
+    ++rays;
+    const Hit hit = world_.tracer().closest_hit(ray);
+    if (hit.missed()) {
+      incident.other += throughput * sky_found(ray.direction, pdf);
+      return incident;
+    }
+    const Surface surface = surface_at(scene_, ray, hit);
+    (bounce == 1 ? incident.emitted : incident.other) +=
+        throughput * emission_found(surface, ray, hit, pdf);
+    if (bounce > max_bounces_) return incident;
+
+    // Add the light that the vertex reflects straight from lights
+    const Vertex vertex(surface, -ray.direction, 1.0f);
+    if (vertex.is_black()) return incident;
+    const Lighting lighting = sample_lights(vertex, random, rays);
+    for (int i = 0; i < lighting.count; ++i) {
+      const ReflectedPair reflected = vertex.evaluate(lighting.samples[i].to_light_ws);
+      incident.other +=
+          throughput * (reflected.diffuse + reflected.specular) * lighting.samples[i].weight;
+    }
+
+    // Scatter, and let Russian roulette end paths that carry little
+    const glm::vec3 direction_ws = vertex.sample(random.next3());
+    pdf = vertex.pdf(direction_ws);
+    if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return incident;
+    const ReflectedPair reflected = vertex.evaluate(direction_ws);
+    throughput *= (reflected.diffuse + reflected.specular) / pdf;
+    if (bounce >= kBouncesBeforeRoulette) {
+      const float survival = std::min(max_component(throughput), kMaxSurvival);
+      if (random.next1() >= survival) return incident;
+      throughput /= survival;
+    }
+    ray = ray_from(vertex.position_ws, vertex.geometric_normal_ws, direction_ws);
+  }
+}
+
+PixelSample PathIntegrator::sample_pixel(const Ray& ray, SobolSampler& random,
+                                         std::uint64_t& rays) const {
+  PixelSample sample;
+  ++rays;
+  const Hit hit = world_.tracer().closest_hit(ray);
+  if (hit.missed()) {
+    sample.emission = sky_radiance(scene_.environment, ray.direction);
+    return sample;
+  }
+  const Surface surface = surface_at(scene_, ray, hit);
+  sample.emission = surface.emission;
+  sample.albedo = surface.reflectance.diffuse;
+  sample.normal = surface.normal_ws;
+
+  const Vertex vertex(surface, -ray.direction, kMaxFirstSpecularShare);
+  const auto add = [&](const glm::vec3& direction_ws, const glm::vec3& direct_weight,
+                       const glm::vec3& indirect_weight) {
+    const ReflectedPair reflected = vertex.evaluate(direction_ws);
+    sample.direct += reflected.diffuse * direct_weight;
+    sample.indirect += reflected.diffuse * indirect_weight;
+    sample.glossy += reflected.specular * (direct_weight + indirect_weight);
+    sample.irradiance += glm::dot(vertex.frame.normal, direction_ws) * indirect_weight;
+  };
+
+  const Lighting lighting = sample_lights(vertex, random, rays);
+  for (int i = 0; i < lighting.count; ++i) {
+    const Lighting::Sample& light = lighting.samples[i];
+    add(light.to_light_ws, light.from_sky ? glm::vec3(0.0f) : light.weight,
+        light.from_sky ? light.weight : glm::vec3(0.0f));
+  }
+
+  const glm::vec3 direction_ws = vertex.sample(random.next3());
+  const float pdf = vertex.pdf(direction_ws);
+  if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return sample;
+  const Incident incident = sample_incident(
+      ray_from(vertex.position_ws, vertex.geometric_normal_ws, direction_ws), pdf, random, rays);
+  add(direction_ws, incident.emitted / pdf, incident.other / pdf);
+  return sample;
+}
+
+IrradianceSample PathIntegrator::sample_irradiance(const glm::vec3& position_ws,
+                                                   const glm::vec3& normal_ws, SobolSampler& random,
+                                                   std::uint64_t& rays) const {
+  // A white Lambert surface reflects its irradiance over pi
+  Surface surface;
+  surface.position_ws = position_ws;
+  surface.normal_ws = normal_ws;
+  surface.geometric_normal_ws = normal_ws;
+  surface.reflectance = {glm::vec3(1.0f), 1.0f, glm::vec3(0.0f), 0.0f};
+  const Vertex vertex(surface, normal_ws, 0.0f);
+
+  IrradianceSample sample;
+  const Lighting lighting = sample_lights(vertex, random, rays);
+  for (int i = 0; i < lighting.count; ++i) {
+    const Lighting::Sample& light = lighting.samples[i];
+    (light.from_sky ? sample.indirect : sample.direct) +=
+        light.weight * glm::dot(normal_ws, light.to_light_ws);
+  }
+  const glm::vec3 direction_ws = vertex.sample(random.next3());
+  if (!vertex.is_lit_from(direction_ws)) return sample;
+  const Incident incident = sample_incident(ray_from(position_ws, normal_ws, direction_ws),
+                                            vertex.pdf(direction_ws), random, rays);
+  sample.direct += incident.emitted * kPi;  // cosine over its density
+  sample.indirect += incident.other * kPi;
+  return sample;
+}
+
+}  // namespace lambent::reference

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reference against radiance that is known in closed form.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "reference/path_tracer.h"
+#include "shared/constants.h"
+#include "support/hand_made.h"
+
+namespace lambent {
+namespace {
+
+using test::add;
+using test::add_room;
+using test::lambert;
+using test::point_light;
+using test::quad;
+using test::sun;
+
+constexpr std::uint32_t kSeed = 7;
+// An estimate may stray this many of its standard errors: 1 in 15,000 if it is right, and tests are
+// deterministic.
+constexpr float kSigmas = 4.0f;
+
+void expect_near(const Estimate& estimate, float expected, float relative_tolerance) {
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(estimate.mean[k] / expected, 1.0f, relative_tolerance);
+    EXPECT_LT(std::abs(estimate.mean[k] - expected),
+              kSigmas * estimate.standard_error[k] + 1e-4f * expected);
+  }
+}
+
+Estimate irradiance(const World& world, const SurfacePoint& point, int samples,
+                    LightKind which = LightKind::all) {
+  return reference_irradiance(world, {&point, 1}, samples, kSeed, which)[0];
+}
+
+TEST(ReferenceFurnace, ClosedRoomHoldsTheRadianceOfTheGeometricSeries) {
+  for (const float albedo : {0.2f, 0.5f, 0.9f}) {
+    Scene scene;
+    scene.materials = {lambert(glm::vec3(albedo), glm::vec3(1.0f))};
+    add_room(scene, 2.0f, 0);
+    const World world(scene);
+    const Ray ray{
+        {0.1f, 0.2f, 0.3f}, 0.0f, glm::normalize(glm::vec3(0.3f, -0.5f, 1.0f)), kInfiniteDistance};
+    expect_near(reference_radiance(world, ray, 1 << 14, kSeed), 1.0f / (1.0f - albedo), 0.005f);
+  }
+}
+
+TEST(ReferenceFurnace, EverySplitOfTheImageAddsUpInAClosedRoom) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5f), glm::vec3(1.0f))};
+  add_room(scene, 2.0f, 0);
+  const World world(scene);
+  const Camera camera = look_at({0.0f, 0.0f, 0.5f}, {0.2f, 0.1f, -1.0f}, 1.0f);
+  ReferenceSettings settings;
+  settings.width = settings.height = 16;
+  settings.samples = 256;
+  const ReferenceResult result = render_reference(world, camera, settings);
+  const auto mean = [&](const char* layer) {
+    const Image& image = *result.image.find(layer);
+    double sum = 0.0;
+    for (const float value : image.pixels) sum += value;
+    return sum / static_cast<double>(image.pixels.size());
+  };
+  // Emitted 1; of the light pi that arrives directly half is reflected; the rest of the series is
+  // indirect
+  EXPECT_NEAR(mean("emission"), 1.0, 1e-6);
+  EXPECT_NEAR(mean("direct"), 0.5, 0.0025);
+  EXPECT_NEAR(mean("indirect"), 0.5, 0.0025);
+  EXPECT_NEAR(mean("irradiance"), kPi, 0.016);
+  EXPECT_EQ(mean("glossy"), 0.0);
+  EXPECT_NEAR(mean("albedo"), 0.5, 1e-6);
+  EXPECT_NEAR(mean(""), 2.0, 0.01);
+}
+
+TEST(ReferenceFurnace, ConvexObjectUnderAConstantSkyShowsItsAlbedo) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.2f, 0.5f, 0.8f))};
+  add(scene, test::sphere(1.0f, 64, 0));
+  scene.environment.radiance = glm::vec3(2.0f);
+  const World world(scene);
+  const Ray ray{
+      {0.0f, 0.0f, 5.0f}, 0.0f, glm::normalize(glm::vec3(0.1f, 0.05f, -1.0f)), kInfiniteDistance};
+  const Estimate estimate = reference_radiance(world, ray, 4096, kSeed);
+  EXPECT_NEAR(estimate.mean.x, 0.4f, 0.002f);
+  EXPECT_NEAR(estimate.mean.y, 1.0f, 0.005f);
+  EXPECT_NEAR(estimate.mean.z, 1.6f, 0.008f);
+}
+
+TEST(ReferenceClosedForm, DirectionalLightIsExact) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5f))};
+  add(scene, quad({-1.0f, 0.0f, -1.0f}, {0.0f, 0.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, 0));
+  scene.lights = {sun(glm::vec3(10.0f), {0.0f, -0.8f, 0.6f})};
+  const World world(scene);
+  const Ray ray{{0.1f, 2.0f, 0.2f}, 0.0f, {0.0f, -1.0f, 0.0f}, kInfiniteDistance};
+  EXPECT_NEAR(reference_radiance(world, ray, 4, kSeed).mean.x, 0.5f * kInvPi * 8.0f, 1e-5f);
+}
+
+TEST(ReferenceClosedForm, PointLightFollowsTheInverseSquare) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5f))};
+  scene.lights = {point_light(glm::vec3(30.0f), {0.0f, 3.0f, 0.0f})};
+  const World world(scene);
+  const SurfacePoint point{{4.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+  EXPECT_NEAR(irradiance(world, point, 4).mean.x, 30.0f / 25.0f * 0.6f, 1e-5f);
+}
+
+TEST(ReferenceClosedForm, SpotLightFadesBetweenItsCones) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5f))};
+  Light light = point_light(glm::vec3(30.0f), {0.0f, 2.0f, 0.0f});
+  light.type = Light::Type::spot;
+  light.direction_ws = {0.0f, -1.0f, 0.0f};
+  light.inner_cone_angle = 0.2f;
+  light.outer_cone_angle = 0.5f;
+  scene.lights = {light};
+  const World world(scene);
+  for (const float angle : {0.0f, 0.1f, 0.3f, 0.45f, 0.6f}) {
+    const SurfacePoint point{{2.0f * std::tan(angle), 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    const float cosine = std::cos(angle);
+    const float fade =
+        std::clamp((cosine - std::cos(0.5f)) / (std::cos(0.2f) - std::cos(0.5f)), 0.0f, 1.0f);
+    const float distance = 2.0f / cosine;
+    const float expected = 30.0f * fade * fade * cosine / (distance * distance);
+    EXPECT_NEAR(irradiance(world, point, 4).mean.x, expected, 1e-4f) << angle;
+  }
+}
+
+TEST(ReferenceClosedForm, ManyLightsAddUp) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.5f))};
+  float expected = 0.0f;
+  for (int i = 0; i < 20; ++i) {
+    const float height = 1.0f + 0.25f * static_cast<float>(i);
+    scene.lights.push_back(point_light(glm::vec3(3.0f), {0.0f, height, 0.0f}));
+    expected += 3.0f / (height * height);
+  }
+  const World world(scene);
+  const Estimate estimate = irradiance(world, {{0.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}}, 64);
+  // Drawn in proportion to what they send, unoccluded lights leave no noise
+  EXPECT_NEAR(estimate.mean.x / expected, 1.0f, 1e-5f);
+}
+
+// Mean over a unit square of the irradiance from another of radiance 1 is pi times the form factor.
+Estimate form_factor(const World& world, const glm::vec3& corner, const glm::vec3& a,
+                     const glm::vec3& b, reference::Strategy strategy) {
+  constexpr int kGrid = 128;
+  std::vector<SurfacePoint> points;
+  for (int y = 0; y < kGrid; ++y) {
+    for (int x = 0; x < kGrid; ++x) {
+      const glm::vec2 u((static_cast<float>(x) + 0.5f) / kGrid,
+                        (static_cast<float>(y) + 0.5f) / kGrid);
+      points.push_back({corner + a * u.x + b * u.y, glm::normalize(glm::cross(a, b))});
+    }
+  }
+  const std::vector<Estimate> estimates =
+      reference_irradiance(world, points, 64, kSeed, LightKind::all, strategy);
+  glm::dvec3 sum(0.0), variance(0.0);
+  for (const Estimate& e : estimates) {
+    sum += e.mean;
+    variance += e.standard_error * e.standard_error;
+  }
+  const double count = kPi * kGrid * kGrid;
+  return {sum / count, glm::sqrt(variance) / count};
+}
+
+Scene one_emitter(const glm::vec3& corner, const glm::vec3& a, const glm::vec3& b) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(0.0f), glm::vec3(1.0f))};
+  add(scene, quad(corner, a, b, 0));
+  return scene;
+}
+
+class ReferenceFormFactor : public testing::TestWithParam<reference::Strategy> {};
+
+TEST_P(ReferenceFormFactor, OfParallelUnitSquares) {
+  const Scene scene = one_emitter({0.0f, 1.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f});
+  const World world(scene);
+  const Estimate f =
+      form_factor(world, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f}, GetParam());
+  EXPECT_NEAR(f.mean.x / 0.1998249f, 1.0f, 0.002f);
+  EXPECT_LT(std::abs(f.mean.x - 0.1998249f), kSigmas * f.standard_error.x + 2e-5f);
+}
+
+TEST_P(ReferenceFormFactor, OfPerpendicularUnitSquares) {
+  const Scene scene = one_emitter({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f});
+  const World world(scene);
+  const Estimate f =
+      form_factor(world, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.0f}, {1.0f, 0.0f, 0.0f}, GetParam());
+  EXPECT_NEAR(f.mean.x / 0.2000438f, 1.0f, 0.002f);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryStrategy, ReferenceFormFactor,
+                         testing::Values(reference::Strategy::combined,
+                                         reference::Strategy::scatter, reference::Strategy::light));
+
+TEST(ReferenceClosedForm, CubeLitFromItsCentreMatchesSolvedRadiosity) {
+  Scene scene;
+  scene.materials = {lambert(glm::vec3(2.0f / 3.0f))};
+  add_room(scene, 10.0f, 0);
+  scene.lights = {point_light(glm::vec3(50000.0f), {0.0f, 0.0f, 0.0f})};
+  const World world(scene);
+  struct Row {
+    float x, y, radiance;
+  };
+  for (const Row& row : {Row{0, 0, 892.80f}, Row{2, 0, 806.05f}, Row{4, 0, 656.90f},
+                         Row{2, 2, 741.61f}, Row{4, 2, 619.72f}, Row{4, 4, 533.65f}}) {
+    const Estimate e = irradiance(world, {{row.x, row.y, -5.0f}, {0.0f, 0.0f, 1.0f}}, 1 << 14);
+    EXPECT_NEAR(e.mean.x * (2.0f / 3.0f) * kInvPi / row.radiance, 1.0f, 0.005f)
+        << row.x << "," << row.y;
+  }
+}
+
+}  // namespace
+}  // namespace lambent
