@@ -15,4 +15,6 @@ namespace lambent::cli {
 /// What the chosen subcommand does once all arguments are known to be well formed.
 using Run = std::function<Expected<void>()>;
 
+void add_make_scene(CLI::App& app, Run& run);
+
 }  // namespace lambent::cli

@@ -30,7 +30,7 @@ struct PassTime {
   double ms = 0.0;
 };
 
-struct Frame {
+struct RenderedFrame {
   /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect, irradiance,
   /// glossy, emission, albedo, normal, position, depth.
   LayeredImage image;
@@ -40,7 +40,7 @@ struct Frame {
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the field. A null field
 /// gives direct light and emission alone.
-Frame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
+RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                    const FrameSettings& settings);
 
 }  // namespace lambent

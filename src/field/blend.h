@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blending: from what rays brought back to what probes hold, as one matrix product.
 //
-// In an update all probes use the same ray directions w_i, so the weight of ray i in texel t (unit direction n_t) is
-// the same for all of them: max(0, n_t . w_i)^e, with e = 1 for irradiance and a high exponent for distances. With W
-// the texels x rays matrix of these weights and V the rays x channels matrix of a probe's values, the probe's texels
-// are W V, divided by the weights of the rays that count.
+// In an update all probes use the same ray directions w_i, so the weight of ray i in texel t (unit
+// direction n_t) is the same for all of them: max(0, n_t . w_i)^e, with e = 1 for irradiance and a
+// high exponent for distances. With W the texels x rays matrix of these weights and V the rays x
+// channels matrix of a probe's values, the probe's texels are W V, divided by the weights of the
+// rays that count.
 //
-// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
+// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
+// Fields", JCGT 8(2), 2019.
 #pragma once
 
 #include <span>
@@ -16,7 +18,8 @@
 
 namespace lambent {
 
-/// Unit directions of an update's rays: a spherical Fibonacci lattice under a rotation drawn for the update.
+/// Unit directions of an update's rays: a spherical Fibonacci lattice under a rotation drawn for
+/// the update.
 std::vector<vec3> probe_ray_directions(int count, uint update, uint seed);
 
 /// The matrix W of the tiles of one kind.
@@ -28,8 +31,8 @@ class BlendMatrix {
   int texels() const { return texel_count_; }  ///< Of a tile, without gutter.
   int rays() const { return ray_count_; }
 
-  /// Sums of channel * weight over the rays. `values`: rays x channels floats, ray after ray; `sums`: texels x
-  /// channels floats, texel after texel. Channels: 2 or 4.
+  /// Sums of channel * weight over the rays. `values`: rays x channels floats, ray after ray;
+  /// `sums`: texels x channels floats, texel after texel. Channels: 2 or 4.
   void apply2(const float* values, float* sums) const;
   void apply4(const float* values, float* sums) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019
-// (perceptual encoding). Theirs averages in the encoded domain; ours averages linear light and encodes only to store.
+// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
+// Fields", JCGT 8(2), 2019 (perceptual encoding). Theirs averages in the encoded domain; ours
+// averages linear light and encodes only to store.
 #ifndef LAMBENT_FIELD_IRRADIANCE_ENCODING_H
 #define LAMBENT_FIELD_IRRADIANCE_ENCODING_H
 
@@ -8,15 +9,18 @@
 
 LAMBENT_BEGIN
 
-// Irradiance is stored to the power 1/5, so that the few bits of R11G11B10F are spent evenly to the eye.
-LAMBENT_FN float perceptual_from_linear(float linear) { return pow(linear, 0.2f); }
+// Irradiance is stored to the power 1/5, so that the few bits of R11G11B10F are spent evenly to the
+// eye.
+LAMBENT_FN float perceptual_from_linear(float linear) {
+  return pow(linear, 0.2f);
+}
 LAMBENT_FN float linear_from_perceptual(float encoded) {
   float squared = encoded * encoded;
   return squared * squared * encoded;
 }
 
-/// One channel's code: between the two codes around `linear`, the upper with the probability that keeps the mean of
-/// the *decoded* light right.
+/// One channel's code: between the two codes around `linear`, the upper with the probability that
+/// keeps the mean of the *decoded* light right.
 LAMBENT_FN uint encode_perceptual_channel(float linear, int mantissa_bits, float u) {
   uint down = encode_small_float_down(perceptual_from_linear(max(linear, 0.0f)), mantissa_bits);
   uint up = next_small_float(down, mantissa_bits);

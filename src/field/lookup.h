@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019;
-// Majercik et al., "Scaling Probe-Based Real-Time Dynamic Global Illumination for Production", JCGT 10(2), 2021.
-// How much each of the eight probes around a point counts.
+// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
+// Fields", JCGT 8(2), 2019; Majercik et al., "Scaling Probe-Based Real-Time Dynamic Global
+// Illumination for Production", JCGT 10(2), 2021. How much each of the eight probes around a point
+// counts.
 #ifndef LAMBENT_FIELD_LOOKUP_H
 #define LAMBENT_FIELD_LOOKUP_H
 
@@ -9,33 +10,36 @@
 
 LAMBENT_BEGIN
 
-// The point at which visibility is asked is moved off the surface, along the normal and towards the viewer, by
-// kBiasScale * kBias * (smallest probe spacing): far enough that the surface does not shadow itself in statistics as
-// coarse as a tile's texels, not so far that it passes a thin wall. JCGT 2021, sec. 3: 0.2, 0.8, 0.75 and B = 0.3.
+// The point at which visibility is asked is moved off the surface, along the normal and towards the
+// viewer, by kBiasScale * kBias * (smallest probe spacing): far enough that the surface does not
+// shadow itself in statistics as coarse as a tile's texels, not so far that it passes a thin wall.
+// JCGT 2021, sec. 3: 0.2, 0.8, 0.75 and B = 0.3.
 const float kNormalBias = 0.2f;
 const float kViewBias = 0.8f;
 const float kBiasScale = 0.75f;
 const float kBias = 0.3f;
 
-// Probes behind the surface count less, smoothly ("wrap shading"), but never nothing: a floor keeps the weights of
-// points whose probes all lie behind them meaningful. JCGT 2019, listing 1.
+// Probes behind the surface count less, smoothly ("wrap shading"), but never nothing: a floor keeps
+// the weights of points whose probes all lie behind them meaningful. JCGT 2019, listing 1.
 const float kWrapFloor = 0.2f;
 
-// Weights below this fall off with the cube, so that nearly hidden probes fade out rather than leak.
+// Weights below this fall off with the cube, so that nearly hidden probes fade out rather than
+// leak.
 const float kCrushThreshold = 0.2f;
 
 // Where every probe seems hidden, trilinear interpolation decides among them.
 const float kMinVisibilityWeight = 1e-6f;
 
 /// The point at which visibility is asked.
-LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws, float spacing_min) {
+LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
+                                float spacing_min) {
   return position_ws +
          (kNormalBias * normal_ws + kViewBias * to_viewer_ws) * (kBiasScale * kBias * spacing_min);
 }
 
-/// An upper bound on the share of light paths of length `dist` that are not blocked, from the mean and the mean
-/// square of the distance to what blocks them. Chebyshev's one-sided inequality; Donnelly and Lauritzen, "Variance
-/// Shadow Maps", I3D 2006, Eq. 5.
+/// An upper bound on the share of light paths of length `dist` that are not blocked, from the mean
+/// and the mean square of the distance to what blocks them. Chebyshev's one-sided inequality;
+/// Donnelly and Lauritzen, "Variance Shadow Maps", I3D 2006, Eq. 5.
 LAMBENT_FN float chebyshev_visibility(vec2 moments, float dist) {
   float beyond = dist - moments.x;
   if (beyond <= 0.0f) return 1.0f;
@@ -43,8 +47,8 @@ LAMBENT_FN float chebyshev_visibility(vec2 moments, float dist) {
   return variance / (variance + beyond * beyond);
 }
 
-/// Weight of a probe before trilinear interpolation. `cos_probe` is the cosine between the surface normal and the
-/// direction from the surface to the probe.
+/// Weight of a probe before trilinear interpolation. `cos_probe` is the cosine between the surface
+/// normal and the direction from the surface to the probe.
 LAMBENT_FN float probe_weight(float cos_probe, float visibility) {
   float wrap = 0.5f * (cos_probe + 1.0f);
   float weight = (wrap * wrap + kWrapFloor) * visibility;

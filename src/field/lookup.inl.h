@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
-//   vec2 fetch_moments(int probe, vec3 direction)     mean distance [m] and mean squared distance [m^2], bilinear
-//   vec3 fetch_irradiance(int probe, vec3 direction)  linear irradiance [W/m^2], bilinear
+//   vec2 fetch_moments(int probe, vec3 direction)     mean distance [m] and mean squared distance
+//   [m^2], bilinear vec3 fetch_irradiance(int probe, vec3 direction)  linear irradiance [W/m^2],
+//   bilinear
 // In C++ it is included in the body of a struct that has these as members.
 
-/// Irradiance at a point with a normal, seen from `to_viewer_ws`. Averages linear light, so that the result is linear
-/// in what the probes hold.
-LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) {
+/// Irradiance at a point with a normal, seen from `to_viewer_ws`. Averages linear light, so that
+/// the result is linear in what the probes hold.
+LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_ws,
+                                  vec3 to_viewer_ws) {
   float spacing_min = min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
   vec3 biased_ws = biased_position(position_ws, normal_ws, to_viewer_ws, spacing_min);
   ProbeCell cell = probe_cell(grid, position_ws);

@@ -7,8 +7,8 @@
 #include "field/irradiance_encoding.h"
 #include "field/lookup.h"
 
-// Loops over `k` run over the eight corners of a cell; the compiler turns each into vector instructions, so they hold
-// no branches and no calls that are not inlined.
+// Loops over `k` run over the eight corners of a cell; the compiler turns each into vector
+// instructions, so they hold no branches and no calls that are not inlined.
 #define LAMBENT_FORCE_INLINE __attribute__((always_inline)) inline
 
 namespace lambent {
@@ -56,7 +56,8 @@ LAMBENT_FORCE_INLINE void decode_moments(const uint* words, int texel, float& me
 
 /// Chebyshev visibility of the biased point from each corner's probe.
 template <DistanceFormat format>
-LAMBENT_FORCE_INLINE void corner_visibilities(const Tables& t, int base, const float (&px)[kCorners],
+LAMBENT_FORCE_INLINE void corner_visibilities(const Tables& t, int base,
+                                              const float (&px)[kCorners],
                                               const float (&py)[kCorners],
                                               const float (&pz)[kCorners], const vec3& biased,
                                               float (&visibility)[kCorners]) {
@@ -163,7 +164,8 @@ template <IrradianceFormat format>
 LAMBENT_FORCE_INLINE vec3 decode_irradiance(const uint* words, int texel) {
   if constexpr (format == IrradianceFormat::rgb9e5) {
     const uint word = words[texel];
-    // 2^(exponent - 24), built from its bits: the exponent field is never small enough to be denormal
+    // 2^(exponent - 24), built from its bits: the exponent field is never small enough to be
+    // denormal
     const float scale = uintBitsToFloat(((word >> 27u) + (127u - kRgb9e5BiasAndBits)) << 23u);
     return vec3(static_cast<float>(word & 511u), static_cast<float>((word >> 9u) & 511u),
                 static_cast<float>((word >> 18u) & 511u)) *
@@ -176,7 +178,8 @@ LAMBENT_FORCE_INLINE vec3 decode_irradiance(const uint* words, int texel) {
   }
 }
 
-/// Weighted irradiance of a cell's probes along the surface normal: all eight are read at the same place of their tile.
+/// Weighted irradiance of a cell's probes along the surface normal: all eight are read at the same
+/// place of their tile.
 template <IrradianceFormat format>
 void gather_irradiance(const Tables& t, const FieldQuery* queries, const CornerWeights* weights,
                        vec3* result, std::size_t count) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup for many points at a time, eight probes abreast. Same result as lookup.inl.h, which the tests hold it to.
+// The lookup for many points at a time, eight probes abreast. Same result as lookup.inl.h, which
+// the tests hold it to.
 #pragma once
 
 #include <span>
@@ -9,8 +10,8 @@
 
 namespace lambent {
 
-/// The eight probes around a point: corner k (bit 0 x, bit 1 y, bit 2 z) of the cell whose lowest probe is `base`
-/// counts `weight[k]`. Weights sum to 1.
+/// The eight probes around a point: corner k (bit 0 x, bit 1 y, bit 2 z) of the cell whose lowest
+/// probe is `base` counts `weight[k]`. Weights sum to 1.
 struct CornerWeights {
   int base;
   float weight[8];

@@ -7,7 +7,8 @@
 
 LAMBENT_BEGIN
 
-/// A regular grid of probes: probe c stands at origin_ws + c * spacing. Index = x + count.x * (y + count.y * z).
+/// A regular grid of probes: probe c stands at origin_ws + c * spacing. Index = x + count.x * (y +
+/// count.y * z).
 struct ProbeGrid {
   vec3 origin_ws;  ///< [m]
   vec3 spacing;    ///< [m], > 0
@@ -27,13 +28,15 @@ LAMBENT_FN ivec3 probe_coords(ProbeGrid grid, int index) {
                index / (grid.count.x * grid.count.y));
 }
 
-/// The cell around a point: its lowest probe and the point's place between that and the highest, 0 to 1.
+/// The cell around a point: its lowest probe and the point's place between that and the highest, 0
+/// to 1.
 struct ProbeCell {
   ivec3 base;
   vec3 fraction;
 };
 
-/// The cell that holds the point, or the nearest one: a point beyond the grid is lit by the probes nearest to it.
+/// The cell that holds the point, or the nearest one: a point beyond the grid is lit by the probes
+/// nearest to it.
 LAMBENT_FN ProbeCell probe_cell(ProbeGrid grid, vec3 position_ws) {
   vec3 cells = vec3(grid.count - ivec3(1));
   vec3 p = clamp((position_ws - grid.origin_ws) / grid.spacing, vec3(0.0f), cells);

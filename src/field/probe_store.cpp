@@ -19,7 +19,8 @@ std::size_t texel_index(int probe, const ivec2& with_gutter, int texels) {
          static_cast<std::size_t>(with_gutter.y) * (texels + 2) + with_gutter.x;
 }
 
-/// Copies what lies across the octahedron's fold into the gutter of a tile whose interior is filled.
+/// Copies what lies across the octahedron's fold into the gutter of a tile whose interior is
+/// filled.
 void fill_gutter(uint* tile, int texels, int words) {
   const int width = texels + 2;
   for (int y = 0; y < width; ++y) {
@@ -61,9 +62,12 @@ void ProbeStore::clear() {
 vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {
   const std::size_t index = texel_index(probe, with_gutter, irradiance_texels_);
   switch (irradiance_format_) {
-    case IrradianceFormat::rgb9e5: return decode_rgb9e5(irradiance_[index]);
-    case IrradianceFormat::r11g11b10f: return decode_r11g11b10f(irradiance_[index]);
-    case IrradianceFormat::float32: break;
+    case IrradianceFormat::rgb9e5:
+      return decode_rgb9e5(irradiance_[index]);
+    case IrradianceFormat::r11g11b10f:
+      return decode_r11g11b10f(irradiance_[index]);
+    case IrradianceFormat::float32:
+      break;
   }
   const uint* words = &irradiance_[3 * index];
   return {uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2])};

@@ -12,7 +12,8 @@
 
 namespace lambent {
 
-/// Tiles of all probes, probe after probe; a tile is (texels + 2)^2 texels, row after row, gutter included.
+/// Tiles of all probes, probe after probe; a tile is (texels + 2)^2 texels, row after row, gutter
+/// included.
 class ProbeStore {
  public:
   ProbeStore(const ProbeGrid& grid, const FieldSettings& settings);
@@ -34,8 +35,8 @@ class ProbeStore {
   vec3 irradiance(int probe, const vec3& direction) const;
   vec2 moments(int probe, const vec3& direction) const;
 
-  /// Encodes a probe's interior texels, row after row, and fills the gutter. `salt` (say, a hash of update and
-  /// seed) makes the dither of this call its own.
+  /// Encodes a probe's interior texels, row after row, and fills the gutter. `salt` (say, a hash of
+  /// update and seed) makes the dither of this call its own.
   void store_irradiance(int probe, std::span<const vec3> interior, uint salt);
   void store_moments(int probe, std::span<const vec2> interior, uint salt);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the probes' rays met. Surfels outlive the update that traced them: light that changes is carried again through
-// the same surfels without a ray.
+// What the probes' rays met. Surfels outlive the update that traced them: light that changes is
+// carried again through the same surfels without a ray.
 #pragma once
 
 #include <cstdint>
@@ -16,8 +16,9 @@ namespace lambent {
 
 class World;
 
-/// How a surfel reads the field: the shares of the eight probes around it, and, within each of their tiles, the four
-/// texels around its normal (a place in the tile's interior grid, counted with gutter).
+/// How a surfel reads the field: the shares of the eight probes around it, and, within each of
+/// their tiles, the four texels around its normal (a place in the tile's interior grid, counted
+/// with gutter).
 struct SurfelLookup {
   CornerWeights corners;
   std::uint16_t tile_corner;  ///< x + (texels + 1) * y of the fetch's first texel.
@@ -28,10 +29,11 @@ struct SurfelLookup {
 /// One entry a ray, probe after probe: surfel = probe * rays_per_probe + ray.
 struct Surfels {
   int rays_per_probe = 0;
-  std::vector<vec3> position_ws;        ///< [m]
-  std::vector<vec3> normal_ws;          ///< Unit, towards the probe.
-  std::vector<vec3> albedo_over_pi;     ///< Diffuse and specular together [1/sr]; 0: no surface.
-  std::vector<uint> emission;           ///< RGB9E5 radiance. Reaches others as direct light, not through probes.
+  std::vector<vec3> position_ws;     ///< [m]
+  std::vector<vec3> normal_ws;       ///< Unit, towards the probe.
+  std::vector<vec3> albedo_over_pi;  ///< Diffuse and specular together [1/sr]; 0: no surface.
+  std::vector<uint>
+      emission;  ///< RGB9E5 radiance. Reaches others as direct light, not through probes.
   std::vector<vec3> direct_irradiance;  ///< From lights and emissive surfaces [W/m^2].
   std::vector<vec3> sky_radiance;       ///< Of rays that left the scene [W/(m^2 sr)], else 0.
   std::vector<std::uint8_t> counts;     ///< 0: the ray met the back of a single-sided surface.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A probe's octahedral tile: `texels` x `texels` directions with a gutter of one texel all round, which repeats
-// what lies across the octahedron's fold, so that a bilinear fetch never leaves the tile.
+// A probe's octahedral tile: `texels` x `texels` directions with a gutter of one texel all round,
+// which repeats what lies across the octahedron's fold, so that a bilinear fetch never leaves the
+// tile.
 #ifndef LAMBENT_FIELD_TILE_H
 #define LAMBENT_FIELD_TILE_H
 
@@ -14,8 +15,8 @@ LAMBENT_FN vec3 tile_direction(ivec2 texel, int texels) {
   return octahedral_decode(p);
 }
 
-/// A bilinear fetch from a tile with gutter: the texel nearest the tile's corner, of the four, and the share of the
-/// farther ones. Coordinates count the gutter: 0 to texels.
+/// A bilinear fetch from a tile with gutter: the texel nearest the tile's corner, of the four, and
+/// the share of the farther ones. Coordinates count the gutter: 0 to texels.
 struct TileFetch {
   ivec2 corner;
   vec2 fraction;
@@ -29,8 +30,8 @@ LAMBENT_FN TileFetch tile_fetch(vec3 direction, int texels) {
   return fetch;
 }
 
-/// The interior texel (coordinates without gutter) that a texel of the whole tile (coordinates with gutter, 0 to
-/// texels + 1) shows: itself, or the one across the fold.
+/// The interior texel (coordinates without gutter) that a texel of the whole tile (coordinates with
+/// gutter, 0 to texels + 1) shows: itself, or the one across the fold.
 LAMBENT_FN ivec2 tile_source(ivec2 with_gutter, int texels) {
   ivec2 t = with_gutter - ivec2(1);
   bool beyond_x = t.x < 0 || t.x >= texels;

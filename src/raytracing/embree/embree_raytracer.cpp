@@ -29,11 +29,11 @@ bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
   return true;
 }
 
-/// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without state.
+/// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without
+/// state.
 float uniform_of_hit(float u, float v, float distance, std::uint32_t triangle) {
-  const uvec3 mixed =
-      hash_pcg3d(uvec3(floatBitsToUint(u) ^ (triangle * 0x9E3779B9u), floatBitsToUint(v),
-                       floatBitsToUint(distance)));
+  const uvec3 mixed = hash_pcg3d(uvec3(floatBitsToUint(u) ^ (triangle * 0x9E3779B9u),
+                                       floatBitsToUint(v), floatBitsToUint(distance)));
   return uniform_from_bits(mixed.x);
 }
 
@@ -48,12 +48,12 @@ void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
     const Material& material =
         scene.materials[scene.meshes[scene.instances[instance].mesh].material];
     const float coverage = coverage_at(scene, instance, hit.primID, {hit.u, hit.v});
-    const float threshold = material.alpha_mode == AlphaMode::mask
-                                ? material.alpha_cutoff
-                                : uniform_of_hit(hit.u, hit.v, RTCRayN_tfar(args->ray, args->N, lane),
-                                                 hit.primID);
-    const bool counts = material.alpha_mode == AlphaMode::mask ? coverage >= threshold
-                                                               : coverage > threshold;
+    const float threshold =
+        material.alpha_mode == AlphaMode::mask
+            ? material.alpha_cutoff
+            : uniform_of_hit(hit.u, hit.v, RTCRayN_tfar(args->ray, args->N, lane), hit.primID);
+    const bool counts =
+        material.alpha_mode == AlphaMode::mask ? coverage >= threshold : coverage > threshold;
     if (!counts) args->valid[lane] = 0;
   }
 }
@@ -85,8 +85,8 @@ EmbreeRayTracer::EmbreeRayTracer(const Scene& scene) : scene_(scene) {
   if (!device_) throw std::runtime_error("Embree cannot start: this processor lacks SSE2");
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
 
-  // Meshes placed once go into the world's own hierarchy, which is faster to traverse; the others are
-  // built once and instanced.
+  // Meshes placed once go into the world's own hierarchy, which is faster to traverse; the others
+  // are built once and instanced.
   std::vector<int> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) ++uses[instance.mesh];
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scenes/builtin.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "scenes/recipes.h"
+
+namespace lambent::scenes {
+namespace {
+
+struct Recipe {
+  std::string_view name;
+  AnimatedScene (*make)();
+};
+
+constexpr std::array kRecipes{
+    Recipe{"cornell", make_cornell},
+    Recipe{"furnace", make_furnace},
+    Recipe{"furnace-sky", make_furnace_sky},
+    Recipe{"two-rooms", make_two_rooms},
+    Recipe{"two-rooms-sealed", make_two_rooms_sealed},
+    Recipe{"cube", make_cube},
+    Recipe{"squares-parallel", make_squares_parallel},
+    Recipe{"squares-perpendicular", make_squares_perpendicular},
+};
+
+const Recipe* find(const std::string& name) {
+  const auto* found = std::find_if(kRecipes.begin(), kRecipes.end(),
+                                   [&](const Recipe& recipe) { return recipe.name == name; });
+  return found == kRecipes.end() ? nullptr : found;
+}
+
+}  // namespace
+
+std::vector<std::string> names() {
+  std::vector<std::string> list;
+  for (const Recipe& recipe : kRecipes) list.emplace_back(recipe.name);
+  return list;
+}
+
+bool is_name(const std::string& name) {
+  return find(name) != nullptr;
+}
+
+Expected<AnimatedScene> make_animated(const std::string& name) {
+  if (const Recipe* recipe = find(name)) {
+    AnimatedScene made = recipe->make();
+    made.scene.source.path = name;
+    made.scene.source.generator = "lambent make-scene";
+    made.scene.source.scenes = 1;
+    made.scene.source.animations = static_cast<int>(made.animations.size());
+    return made;
+  }
+  std::string list;
+  for (const Recipe& recipe : kRecipes) {
+    if (!list.empty()) list += ", ";
+    list += recipe.name;
+  }
+  return fail(name, "", "is not a built-in scene; there are " + list);
+}
+
+Expected<Scene> make(const std::string& name) {
+  return make_animated(name).map([](AnimatedScene&& made) { return std::move(made.scene); });
+}
+
+}  // namespace lambent::scenes

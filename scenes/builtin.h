@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scenes that the project makes itself, by name.
+//
+//   cornell                the Cornell box from its published measurements; one unit is 100 mm
+//   furnace                a closed room whose radiance is 1 everywhere and in every direction
+//   furnace-sky            a sphere that reflects a radiance of exactly its albedo, 0.5
+//   two-rooms              a lit and a dark room, a 5 cm wall between them, a gap in it
+//   two-rooms-sealed       the same without the gap: the second room is exactly black
+//   cube                   a 10 m cube around a point light, with solved radiosity
+//   squares-parallel       unit squares one metre apart: form factor 0.1998249
+//   squares-perpendicular  unit squares that share an edge: form factor 0.2000438
+//   atrium                 a colonnaded court with curtains, a sun that moves and a door that opens
+//
+// Why the furnace is 1: every surface emits radiance e and reflects albedo a of what arrives. If
+// radiance L arrives from everywhere, every surface sends out e + a L; the room is closed, so L = e
+// + a L and L = e / (1 - a) = 0.5 / (1 - 0.5) = 1, whatever stands in the room. The sky furnace: a
+// convex body sees sky alone, so its irradiance is pi * 1 and the radiance it reflects 0.5 / pi *
+// pi = 0.5. Materials of all scenes but the atrium are exact Lambert (Material::lambert).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "lambent/scene.h"
+#include "scenes/animation.h"
+
+namespace lambent::scenes {
+
+/// A scene at time 0 and how it moves from there.
+struct AnimatedScene {
+  Scene scene;
+  Animations animations;
+};
+
+/// Names that `make` knows, in the order of the list above.
+std::vector<std::string> names();
+
+/// True where `name` is one of names().
+bool is_name(const std::string& name);
+
+/// The built-in scene of that name, the same bits every time; an Error that lists the names
+/// otherwise.
+Expected<AnimatedScene> make_animated(const std::string& name);
+
+/// make_animated without the motion.
+Expected<Scene> make(const std::string& name);
+
+/// The scene a user means: a built-in name, or else the path of a glTF file. `options` count for
+/// both. A file whose path is a built-in's name is reached as "./name".
+Expected<Scene> open_scene(const std::string& path_or_name, const LoadOptions& options = {});
+
+}  // namespace lambent::scenes

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Cornell University Program of Computer Graphics, "Cornell Box Data",
+// https://www.graphics.cornell.edu/online/box/data.html (geometry in millimetres, as published).
+// Reflectances and emission are the measured spectra as linear Rec. 709; one unit here is 100 mm.
+#include <array>
+
+#include "scenes/mesh_builder.h"
+#include "scenes/parts.h"
+#include "scenes/recipes.h"
+
+namespace lambent::scenes {
+namespace {
+
+constexpr glm::vec3 kWhite{0.725f, 0.71f, 0.68f};
+constexpr glm::vec3 kRed{0.63f, 0.065f, 0.05f};
+constexpr glm::vec3 kGreen{0.14f, 0.45f, 0.091f};
+constexpr glm::vec3 kLampReflectance{0.78f};
+constexpr glm::vec3 kLampRadiance{17.0f, 12.0f, 4.0f};
+
+/// The published vertical field of view: a 25 mm film at 35 mm focal length, 2 atan(12.5 / 35)
+/// [rad].
+constexpr float kFieldOfView = 0.686047881f;
+
+/// A published point [mm] in units of 100 mm. Divided, not multiplied, so that 552.8 becomes 5.528.
+glm::vec3 mm(float x, float y, float z) {
+  return glm::vec3(x, y, z) / 100.0f;
+}
+
+using Corners = std::array<glm::vec3, 4>;
+
+Mesh quads(std::initializer_list<Corners> list, const char* name, int material) {
+  MeshBuilder builder;
+  for (const Corners& q : list) builder.quad(q[0], q[1], q[2], q[3]);
+  return builder.take(name, material);
+}
+
+}  // namespace
+
+AnimatedScene make_cornell() {
+  Scene scene;
+  const int white = add_lambert(scene, "white", kWhite);
+  const int red = add_lambert(scene, "red", kRed);
+  const int green = add_lambert(scene, "green", kGreen);
+  const int lamp = add_lambert(scene, "light", kLampReflectance, kLampRadiance);
+
+  add_object(
+      scene,
+      quads({Corners{mm(552.8f, 0, 0), mm(0, 0, 0), mm(0, 0, 559.2f), mm(549.6f, 0, 559.2f)}},
+            "floor", white));
+  // The ceiling leaves a hole that the light fills: before, behind and to both sides of it.
+  const float h = 548.8f;
+  add_object(scene,
+             quads({Corners{mm(556, h, 0), mm(556, h, 227), mm(0, h, 227), mm(0, h, 0)},
+                    Corners{mm(556, h, 332), mm(556, h, 559.2f), mm(0, h, 559.2f), mm(0, h, 332)},
+                    Corners{mm(556, h, 227), mm(556, h, 332), mm(343, h, 332), mm(343, h, 227)},
+                    Corners{mm(213, h, 227), mm(213, h, 332), mm(0, h, 332), mm(0, h, 227)}},
+                   "ceiling", white));
+  add_object(scene, quads({Corners{mm(549.6f, 0, 559.2f), mm(0, 0, 559.2f), mm(0, h, 559.2f),
+                                   mm(556, h, 559.2f)}},
+                          "back", white));
+  add_object(scene, quads({Corners{mm(0, 0, 559.2f), mm(0, 0, 0), mm(0, h, 0), mm(0, h, 559.2f)}},
+                          "right_green", green));
+  add_object(
+      scene,
+      quads({Corners{mm(552.8f, 0, 0), mm(549.6f, 0, 559.2f), mm(556, h, 559.2f), mm(556, h, 0)}},
+            "left_red", red));
+  add_object(scene,
+             quads({Corners{mm(343, h, 227), mm(343, h, 332), mm(213, h, 332), mm(213, h, 227)}},
+                   "light", lamp));
+  // The blocks stand on the floor; their undersides were not measured and are not made.
+  add_object(
+      scene,
+      quads({Corners{mm(130, 165, 65), mm(82, 165, 225), mm(240, 165, 272), mm(290, 165, 114)},
+             Corners{mm(290, 0, 114), mm(290, 165, 114), mm(240, 165, 272), mm(240, 0, 272)},
+             Corners{mm(130, 0, 65), mm(130, 165, 65), mm(290, 165, 114), mm(290, 0, 114)},
+             Corners{mm(82, 0, 225), mm(82, 165, 225), mm(130, 165, 65), mm(130, 0, 65)},
+             Corners{mm(240, 0, 272), mm(240, 165, 272), mm(82, 165, 225), mm(82, 0, 225)}},
+            "short_block", white));
+  add_object(
+      scene,
+      quads({Corners{mm(423, 330, 247), mm(265, 330, 296), mm(314, 330, 456), mm(472, 330, 406)},
+             Corners{mm(423, 0, 247), mm(423, 330, 247), mm(472, 330, 406), mm(472, 0, 406)},
+             Corners{mm(472, 0, 406), mm(472, 330, 406), mm(314, 330, 456), mm(314, 0, 456)},
+             Corners{mm(314, 0, 456), mm(314, 330, 456), mm(265, 330, 296), mm(265, 0, 296)},
+             Corners{mm(265, 0, 296), mm(265, 330, 296), mm(423, 330, 247), mm(423, 0, 247)}},
+            "tall_block", white));
+
+  add_camera(scene, "cornell", mm(278, 273, -800), mm(278, 273, 0), kFieldOfView, 1.0f);
+  return {std::move(scene), {}};
+}
+
+}  // namespace lambent::scenes

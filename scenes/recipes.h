@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// One function a built-in scene; builtin.h says what each holds.
+#pragma once
+
+#include "scenes/builtin.h"
+
+namespace lambent::scenes {
+
+AnimatedScene make_cornell();
+AnimatedScene make_furnace();
+AnimatedScene make_furnace_sky();
+AnimatedScene make_two_rooms();
+AnimatedScene make_two_rooms_sealed();
+AnimatedScene make_cube();
+AnimatedScene make_squares_parallel();
+AnimatedScene make_squares_perpendicular();
+AnimatedScene make_atrium();
+
+}  // namespace lambent::scenes

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/gbuffer.h"
+
+#include "core/parallel.h"
+#include "raytracing/camera_rays.h"
+#include "shared/random.h"
+
+namespace lambent {
+namespace {
+
+// Plastic-number sequence: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences",
+// 2018.
+constexpr float kR2X = 0.7548776662f;
+constexpr float kR2Y = 0.5698402910f;
+
+/// Where in the pixel a sample lies, each coordinate 0 to 1.
+vec2 subpixel_position(int pixel, int sample, const FrameSettings& settings) {
+  if (settings.samples == 1) return vec2(0.5f);
+  RandomStream random = make_random_stream(static_cast<uint>(pixel), 0x50495845u, settings.seed);
+  const vec2 shift = next_uniform2(random);
+  const auto n = static_cast<float>(sample);
+  return fract(shift + n * vec2(kR2X, kR2Y));
+}
+
+}  // namespace
+
+void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
+                   const Band& band, int sample, GBuffer& gbuffer) {
+  const int width = settings.width;
+  const std::size_t pixels = static_cast<std::size_t>(band.rows) * width;
+  gbuffer.surfaces.resize(pixels);
+  gbuffer.hit.resize(pixels);
+  gbuffer.to_viewer_ws.resize(pixels);
+
+  parallel_chunks(band.rows, 1, [&](std::size_t begin, std::size_t) {
+    const int row = band.first_row + static_cast<int>(begin);
+    std::vector<Ray> rays(width);
+    std::vector<Hit> hits(width);
+    for (int x = 0; x < width; ++x) {
+      const vec2 offset = subpixel_position(row * width + x, sample, settings);
+      rays[x] = camera_ray(camera, width, settings.height, static_cast<float>(x) + offset.x,
+                           static_cast<float>(row) + offset.y);
+    }
+    world.tracer().closest_hits(rays, hits);
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = begin * width + x;
+      gbuffer.to_viewer_ws[i] = -rays[x].direction;
+      gbuffer.hit[i] = hits[x].missed() ? 0 : 1;
+      if (!hits[x].missed()) gbuffer.surfaces[i] = surface_at(world.scene(), rays[x], hits[x]);
+    }
+  });
+}
+
+}  // namespace lambent

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the camera sees, one entry a pixel of a band of rows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "lambent/renderer.h"
+#include "lambent/world.h"
+#include "raytracing/surface.h"
+
+namespace lambent {
+
+/// Rows of the image that are rendered together, so that memory does not grow with the image.
+struct Band {
+  int first_row = 0;
+  int rows = 0;
+};
+
+struct GBuffer {
+  std::vector<Surface> surfaces;        ///< Undefined where `hit` is 0.
+  std::vector<std::uint8_t> hit;        ///< 1 where the camera sees a surface.
+  std::vector<glm::vec3> to_viewer_ws;  ///< Unit; back along the primary ray.
+
+  std::size_t size() const { return hit.size(); }
+};
+
+/// Traces one primary ray a pixel: through its centre where the frame takes one sample, else spread
+/// over it.
+void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
+                   const Band& band, int sample, GBuffer& gbuffer);
+
+/// Light by which a pixel's surface is seen, diffuse and specular apart, each including the
+/// surface's reflectance.
+struct ReflectedLight {
+  std::vector<glm::vec3> diffuse;
+  std::vector<glm::vec3> specular;
+};
+
+/// Light that lights and emissive surfaces send straight to the surfaces. Returns the shadow rays
+/// traced.
+std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
+                           const FrameSettings& settings, const Band& band, int sample,
+                           ReflectedLight& light);
+
+}  // namespace lambent

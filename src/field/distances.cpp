@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
+// Fields", JCGT 8(2), 2019.
+#include "field/distances.h"
+
+#include <vector>
+
+#include "core/parallel.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kProbesPerTask = 16;
+
+// Distances are only compared with those to points of the cells around a probe, at most a cell's
+// diagonal away; longer ones are cut to this many diagonals, so that far surfaces do not swamp the
+// variance of near ones.
+constexpr float kMaxDistanceDiagonals = 1.5f;
+
+// A ray that meets the back of a single-sided surface counts as shortened to this share, so that a
+// probe inside something trusts its surroundings little. JCGT 10(2) 2021, sec. 4.
+constexpr float kBackFaceDistanceShare = 0.2f;
+
+// A probe that sees more back faces than this share of its rays stands in solid matter and is to
+// light nothing. JCGT 10(2) 2021, sec. 4.
+constexpr float kMaxBackFaceShare = 0.25f;
+
+// Texels that no ray came near keep what they had.
+constexpr float kMinWeight = 1e-6f;
+
+bool is_back_face(const Scene& scene, const Hit& hit) {
+  if (hit.missed() || hit.front_face) return false;
+  return !scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
+}
+
+}  // namespace
+
+void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<const Hit> hits,
+                     float share, uint salt, ProbeStore& store) {
+  const int rays = blend.rays();
+  const int texels = blend.texels();
+  const int edge = store.distance_texels();
+  const float farthest = kMaxDistanceDiagonals * length(store.grid().spacing);
+
+  // Compute what all rays together weigh in each texel: the same for every probe
+  std::vector<float> ones(2 * static_cast<std::size_t>(rays), 1.0f);
+  std::vector<vec2> totals(texels);
+  blend.apply2(ones.data(), &totals[0].x);
+
+  parallel_chunks(store.probes(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<vec2> values(rays), sums(texels), moments(texels);
+    for (int probe = static_cast<int>(begin); probe < static_cast<int>(end); ++probe) {
+      // Cut the distances and count the back faces
+      int back_faces = 0;
+      for (int i = 0; i < rays; ++i) {
+        const Hit& hit = hits[static_cast<std::size_t>(probe) * rays + i];
+        float distance = min(hit.distance, farthest);
+        if (is_back_face(scene, hit)) {
+          ++back_faces;
+          distance *= kBackFaceDistanceShare;
+        }
+        values[i] = {distance, distance * distance};
+      }
+      const bool inside_matter =
+          static_cast<float>(back_faces) > kMaxBackFaceShare * static_cast<float>(rays);
+
+      // Compute the mean distance and mean squared distance along each texel's direction
+      blend.apply2(&values[0].x, &sums[0].x);
+      for (int t = 0; t < texels; ++t) {
+        const vec2 old = store.moments_texel(probe, ivec2(t % edge, t / edge) + ivec2(1));
+        const vec2 now = inside_matter ? vec2(0.0f) : sums[t] / totals[t];
+        moments[t] = totals[t].x > kMinWeight ? mix(old, now, share) : old;
+      }
+      store.store_moments(probe, moments, salt);
+    }
+  });
+}
+
+}  // namespace lambent
