@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/blend.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "core/simd.h"
 #include "field/tile.h"
 #include "shared/random.h"
@@ -78,6 +81,18 @@ BlendMatrix::BlendMatrix(int texels, float cosine_exponent, std::span<const vec3
       weights_[static_cast<std::size_t>(i) * padded_texels_ + t] =
           cosine_exponent == 1.0f ? cosine : pow(cosine, cosine_exponent);
     }
+  }
+}
+
+BlendMatrix::BlendMatrix(int texel_count, int ray_count, std::span<const float> columns)
+    : texel_count_(texel_count),
+      padded_texels_((texel_count + kBlock - 1) / kBlock * kBlock),
+      ray_count_(ray_count),
+      weights_(static_cast<std::size_t>(ray_count) * padded_texels_) {
+  assert(columns.size() == static_cast<std::size_t>(texel_count) * ray_count);
+  for (int i = 0; i < ray_count; ++i) {
+    std::copy_n(&columns[static_cast<std::size_t>(i) * texel_count], texel_count,
+                &weights_[static_cast<std::size_t>(i) * padded_texels_]);
   }
 }
 

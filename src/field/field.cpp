@@ -13,6 +13,7 @@
 #include "field/probe_store.h"
 #include "field/relight.h"
 #include "field/surfels.h"
+#include "field/tile_fit.h"
 #include "lambent/world.h"
 #include "shared/random.h"
 
@@ -36,13 +37,18 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+int square(int x) { return x * x; }
+
 Expected<void> check(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
   };
   if (outside(s.rays_per_probe, 8, 4096)) return fail("", "rays", "must be 8 to 4096 a probe");
   if (outside(s.hysteresis, 0.0f, 0.999f)) return fail("", "hysteresis", "must be 0 to 0.999");
-  if (outside(s.irradiance_texels, 2, 16)) return fail("", "irradiance texels", "must be 2 to 16");
+  // An odd tile reads directions along the axes from one side only
+  if (outside(s.irradiance_texels, 2, 16) || s.irradiance_texels % 2 != 0) {
+    return fail("", "irradiance texels", "must be even, 2 to 16");
+  }
   if (outside(s.distance_texels, 4, 32)) return fail("", "distance texels", "must be 4 to 32");
   if (outside(s.max_albedo, 0.0f, 0.99f)) return fail("", "max albedo", "must be 0 to 0.99");
   if (outside(s.relight_tolerance, 1e-7f, 1.0f)) {
@@ -60,11 +66,14 @@ struct IrradianceField::State {
   State(const FieldSettings& field_settings, const FieldGrid& field_grid)
       : settings(field_settings),
         grid(field_grid),
-        store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings) {}
+        store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings),
+        tile_fit(square(settings.irradiance_texels), square(settings.irradiance_texels),
+                 tile_fit_matrix(settings.irradiance_texels)) {}
 
   FieldSettings settings;
   FieldGrid grid;
   ProbeStore store;
+  BlendMatrix tile_fit;
   Surfels surfels;
   std::vector<Hit> hits;
   int updates = 0;
@@ -154,7 +163,7 @@ UpdateStatistics IrradianceField::update(const World& world) {
   WorkingIrradiance history(texels);
   s.load_history(history);
   WorkingIrradiance solution = history;
-  const TransportOperator transport(s.store.grid(), s.surfels, irradiance_blend,
+  const TransportOperator transport(s.store.grid(), s.surfels, irradiance_blend, s.tile_fit,
                                     settings.irradiance_texels);
   const RelightResult solved = relight(
       transport, history, {share, settings.relight_tolerance, settings.max_relights}, solution);

@@ -104,9 +104,11 @@ class AndersonMemory {
 }  // namespace
 
 TransportOperator::TransportOperator(const ProbeGrid& grid, const Surfels& surfels,
-                                     const BlendMatrix& blend, int texels)
+                                     const BlendMatrix& blend, const BlendMatrix& fit,
+                                     int texels)
     : surfels_(surfels),
       blend_(blend),
+      fit_(fit),
       offsets_(corner_offsets(grid)),
       texels_(texels * texels),
       taps_(static_cast<std::size_t>(texels + 1) * (texels + 1)) {
@@ -161,16 +163,26 @@ void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrrad
   const int rays = surfels_.rays_per_probe;
   parallel_chunks(surfels_.size() / rays, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<float> radiance(4 * static_cast<std::size_t>(rays));
-    std::vector<vec4> sums(texels_);
+    std::vector<vec4> sums(texels_), at_centres(texels_);
     for (std::size_t probe = begin; probe < end; ++probe) {
       gather_probe_radiance(field, probe, radiance.data());
       blend_.apply4(radiance.data(), &sums[0].x);
+      // The mean radiance, weighted by the cosine, times pi is the irradiance at the texels' centres
+      bool known = true;
       for (int t = 0; t < texels_; ++t) {
-        // The mean of the radiance weighted by the cosine, times pi, is irradiance
-        const std::size_t index = probe * texels_ + t;
-        received[index] = sums[t].w > kMinBlendWeight * static_cast<float>(rays)
-                              ? vec4(vec3(sums[t]) * (kPi / sums[t].w), 0.0f)
-                              : fallback[index];
+        known = known && sums[t].w > kMinBlendWeight * static_cast<float>(rays);
+        at_centres[t] = vec4(vec3(sums[t]) * (kPi / max(sums[t].w, 1e-20f)), 0.0f);
+      }
+      vec4* out = &received[probe * texels_];
+      if (known) {
+        fit_.apply4(&at_centres[0].x, &out[0].x);
+        continue;
+      }
+
+      // Where rays count for some texels only, there is nothing to fit: the others keep what they had
+      for (int t = 0; t < texels_; ++t) {
+        const bool counted = sums[t].w > kMinBlendWeight * static_cast<float>(rays);
+        out[t] = counted ? at_centres[t] : fallback[probe * texels_ + t];
       }
     }
   });

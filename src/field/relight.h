@@ -26,8 +26,9 @@ using WorkingIrradiance = std::vector<vec4>;
 
 class TransportOperator {
  public:
+  /// `fit` is the matrix of tile_fit.h. All arguments must outlive the operator.
   TransportOperator(const ProbeGrid& grid, const Surfels& surfels, const BlendMatrix& blend,
-                    int texels);
+                    const BlendMatrix& fit, int texels);
 
   /// One bounce: what the probes would receive if surfels were lit by `field` besides direct light.
   /// Texels that no ray counts for take their value from `fallback`.
@@ -40,6 +41,7 @@ class TransportOperator {
 
   const Surfels& surfels_;
   const BlendMatrix& blend_;
+  const BlendMatrix& fit_;
   CornerOffsets offsets_;
   int texels_;                                      // interior texels of a tile
   std::vector<std::array<std::uint16_t, 4>> taps_;  // interior texels of each place of a fetch
