@@ -29,7 +29,8 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Numbers under names with their unit ("trace_ms", "bytes_per_probe"), in the order in which they were first set.
+/// Numbers under names with their unit ("trace_ms", "bytes_per_probe"), in the order in which they
+/// were first set.
 class Statistics {
  public:
   void set(const std::string& key, double value);
@@ -41,7 +42,8 @@ class Statistics {
   const double* find(const std::string& key) const;
   const std::vector<std::pair<std::string, double>>& entries() const { return entries_; }
 
-  /// One flat JSON object, a line per number. What is not finite is null; whole numbers have no point.
+  /// One flat JSON object, a line per number. What is not finite is null; whole numbers have no
+  /// point.
   std::string json() const;
   /// Writes json() to `path`, all or nothing.
   Expected<void> write(const std::string& path) const;

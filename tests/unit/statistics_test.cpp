@@ -18,7 +18,8 @@ TEST(Statistics, KeepsTheOrderOfFirstMentionAndAddsUp) {
   statistics.add(PassTime{"trace", 1.25});
   statistics.set("rays", 8192.0);
   statistics.set("ratio", std::numeric_limits<double>::infinity());
-  EXPECT_EQ(statistics.json(), "{\n  \"rays\": 8192,\n  \"trace_ms\": 2.5,\n  \"ratio\": null\n}\n");
+  EXPECT_EQ(statistics.json(),
+            "{\n  \"rays\": 8192,\n  \"trace_ms\": 2.5,\n  \"ratio\": null\n}\n");
   EXPECT_EQ(*statistics.find("trace_ms"), 2.5);
   EXPECT_EQ(statistics.find("shade_ms"), nullptr);
 }
