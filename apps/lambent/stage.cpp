@@ -8,12 +8,15 @@
 #include <glm/gtc/constants.hpp>
 
 #include "lambent/parse.h"
+#include "lambent/world.h"
+#include "raytracing/raytracer.h"
 #include "scenes/builtin.h"
 
 namespace lambent::cli {
 namespace {
 
-// A clear afternoon for scenes that bring no light: the sun from above one shoulder, and a blue sky.
+// A clear afternoon for scenes that bring no light: the sun from above one shoulder, and a blue
+// sky.
 constexpr glm::vec3 kDefaultSunDirection{-0.5f, -1.0f, -0.35f};
 constexpr glm::vec3 kDefaultSunIrradiance{20.0f, 18.0f, 15.0f};
 constexpr glm::vec3 kDefaultSky{1.5f, 2.0f, 2.6f};
@@ -70,21 +73,51 @@ Expected<void> set_sky(const StageOptions& options, Scene& scene) {
   if (!options.environment.empty()) return fail("--sky", "", "give either --sky or --environment");
   const auto sky = parse_vec3("--sky", options.sky);
   if (!sky) return tl::unexpected(sky.error());
-  if (glm::any(glm::lessThan(*sky, glm::vec3(0.0f)))) return fail("--sky", "", "must not be negative");
+  if (glm::any(glm::lessThan(*sky, glm::vec3(0.0f))))
+    return fail("--sky", "", "must not be negative");
   scene.environment = {};
   scene.environment.radiance = *sky;
   return {};
 }
 
 /// Shows the whole scene from a little above, three quarters on.
-Camera fitted_camera(const Scene& scene, float vertical_fov) {
-  const Bounds bounds = world_bounds(scene);
-  if (bounds.empty()) return look_at({0.0f, 0.0f, 1.0f}, glm::vec3(0.0f), vertical_fov);
+Camera outside_camera(const Bounds& bounds, float vertical_fov) {
   const glm::vec3 center = 0.5f * (bounds.min + bounds.max);
   const float radius = std::max(0.5f * glm::length(bounds.max - bounds.min), 1e-3f);
   const float distance = radius / std::sin(0.5f * vertical_fov);
   return look_at(center + distance * glm::normalize(glm::vec3(0.6f, 0.4f, 1.0f)), center,
                  vertical_fov);
+}
+
+/// Stands near one end of a room, at eye height, and looks along its length.
+Camera inside_camera(const World& world, const Bounds& bounds, float vertical_fov) {
+  constexpr float kEyeHeight = 1.7f;      // [m]
+  constexpr float kShareOfHeight = 0.4f;  // of low rooms, and of ones not in metres
+  constexpr float kShareOfLength = 0.8f;  // of the way from the middle to the end
+  const glm::vec3 center = 0.5f * (bounds.min + bounds.max);
+  const glm::vec3 size = bounds.max - bounds.min;
+  const glm::vec3 along =
+      size.x >= size.z ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, 1.0f);
+
+  const float drop = world.tracer().closest_hit({center, 0.0f, {0.0f, -1.0f, 0.0f}}).distance;
+  glm::vec3 eye =
+      center - glm::vec3(0.0f, drop - std::min(kEyeHeight, kShareOfHeight * size.y), 0.0f);
+  const float room = world.tracer().closest_hit({eye, 0.0f, -along}).distance;
+  eye -= along * kShareOfLength * std::min(room, glm::dot(along, size));
+  return look_at(eye, eye + along, vertical_fov);
+}
+
+Camera fitted_camera(const World& world, float vertical_fov) {
+  const Bounds bounds = world_bounds(world.scene());
+  if (bounds.empty()) return look_at({0.0f, 0.0f, 1.0f}, glm::vec3(0.0f), vertical_fov);
+
+  // A floor and four walls around the middle make a room; its ceiling may be open
+  const glm::vec3 center = 0.5f * (bounds.min + bounds.max);
+  for (const glm::vec3& way : {glm::vec3(1, 0, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1),
+                               glm::vec3(0, 0, -1), glm::vec3(0, -1, 0)}) {
+    if (!world.tracer().occluded({center, 0.0f, way})) return outside_camera(bounds, vertical_fov);
+  }
+  return inside_camera(world, bounds, vertical_fov);
 }
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
@@ -101,25 +134,30 @@ Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
     known += (i == 0 ? "" : ", ") + std::to_string(i) + " " + scene.cameras[i].name;
   }
-  return fail("--camera", "", "no camera '" + wanted + "'; the scene has " +
-                                  (known.empty() ? std::string("none") : known));
+  return fail(
+      "--camera", "",
+      "no camera '" + wanted + "'; the scene has " + (known.empty() ? std::string("none") : known));
 }
 
 }  // namespace
 
 void add_stage_options(CLI::App& command, StageOptions& o) {
-  command.add_option("scene", o.scene, "A .gltf or .glb file, or the name of a built-in scene")->required();
+  command.add_option("scene", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
+      ->required();
   command.add_option("--camera", o.camera, "Camera of the scene, by index or name");
   command.add_option("--eye", o.eye, "Look from here, x,y,z [m]; needs --target");
   command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
   command.add_option("--fov", o.fov_degrees, "Vertical field of view with --eye [degrees]")
-      ->check(CLI::Range(1.0f, 170.0f))->capture_default_str();
+      ->check(CLI::Range(1.0f, 170.0f))
+      ->capture_default_str();
   command.add_option("--sun", o.sun, "Add a sun whose light travels along x,y,z");
   command.add_option("--sun-irradiance", o.sun_irradiance, "Of the sun, r,g,b [W/m^2]");
   command.add_option("--sky", o.sky, "Constant sky, r,g,b [W/(m^2 sr)]");
   command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr");
-  command.add_option("--materials", o.materials, "gltf, or lambert: exact Lambert, nothing specular")
-      ->check(CLI::IsMember({"gltf", "lambert"}))->capture_default_str();
+  command
+      .add_option("--materials", o.materials, "gltf, or lambert: exact Lambert, nothing specular")
+      ->check(CLI::IsMember({"gltf", "lambert"}))
+      ->capture_default_str();
   command.add_flag("--no-normal-maps", o.no_normal_maps, "Ignore normal maps");
 }
 
@@ -137,14 +175,17 @@ Expected<Scene> open_stage(const StageOptions& options) {
 
   const bool asked = !options.sun.empty() || !options.sky.empty() || !options.environment.empty();
   if (!asked && !has_light(*scene)) {
-    std::fprintf(stderr, "lambent: the scene has no light; adding a sun and a sky (choose with --sun, --sky)\n");
+    std::fprintf(
+        stderr,
+        "lambent: the scene has no light; adding a sun and a sky (choose with --sun, --sky)\n");
     scene->lights.push_back(make_sun(kDefaultSunDirection, kDefaultSunIrradiance));
     scene->environment.radiance = kDefaultSky;
   }
   return scene;
 }
 
-Expected<Camera> choose_camera(const StageOptions& options, const Scene& scene) {
+Expected<Camera> choose_camera(const StageOptions& options, const World& world) {
+  const Scene& scene = world.scene();
   const float vertical_fov = glm::radians(options.fov_degrees);
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
@@ -159,7 +200,7 @@ Expected<Camera> choose_camera(const StageOptions& options, const Scene& scene) 
     return look_at(*eye, *target, vertical_fov);
   }
   if (!options.camera.empty()) return named_camera(options.camera, scene);
-  return scene.cameras.empty() ? fitted_camera(scene, vertical_fov) : scene.cameras.front();
+  return scene.cameras.empty() ? fitted_camera(world, vertical_fov) : scene.cameras.front();
 }
 
 }  // namespace lambent::cli

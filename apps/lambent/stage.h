@@ -11,6 +11,10 @@ namespace CLI {
 class App;
 }
 
+namespace lambent {
+class World;
+}
+
 namespace lambent::cli {
 
 struct StageOptions {
@@ -30,7 +34,8 @@ void add_stage_options(CLI::App& command, StageOptions& options);
 /// without any light was given some.
 Expected<Scene> open_stage(const StageOptions& options);
 
-/// The camera that the options ask for, else the scene's first, else one that shows the scene.
-Expected<Camera> choose_camera(const StageOptions& options, const Scene& scene);
+/// The camera that the options ask for, else the scene's first, else one that shows the scene: from inside where the
+/// scene is a room, from outside where it is an object.
+Expected<Camera> choose_camera(const StageOptions& options, const World& world);
 
 }  // namespace lambent::cli

@@ -11,7 +11,8 @@ namespace {
 
 // Reflectance of a photographer's grey card.
 constexpr double kMiddleGrey = 0.18;
-// Pixels darker than this share of the mean are background, not subject: they say nothing about exposure.
+// Pixels darker than this share of the mean are background, not subject: they say nothing about
+// exposure.
 constexpr double kSubjectThreshold = 1e-3;
 constexpr float kMaxStops = 20.0f;
 
@@ -26,7 +27,8 @@ float automatic_exposure(const Image& linear) {
   };
   double sum = 0.0;
   for (std::size_t i = 0; i < pixels; ++i) sum += luminance_at(i);
-  const double threshold = kSubjectThreshold * sum / static_cast<double>(std::max<std::size_t>(pixels, 1));
+  const double threshold =
+      kSubjectThreshold * sum / static_cast<double>(std::max<std::size_t>(pixels, 1));
 
   double log_sum = 0.0;
   std::size_t counted = 0;
