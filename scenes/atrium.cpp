@@ -91,7 +91,7 @@ Palette add_palette(Scene& scene) {
   }
   palette.iron = add_plain(scene, "iron", {0.045f, 0.042f, 0.04f}, 0.5f);
   palette.water = add_plain(scene, "water", {0.04f, 0.065f, 0.06f}, 0.08f);
-  palette.lamp = add_plain(scene, "lamp", glm::vec3(0.8f), 0.9f, {62.0f, 34.0f, 12.0f});
+  palette.lamp = add_plain(scene, "lamp", glm::vec3(0.8f), 0.9f, {36.0f, 18.5f, 6.0f});
   palette.leaf = add_plain(scene, "leaf", {0.075f, 0.17f, 0.04f}, 0.55f);
   palette.orange = add_plain(scene, "orange", {0.72f, 0.26f, 0.04f}, 0.5f);
   for (const Finish* sheet : {&palette.red, &palette.blue, &palette.ochre, &palette.leaf}) {
@@ -154,13 +154,13 @@ glm::vec3 sunlight(float hour_angle) {
 }
 
 void add_sun(AnimatedScene& made) {
-  constexpr float kMorning = -0.72f, kEvening = 1.1f;  // hour angles [rad]
+  constexpr float kMorning = -0.56f, kEvening = 1.1f;  // hour angles [rad]
   constexpr float kDay = 20.0f;                        // [s]
   constexpr int kKeys = 20;
   Light sun;
   sun.name = "sun";
   sun.type = Light::Type::directional;
-  sun.intensity = {13.0f, 11.6f, 9.4f};
+  sun.intensity = {10.5f, 9.3f, 7.5f};
   sun.direction_ws = sunlight(kMorning);
   made.scene.lights.push_back(sun);
 
@@ -174,16 +174,16 @@ void add_sun(AnimatedScene& made) {
         {share * kDay, glm::vec3(0.0f), glm::quat(glm::vec3(0.0f, 0.0f, -1.0f), way)});
   }
   made.animations.push_back({"day", {std::move(track)}});
-  made.scene.environment.radiance = {0.42f, 0.58f, 0.86f};
+  made.scene.environment.radiance = {0.75f, 0.95f, 1.25f};
 }
 
 void add_cameras(Scene& scene) {
   constexpr float kAspect = 16.0f / 9.0f;
   const float kDegree = kPi / 180.0f;
   // Eyes and targets are level, so that verticals stay upright.
-  add_camera(scene, "court", {-6.6f, 2.35f, -2.9f}, {7.5f, 2.35f, 1.6f}, 62.0f * kDegree, kAspect);
-  add_camera(scene, "aisle", {-8.6f, 1.75f, 6.55f}, {7.5f, 1.75f, 5.55f}, 60.0f * kDegree, kAspect);
-  add_camera(scene, "door", {5.2f, 1.65f, 1.9f}, {10.5f, 1.65f, 0.1f}, 52.0f * kDegree, kAspect);
+  add_camera(scene, "court", {-6.9f, 2.0f, -1.2f}, {7.5f, 2.0f, 1.9f}, 62.0f * kDegree, kAspect);
+  add_camera(scene, "aisle", {-4.2f, 1.75f, 6.45f}, {7.5f, 1.75f, 5.4f}, 60.0f * kDegree, kAspect);
+  add_camera(scene, "door", {3.3f, 1.65f, -0.75f}, {10.5f, 1.65f, 0.2f}, 46.0f * kDegree, kAspect);
   add_camera(scene, "gallery", {-9.0f, 6.6f, -6.0f}, {5.0f, 6.6f, 2.2f}, 62.0f * kDegree, kAspect);
 }
 

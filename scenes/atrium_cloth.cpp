@@ -15,7 +15,7 @@ using B = MeshBuilder;
 constexpr float kRodHeight = 2.84f;  // [m]
 constexpr float kHem = kAisleFloor + 0.06f;
 constexpr float kFullness = 1.9f;  // metres of cloth a metre of rod
-constexpr int kCellsAFold = 8, kCurtainRows = 14;
+constexpr int kCellsAFold = 6, kCurtainRows = 12;
 
 struct Curtain {
   float from, to;  // along the rod [m]
@@ -101,9 +101,9 @@ void add_curtains(Scene& scene, const Palette& palette) {
   };
   const std::vector<glm::vec3> bays = bay_middles();
   for (const Hung& hung :
-       {Hung{1, blue, blue}, Hung{3, drawn_red, -1}, Hung{4, -1, ochre}, Hung{5, ochre, ochre},
-        Hung{6, drawn_red, -1}, Hung{7, blue, blue}, Hung{8, -1, drawn_ochre}, Hung{9, red, red},
-        Hung{11, drawn_blue, -1}, Hung{13, red, red}, Hung{15, -1, drawn_blue}}) {
+       {Hung{1, blue, blue}, Hung{3, drawn_red, -1}, Hung{5, ochre, ochre}, Hung{6, -1, drawn_red},
+        Hung{7, -1, blue}, Hung{8, drawn_ochre, -1}, Hung{9, blue, blue}, Hung{11, drawn_blue, -1},
+        Hung{13, -1, drawn_ochre}, Hung{14, red, red}, Hung{15, drawn_blue, -1}}) {
     const glm::mat4 place = facing_court(bays[hung.bay]);
     const glm::mat4 turned = glm::rotate(place, kPi, {0.0f, 1.0f, 0.0f});
     if (hung.left >= 0) add_instance(scene, scene.meshes[hung.left].name, hung.left, place);

@@ -13,7 +13,7 @@ using B = MeshBuilder;
 
 constexpr float kThickness = 0.3f;  // of the room's walls [m]
 constexpr glm::vec3 kLamp{12.35f, 2.15f, -0.55f};
-constexpr float kLampRadius = 0.13f;
+constexpr float kLampRadius = 0.15f;
 
 /// The leaf hangs at z = +kDoorHalfWidth on the wall's far side and opens into the room.
 constexpr float kLeafWidth = 2.0f * kDoorHalfWidth - 0.04f, kLeafThickness = 0.07f;

@@ -62,7 +62,7 @@ void shaft(MeshBuilder& builder, const Shaft& shape) {
 
 /// A bell with eight leaves in relief that curl over at the top.
 void leafy_capital(MeshBuilder& builder, float foot, float top, float radius) {
-  constexpr int kLeaves = 8, kPointsALeaf = 5, kRows = 8;
+  constexpr int kLeaves = 8, kPointsALeaf = 4, kRows = 7;
   builder.surface(kLeaves * kPointsALeaf, kRows, true, [&](float s, float t) {
     const float bell = 1.0f + 0.38f * t * t;
     const float leaf = 0.5f + 0.5f * std::cos(kTwoPi * s * kLeaves);
@@ -80,16 +80,16 @@ void lower_column(MeshBuilder& builder) {
   builder.box({-0.33f, y, -0.33f}, {0.33f, y + 0.12f, 0.33f}, B::kAllFaces & ~B::kBottom);
   // Attic base: torus, scotia, torus, fillet
   Profile base{{0.28f, y + 0.12f}};
-  torus(base, 0.275f, y + 0.121f, y + 0.205f, 5);
+  torus(base, 0.275f, y + 0.121f, y + 0.205f, 4);
   base.insert(base.end(), {{0.262f, y + 0.212f}, {0.248f, y + 0.235f}, {0.258f, y + 0.258f}});
-  torus(base, 0.25f, y + 0.262f, y + 0.312f, 4);
+  torus(base, 0.25f, y + 0.262f, y + 0.312f, 3);
   base.insert(base.end(), {{kRadius + 0.006f, y + 0.318f}, {kRadius + 0.006f, y + 0.335f}});
-  builder.lathe(kOrigin, base, 24);
+  builder.lathe(kOrigin, base, 20);
   const float neck = kLowerSpring - 0.44f;
   shaft(builder, {y + 0.33f, neck, kRadius, 16, 4, 9});
   Profile ring;
-  torus(ring, 0.195f, neck - 0.005f, neck + 0.04f, 4);
-  builder.lathe(kOrigin, ring, 24);
+  torus(ring, 0.195f, neck - 0.005f, neck + 0.04f, 3);
+  builder.lathe(kOrigin, ring, 20);
   leafy_capital(builder, neck + 0.03f, kLowerSpring - 0.11f, 0.2f);
   builder.box({-0.31f, kLowerSpring - 0.115f, -0.31f}, {0.31f, kLowerSpring + 0.012f, 0.31f});
 }
@@ -99,15 +99,15 @@ void upper_column(MeshBuilder& builder) {
   const float y = kGalleryFloor;
   builder.box({-0.21f, y, -0.21f}, {0.21f, y + 0.1f, 0.21f}, B::kAllFaces & ~B::kBottom);
   Profile base{{0.18f, y + 0.1f}};
-  torus(base, 0.17f, y + 0.101f, y + 0.16f, 4);
+  torus(base, 0.17f, y + 0.101f, y + 0.16f, 3);
   base.insert(base.end(), {{kRadius + 0.005f, y + 0.17f}, {kRadius + 0.005f, y + 0.19f}});
   builder.lathe(kOrigin, base, 16);
   const float neck = kUpperSpring - 0.3f;
-  shaft(builder, {y + 0.18f, neck, kRadius, 0, 18, 6});
+  shaft(builder, {y + 0.18f, neck, kRadius, 0, 16, 6});
   const Profile echinus{{0.128f, neck - 0.01f}, {0.15f, neck},         {0.15f, neck + 0.03f},
                         {0.13f, neck + 0.035f}, {0.13f, neck + 0.1f},  {0.16f, neck + 0.15f},
                         {0.21f, neck + 0.2f},   {0.22f, neck + 0.215f}};
-  builder.lathe(kOrigin, echinus, 18);
+  builder.lathe(kOrigin, echinus, 16);
   builder.box({-0.24f, kUpperSpring - 0.09f, -0.24f}, {0.24f, kUpperSpring + 0.012f, 0.24f});
 }
 
@@ -126,7 +126,7 @@ void add_columns(Scene& scene, const Palette& palette) {
 }
 
 void add_balustrades(Scene& scene, const Palette& palette) {
-  constexpr int kBalusters = 8;
+  constexpr int kBalusters = 7;
   constexpr float kClear = 1.33f;  // half the length of a rail between plinths [m]
   const float y = kGalleryFloor;
   MeshBuilder builder;
@@ -211,7 +211,7 @@ void add_fountain(Scene& scene, const Palette& palette) {
 }
 
 void add_trees(Scene& scene, const Palette& palette) {
-  constexpr int kLeaves = 420, kFruits = 12;
+  constexpr int kLeaves = 420, kFruits = 9;
   constexpr float kCrown = 0.62f, kCrownHeight = 2.05f;
   const Profile pot{{0.24f, 0.0f}, {0.25f, 0.03f}, {0.32f, 0.3f},  {0.35f, 0.5f}, {0.39f, 0.52f},
                     {0.39f, 0.6f}, {0.345f, 0.6f}, {0.33f, 0.53f}, {0.0f, 0.53f}};

@@ -9,7 +9,7 @@
 namespace lambent::scenes {
 namespace {
 
-constexpr glm::vec3 kRight{1.0f, 0.0f, 0.0f};
+constexpr glm::vec3 kAlongX{1.0f, 0.0f, 0.0f};
 
 /// The point of the opening's edge at a share of its way from the left springer to the right one.
 glm::vec3 on_arch(const MeshBuilder::Arch& arch, float share, float z, float grown = 0.0f) {
@@ -33,8 +33,8 @@ void MeshBuilder::arch_panel(const Arch& arch) {
     const auto back = [](glm::vec3 p) { return glm::vec3(p.x, p.y, -p.z); };
     const glm::vec3 a = low_left, b = low_right;
     const glm::vec3 c(b.x, arch.top, b.z), d(a.x, arch.top, a.z);
-    quad(a, b, c, d, kRight);
-    quad(back(b), back(a), back(d), back(c), -kRight);
+    quad(a, b, c, d, kAlongX);
+    quad(back(b), back(a), back(d), back(c), -kAlongX);
   };
   wall({-arch.half_width, arch.spring, z}, {-arch.half_span, arch.spring, z});
   for (int i = 0; i < arch.segments; ++i) {

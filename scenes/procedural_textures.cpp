@@ -137,7 +137,7 @@ Texel limestone(glm::vec2 p) {
   const float grain = fractal_noise(p, {64, 64}, 2, 71);
   const float pit = smooth(0.74f, 0.86f, noise(p, {90, 70}, 81));
   glm::vec3 color =
-      glm::mix(glm::vec3(0.56f, 0.485f, 0.37f), glm::vec3(0.70f, 0.635f, 0.52f), cloud);
+      glm::mix(glm::vec3(0.46f, 0.39f, 0.29f), glm::vec3(0.60f, 0.535f, 0.425f), cloud);
   color *= (0.93f + 0.12f * grain) * (1.0f - 0.28f * pit);
   return {color, 0.0007f * grain + 0.002f * cloud - 0.0016f * pit, 0.62f + 0.2f * grain};
 }
@@ -239,10 +239,10 @@ Texel woven_fabric(glm::vec2 p, const glm::vec3& ground, const glm::vec3& stripe
   const bool warp_on_top = (thread.x + thread.y) % 2 == 0;
   const float across = warp_on_top ? f.x : f.y, along = warp_on_top ? f.y : f.x;
   const float back = std::cos(kPi * across) * (0.6f + 0.4f * std::cos(kPi * along));
-  // One broad band and a thin line on both sides of it, across the tile
+  // A stripe between two hairlines, once a tile
   const float offset = std::abs(p.x - 0.5f);
-  const float band = 1.0f - smooth(0.10f, 0.105f, offset);
-  const float line = smooth(0.135f, 0.14f, offset) * (1.0f - smooth(0.155f, 0.16f, offset));
+  const float band = 1.0f - smooth(0.026f, 0.03f, offset);
+  const float line = smooth(0.046f, 0.049f, offset) * (1.0f - smooth(0.055f, 0.058f, offset));
   const float worn = fractal_noise(p, {4, 4}, 4, 281);
   glm::vec3 color = glm::mix(ground, stripe, std::max(band, line));
   color *= (0.72f + 0.28f * back) * (0.88f + 0.2f * worn);
