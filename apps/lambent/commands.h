@@ -15,6 +15,7 @@ namespace lambent::cli {
 /// What the chosen subcommand does once all arguments are known to be well formed.
 using Run = std::function<Expected<void>()>;
 
+void add_info(CLI::App& app, Run& run);
 void add_make_scene(CLI::App& app, Run& run);
 
 }  // namespace lambent::cli

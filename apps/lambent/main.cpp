@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   lambent::cli::Run run;
+  lambent::cli::add_info(app, run);
   lambent::cli::add_make_scene(app, run);
   try {
     app.parse(argc, argv);

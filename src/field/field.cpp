@@ -37,13 +37,15 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-int square(int x) { return x * x; }
+int square(int x) {
+  return x * x;
+}
 
 Expected<void> check(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
   };
-  if (outside(s.rays_per_probe, 8, 4096)) return fail("", "rays", "must be 8 to 4096 a probe");
+  if (outside(s.rays_per_probe, 16, 4096)) return fail("", "rays", "must be 16 to 4096 a probe");
   if (outside(s.hysteresis, 0.0f, 0.999f)) return fail("", "hysteresis", "must be 0 to 0.999");
   // An odd tile reads directions along the axes from one side only
   if (outside(s.irradiance_texels, 2, 16) || s.irradiance_texels % 2 != 0) {
@@ -55,6 +57,7 @@ Expected<void> check(const FieldSettings& s) {
     return fail("", "relight tolerance", "must be 1e-7 to 1");
   }
   if (outside(s.max_relights, 1, 1000)) return fail("", "max relights", "must be 1 to 1000");
+  if (s.max_bounces < -1) return fail("", "bounces", "must be 0 or more, or -1 for all");
   if (outside(s.emissive_samples, 1, 64)) return fail("", "emissive samples", "must be 1 to 64");
   if (!std::isfinite(s.texture_lod_bias)) return fail("", "texture LOD bias", "must be finite");
   return {};
@@ -165,10 +168,14 @@ UpdateStatistics IrradianceField::update(const World& world) {
   WorkingIrradiance solution = history;
   const TransportOperator transport(s.store.grid(), s.surfels, irradiance_blend, s.tile_fit,
                                     settings.irradiance_texels);
-  const RelightResult solved = relight(
-      transport, history, {share, settings.relight_tolerance, settings.max_relights}, solution);
+  const RelightResult solved =
+      settings.max_bounces >= 0
+          ? relight_bounces(transport, history, settings.max_bounces, solution)
+          : relight(transport, history, {share, settings.relight_tolerance, settings.max_relights},
+                    solution);
   statistics.relights = solved.iterations;
   statistics.residual = solved.error;
+  statistics.change = blended_change(history, solution, share);
   statistics.relight_ms = watch.lap();
 
   s.store_blended(history, solution, share, salt);

@@ -35,9 +35,15 @@ class TransportOperator {
   void apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
              WorkingIrradiance& received) const;
 
+  /// No bounce: what the probes receive from the sky alone.
+  void apply_sky(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
+
  private:
   void gather_probe_radiance(const WorkingIrradiance& field, std::size_t probe,
                              float* radiance) const;
+  void gather_probe_sky(std::size_t probe, float* radiance) const;
+  template <class Gather>
+  void receive(Gather gather, const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
   const Surfels& surfels_;
   const BlendMatrix& blend_;
@@ -57,6 +63,14 @@ struct RelightResult {
   int iterations = 0;
   double error = 0.0;  ///< Estimated relative error of the solution.
 };
+
+/// The light of exactly so many bounces, without acceleration.
+RelightResult relight_bounces(const TransportOperator& transport, const WorkingIrradiance& history,
+                              int bounces, WorkingIrradiance& solution);
+
+/// Relative change of the field from `history` when a share of `solution` is blended in.
+double blended_change(const WorkingIrradiance& history, const WorkingIrradiance& solution,
+                      float share);
 
 /// Solves for the field's light. `solution` is the start on entry (the last solution, if there is
 /// one).

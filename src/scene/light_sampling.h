@@ -26,7 +26,8 @@ struct EmissiveSample {
   glm::vec3 position_ws{0.0f};
   glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
   glm::vec3 radiance{0.0f};   ///< [W/(m^2 sr)].
-  float pdf_area = 0.0f;      ///< Density over the area of all emissive triangles [1/m^2]; 0: there are none.
+  float pdf_area =
+      0.0f;  ///< Density over the area of all emissive triangles [1/m^2]; 0: there are none.
 };
 
 /// All emissive triangles of a scene, drawn with probability proportional to their power.
@@ -40,7 +41,8 @@ class EmissiveTriangles {
   /// A point for three uniform numbers: the first picks the triangle, the others the point on it.
   EmissiveSample sample(const glm::vec3& u) const;
 
-  /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not emit.
+  /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not
+  /// emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
 
   /// Power of all triangles, both sides [W], luminance-weighted.

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/file_bytes.h"
-#include "unit/temporary_directory.h"
+#include "support/temporary_directory.h"
 
 namespace lambent {
 namespace {

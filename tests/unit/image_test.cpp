@@ -18,7 +18,7 @@
 #include "core/image_formats.h"
 #include "core/stb.h"
 #include "shared/color.h"
-#include "unit/temporary_directory.h"
+#include "support/temporary_directory.h"
 
 namespace lambent {
 namespace {

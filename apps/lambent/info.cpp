@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+// lambent info: what was understood of a scene.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <glm/gtc/constants.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "lambent/commands.h"
+#include "lambent/scene.h"
+#include "scenes/builtin.h"
+
+namespace lambent::cli {
+namespace {
+
+constexpr double kBytesPerMebibyte = 1048576.0;
+
+struct Totals {
+  std::size_t vertices = 0;
+  std::size_t mesh_triangles = 0;
+  std::size_t triangles = 0;
+  std::size_t emissive_triangles = 0;
+  std::size_t texture_bytes = 0;
+};
+
+bool emits(const Material& material) {
+  return glm::any(glm::greaterThan(material.emission, glm::vec3(0.0f)));
+}
+
+std::size_t bytes_of(const Texture& texture) {
+  std::size_t bytes = 0;
+  for (const TextureLevel& level : texture.levels) bytes += level.rgba.size();
+  return bytes;
+}
+
+Totals total(const Scene& scene) {
+  Totals totals;
+  for (const Mesh& mesh : scene.meshes) {
+    totals.vertices += mesh.positions.size();
+    totals.mesh_triangles += mesh.triangles.size();
+  }
+  totals.triangles = triangle_count(scene);
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (emits(scene.materials[mesh.material])) totals.emissive_triangles += mesh.triangles.size();
+  }
+  for (const Texture& texture : scene.textures) totals.texture_bytes += bytes_of(texture);
+  return totals;
+}
+
+// Names come from files: nothing in them may reach the terminal as a control sequence.
+std::string printable(const std::string& text) {
+  std::string clean;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    clean += byte < 0x20 || byte == 0x7f ? '?' : c;
+  }
+  return clean;
+}
+
+std::string join(const std::vector<std::string>& parts) {
+  std::string text;
+  for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + printable(part);
+  return text.empty() ? "none" : text;
+}
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void row(const char* label, const char* format, ...) {
+  std::printf("%-14s ", label);
+  va_list arguments;
+  va_start(arguments, format);
+  std::vprintf(format, arguments);
+  va_end(arguments);
+  std::printf("\n");
+}
+
+std::string text_of(const glm::vec3& v) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.4g %.4g %.4g", v.x, v.y, v.z);
+  return text;
+}
+
+const char* name_of(Light::Type type) {
+  switch (type) {
+    case Light::Type::directional:
+      return "directional";
+    case Light::Type::point:
+      return "point";
+    case Light::Type::spot:
+      return "spot";
+  }
+  return "";
+}
+
+// What a material does beyond plain factors.
+std::vector<std::string> features_of(const Material& m) {
+  std::vector<std::string> features;
+  const auto add = [&features](bool present, const char* name) {
+    if (present) features.emplace_back(name);
+  };
+  add(m.base_color_texture.texture >= 0, "base color map");
+  add(m.metallic_roughness_texture.texture >= 0, "metallic-roughness map");
+  add(m.normal_texture.texture >= 0, "normal map");
+  add(m.emission_texture.texture >= 0, "emission map");
+  add(m.specular_texture.texture >= 0, "specular map");
+  add(m.specular_color_texture.texture >= 0, "specular color map");
+  add(emits(m), "emissive");
+  add(m.alpha_mode == AlphaMode::mask, "alpha mask");
+  add(m.alpha_mode == AlphaMode::blend, "alpha blend");
+  add(m.double_sided, "double-sided");
+  add(m.unlit, "unlit");
+  add(m.lambert, "lambert");
+  return features;
+}
+
+void print_materials(const Scene& scene) {
+  row("materials", "%zu", scene.materials.size());
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& m = scene.materials[i];
+    std::printf("  %3zu  %-24s color %s, metallic %.3g, roughness %.3g", i,
+                printable(m.name).c_str(), text_of(m.base_color).c_str(), m.metallic, m.roughness);
+    if (emits(m)) std::printf(", emission %s W/(m2 sr)", text_of(m.emission).c_str());
+    const auto features = features_of(m);
+    if (!features.empty()) std::printf("; %s", join(features).c_str());
+    std::printf("\n");
+  }
+}
+
+void print_textures(const Scene& scene, const Totals& totals) {
+  row("textures", "%zu, %.1f MiB with MIPs", scene.textures.size(),
+      static_cast<double>(totals.texture_bytes) / kBytesPerMebibyte);
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& t = scene.textures[i];
+    std::printf("  %3zu  %5d x %-5d %-6s %6.1f MiB  %s\n", i, t.levels[0].width, t.levels[0].height,
+                t.srgb ? "sRGB" : "linear", static_cast<double>(bytes_of(t)) / kBytesPerMebibyte,
+                printable(t.name).c_str());
+  }
+}
+
+void print_lights(const Scene& scene, const Totals& totals) {
+  row("lights", "%zu, and %zu emissive triangles", scene.lights.size(), totals.emissive_triangles);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    const bool directional = light.type == Light::Type::directional;
+    std::printf("  %3zu  %-24s %s %s %s", i, printable(light.name).c_str(), name_of(light.type),
+                text_of(light.intensity).c_str(), directional ? "W/m2" : "W/sr");
+    if (!directional) std::printf(", at %s m", text_of(light.position_ws).c_str());
+    if (light.type != Light::Type::point) {
+      std::printf(", travels %s", text_of(light.direction_ws).c_str());
+    }
+    if (light.type == Light::Type::spot) {
+      std::printf(", cone %.1f to %.1f deg", glm::degrees(light.inner_cone_angle),
+                  glm::degrees(light.outer_cone_angle));
+    }
+    if (light.range > 0.0f) std::printf(", range %.4g m", light.range);
+    std::printf("\n");
+  }
+}
+
+void print_cameras(const Scene& scene) {
+  row("cameras", "%zu", scene.cameras.size());
+  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+    const Camera& camera = scene.cameras[i];
+    std::printf("  %3zu  %-24s at %s m, ", i, printable(camera.name).c_str(),
+                text_of(glm::vec3(camera.world_from_view[3])).c_str());
+    if (camera.orthographic) {
+      std::printf("orthographic, %.4g m high\n", camera.vertical_extent);
+    } else {
+      std::printf("vertical fov %.1f deg\n", glm::degrees(camera.vertical_fov));
+    }
+  }
+}
+
+void print_human(const Scene& scene, const std::string& name) {
+  const Totals totals = total(scene);
+  const SceneSource& source = scene.source;
+  row("scene", "%s", name.c_str());
+  if (!source.generator.empty()) row("generator", "%s", printable(source.generator).c_str());
+  row("extensions", "%s", join(source.extensions).c_str());
+  row("meshes", "%zu (%zu triangles, %zu vertices)", scene.meshes.size(), totals.mesh_triangles,
+      totals.vertices);
+  row("instances", "%zu (%zu triangles)", scene.instances.size(), totals.triangles);
+  print_materials(scene);
+  print_textures(scene, totals);
+  print_lights(scene, totals);
+  print_cameras(scene);
+  const Bounds bounds = world_bounds(scene);
+  if (bounds.empty()) {
+    row("bounds", "empty");
+  } else {
+    row("bounds", "%s to %s m", text_of(bounds.min).c_str(), text_of(bounds.max).c_str());
+  }
+  const Image& map = scene.environment.map;
+  if (map.empty()) {
+    row("environment", "%s W/(m2 sr)", text_of(scene.environment.radiance).c_str());
+  } else {
+    row("environment", "map of %d x %d, times %s", map.width, map.height,
+        text_of(scene.environment.radiance).c_str());
+  }
+  row("file", "%d nodes, %d scenes, %d animations, %d skins, %d morph targets", source.nodes,
+      source.scenes, source.animations, source.skins, source.morph_targets);
+  row("warnings", "%zu", source.warnings.size());
+  for (const std::string& warning : source.warnings) {
+    std::printf("  %s\n", printable(warning).c_str());
+  }
+}
+
+nlohmann::ordered_json list_of(const glm::vec3& v) {
+  return {v.x, v.y, v.z};
+}
+
+// One flat object; what a scene has many of becomes parallel lists.
+nlohmann::ordered_json json_of(const Scene& scene, const std::string& name) {
+  const Totals totals = total(scene);
+  const SceneSource& source = scene.source;
+  nlohmann::ordered_json json;
+  json["scene"] = name;
+  json["generator"] = source.generator;
+  json["extensions"] = source.extensions;
+  json["meshes"] = scene.meshes.size();
+  json["mesh_triangles"] = totals.mesh_triangles;
+  json["vertices"] = totals.vertices;
+  json["instances"] = scene.instances.size();
+  json["triangles"] = totals.triangles;
+  json["emissive_triangles"] = totals.emissive_triangles;
+  json["materials"] = scene.materials.size();
+  json["textures"] = scene.textures.size();
+  json["texture_bytes"] = totals.texture_bytes;
+  const char* const kLists[] = {
+      "light_names",      "light_types",  "light_intensities",  "light_positions_m",
+      "light_directions", "camera_names", "camera_positions_m", "camera_vertical_fovs_rad"};
+  json["lights"] = scene.lights.size();
+  json["cameras"] = scene.cameras.size();
+  for (const char* list : kLists) json[list] = nlohmann::ordered_json::array();
+  for (const Light& light : scene.lights) {
+    json["light_names"].push_back(light.name);
+    json["light_types"].push_back(name_of(light.type));
+    json["light_intensities"].push_back(list_of(light.intensity));
+    json["light_positions_m"].push_back(list_of(light.position_ws));
+    json["light_directions"].push_back(list_of(light.direction_ws));
+  }
+  for (const Camera& camera : scene.cameras) {
+    json["camera_names"].push_back(camera.name);
+    json["camera_positions_m"].push_back(list_of(glm::vec3(camera.world_from_view[3])));
+    json["camera_vertical_fovs_rad"].push_back(camera.orthographic ? 0.0f : camera.vertical_fov);
+  }
+  const Bounds bounds = world_bounds(scene);
+  json["bounds_min_m"] = bounds.empty() ? nlohmann::ordered_json() : list_of(bounds.min);
+  json["bounds_max_m"] = bounds.empty() ? nlohmann::ordered_json() : list_of(bounds.max);
+  json["environment_radiance"] = list_of(scene.environment.radiance);
+  json["environment_width_px"] = scene.environment.map.width;
+  json["environment_height_px"] = scene.environment.map.height;
+  json["nodes"] = source.nodes;
+  json["scenes"] = source.scenes;
+  json["animations"] = source.animations;
+  json["skins"] = source.skins;
+  json["morph_targets"] = source.morph_targets;
+  json["warnings"] = source.warnings;
+  return json;
+}
+
+struct InfoOptions {
+  std::string scene;
+  bool json = false;
+};
+
+Expected<void> info(const InfoOptions& options) {
+  const Expected<Scene> scene = scenes::open_scene(options.scene);
+  if (!scene) return tl::unexpected(scene.error());
+  if (options.json) {
+    // Names are UTF-8 already; a path need not be
+    const auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    std::printf("%s\n", json_of(*scene, options.scene).dump(2, ' ', false, replace).c_str());
+  } else {
+    print_human(*scene, options.scene);
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Run& run) {
+  auto options = std::make_shared<InfoOptions>();
+  CLI::App* command = app.add_subcommand("info", "Print what was understood of a scene.");
+  command->add_option("SCENE", options->scene, "A .gltf or .glb file, or a built-in scene")
+      ->required();
+  command->add_flag("--json", options->json, "Print one flat JSON object");
+  command->callback([options, &run] { run = [options] { return info(*options); }; });
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node hierarchy: which nodes a scene shows, and where they stand.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf_document.h"
+
+namespace lambent::gltf {
+
+struct NodeTree {
+  std::vector<glm::mat4> world_from_node;  ///< One a node of the file; finite and affine.
+  std::vector<int> visible;  ///< Nodes of the chosen scene, parents before children, in file order.
+};
+
+/// Builds the tree. Fails on cycles, nodes with two parents and transforms that are not finite.
+/// `scene` is an index, or -1 for the file's default.
+Expected<NodeTree> build_node_tree(Document& document, int scene);
+
+/// Translation, rotation and scale as a matrix; each may be null, the rotation need not be unit.
+glm::dmat4 compose_transform(const double* translation, const double* rotation,
+                             const double* scale);
+
+}  // namespace lambent::gltf

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a mesh from a file may lack before it can be rendered.
+#pragma once
+
+#include <cstddef>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+/// Drops triangles without area, for which there is no normal. Returns how many.
+std::size_t drop_degenerate_triangles(Mesh& mesh);
+
+/// Gives each triangle vertices of its own with its geometric normal (glTF 2.0, sec. 3.7.2.1).
+void make_flat_normals(Mesh& mesh);
+
+/// Scales normals to unit length; those without direction become the normal of a triangle that uses
+/// them. Returns how many had none.
+std::size_t repair_normals(Mesh& mesh);
+
+/// Scales tangents to unit length, with w = +1 or -1; those without direction become some vector
+/// perpendicular to the normal. Returns how many had none.
+std::size_t repair_tangents(Mesh& mesh);
+
+/// Computes tangents from a set of texture coordinates, splitting vertices where the coordinates
+/// mirror.
+void make_tangents(Mesh& mesh, int uv_set);
+
+}  // namespace lambent

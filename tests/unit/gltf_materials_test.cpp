@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <webp/encode.h>
+
+#include "scene/texture.h"
+#include "unit/gltf_builder.h"
+
+namespace lambent {
+namespace {
+
+using test::error_of;
+using test::GltfBuilder;
+using test::Json;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::SizeIs;
+
+const std::vector<std::uint8_t> kGrey = {188, 188, 188, 255};
+
+// A builder whose images, textures and samplers are asked for by the materials of a test.
+GltfBuilder with_image(const std::vector<std::uint8_t>& file) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.append("images", {{"bufferView", builder.view(file)}});
+  builder.append("textures", {{"source", 0}});
+  return builder;
+}
+
+Material only_material(const Json& material) {
+  GltfBuilder builder;
+  builder.append("materials", material);
+  const Expected<Scene> scene = builder.load();
+  EXPECT_TRUE(scene) << error_of(scene);
+  return scene ? scene->materials.at(0) : Material{};
+}
+
+TEST(GltfMaterials, HaveTheDefaultsOfTheSpecification) {
+  const Material m = only_material(Json::object());
+  EXPECT_EQ(m.base_color, glm::vec4(1.0f));
+  EXPECT_EQ(m.metallic, 1.0f);
+  EXPECT_EQ(m.roughness, 1.0f);
+  EXPECT_EQ(m.emission, glm::vec3(0.0f));
+  EXPECT_EQ(m.alpha_mode, AlphaMode::opaque);
+  EXPECT_EQ(m.alpha_cutoff, 0.5f);
+  EXPECT_EQ(m.ior, 1.5f);
+  EXPECT_FALSE(m.double_sided);
+  EXPECT_FALSE(m.unlit);
+}
+
+TEST(GltfMaterials, ReadEveryFactor) {
+  const Material m = only_material(Json::parse(R"({
+    "name": "m", "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
+    "emissiveFactor": [0.5, 0.25, 0],
+    "pbrMetallicRoughness": {
+      "baseColorFactor": [0.125, 0.25, 0.5, 0.75], "metallicFactor": 0.5, "roughnessFactor": 0.25},
+    "extensions": {
+      "KHR_materials_emissive_strength": {"emissiveStrength": 8},
+      "KHR_materials_ior": {"ior": 1.25},
+      "KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 2]},
+      "KHR_materials_unlit": {}}})"));
+  EXPECT_EQ(m.name, "m");
+  EXPECT_TRUE(m.double_sided);
+  EXPECT_EQ(m.alpha_mode, AlphaMode::mask);
+  EXPECT_EQ(m.alpha_cutoff, 0.25f);
+  EXPECT_EQ(m.emission, glm::vec3(4, 2, 0));
+  EXPECT_EQ(m.base_color, glm::vec4(0.125f, 0.25f, 0.5f, 0.75f));
+  EXPECT_EQ(m.metallic, 0.5f);
+  EXPECT_EQ(m.roughness, 0.25f);
+  EXPECT_EQ(m.ior, 1.25f);
+  EXPECT_EQ(m.specular, 0.5f);
+  EXPECT_EQ(m.specular_color, glm::vec3(1, 0.5f, 2));
+  EXPECT_TRUE(m.unlit);
+}
+
+TEST(GltfMaterials, OfPrimitivesWithoutOneAreTheDefault) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  ASSERT_THAT(scene->materials, SizeIs(1));
+  EXPECT_EQ(scene->meshes.at(0).material, 0);
+}
+
+TEST(GltfMaterials, LambertIsSetOnEach) {
+  GltfBuilder builder;
+  builder.append("materials", Json::object());
+  builder.show(builder.triangle());
+  LoadOptions options;
+  options.lambert = true;
+  const Expected<Scene> scene = builder.load(options);
+  ASSERT_TRUE(scene) << error_of(scene);
+  ASSERT_THAT(scene->materials, SizeIs(2));
+  for (const Material& material : scene->materials) EXPECT_TRUE(material.lambert);
+}
+
+TEST(GltfTextures, ShareAnImageUsedAlikeAndSplitColorFromData) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  builder.append("textures", {{"source", 0}});
+  builder.append("materials", Json::parse(R"({
+    "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}},
+    "emissiveTexture": {"index": 1}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  const Material& m = scene->materials.at(0);
+  ASSERT_THAT(scene->textures, SizeIs(2));
+  EXPECT_EQ(m.base_color_texture.texture, m.emission_texture.texture);
+  EXPECT_NE(m.base_color_texture.texture, m.metallic_roughness_texture.texture);
+  EXPECT_TRUE(scene->textures[m.base_color_texture.texture].srgb);
+  EXPECT_FALSE(scene->textures[m.metallic_roughness_texture.texture].srgb);
+  // 188 is half the light in sRGB, and 188/255 as a number
+  EXPECT_NEAR(sample_texture(*scene, m.base_color_texture, {0.5f, 0.5f}).r, 0.5f, 0.003f);
+  EXPECT_NEAR(sample_texture(*scene, m.metallic_roughness_texture, {0.5f, 0.5f}).r, 188.0f / 255.0f,
+              1e-6f);
+}
+
+TEST(GltfTextures, ReadSamplersAndTransforms) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  builder.append("samplers", {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}});
+  builder.root["textures"][0]["sampler"] = 0;
+  builder.append("materials", Json::parse(R"({"pbrMetallicRoughness": {"baseColorTexture": {
+    "index": 0, "texCoord": 0, "extensions": {"KHR_texture_transform": {
+      "offset": [0.5, -1], "rotation": 0.25, "scale": [2, 3], "texCoord": 1}}}}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  const TextureView& view = scene->materials.at(0).base_color_texture;
+  EXPECT_EQ(view.wrap_u, Wrap::clamp_to_edge);
+  EXPECT_EQ(view.wrap_v, Wrap::mirrored_repeat);
+  EXPECT_TRUE(view.nearest);
+  EXPECT_EQ(view.uv_set, 1);
+  EXPECT_EQ(view.uv_offset, glm::vec2(0.5f, -1));
+  EXPECT_EQ(view.uv_rotation, 0.25f);
+  EXPECT_EQ(view.uv_scale, glm::vec2(2, 3));
+}
+
+TEST(GltfTextures, PreferWebp) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  std::uint8_t* encoded = nullptr;
+  const std::vector<std::uint8_t> red = {255, 0, 0, 128};
+  const std::size_t size = WebPEncodeLosslessRGBA(red.data(), 1, 1, 4, &encoded);
+  ASSERT_GT(size, 0u);
+  const std::vector<std::uint8_t> file(encoded, encoded + size);
+  WebPFree(encoded);
+  builder.append("images", {{"bufferView", builder.view(file)}, {"mimeType", "image/webp"}});
+  builder.root["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+  builder.root["extensionsRequired"] = {"EXT_texture_webp"};
+  builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_EQ(scene->textures.at(0).levels.at(0).rgba, red);
+}
+
+TEST(GltfTextures, FallBackFromBasisToThePlainImage) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  builder.append("images", {{"bufferView", builder.view(std::vector<std::uint8_t>{1, 2, 3})}});
+  builder.root["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 1;
+  builder.root["extensionsUsed"] = {"KHR_texture_basisu"};
+  builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_EQ(scene->textures.at(0).levels.at(0).rgba, kGrey);
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("KHR_texture_basisu")));
+  builder.root["textures"][0].erase("source");
+  EXPECT_THAT(error_of(builder.load()),
+              HasSubstr("textures[0]: has no image of a supported format"));
+}
+
+TEST(GltfTextures, CorruptImagesAreErrorsThatNameThem) {
+  const Json material = Json::parse(R"({"emissiveTexture": {"index": 0}})");
+  std::vector<std::uint8_t> truncated = test::png_of(1, 1, kGrey);
+  truncated.resize(truncated.size() / 2);
+  for (const auto& file : {truncated, std::vector<std::uint8_t>{'n', 'o', 't', '!'}}) {
+    GltfBuilder builder = with_image(file);
+    builder.append("materials", material);
+    EXPECT_THAT(error_of(builder.load()), HasSubstr("images[0]: the image is"));
+  }
+}
+
+TEST(GltfTextures, AbsurdSizesFailBeforeAnyAllocation) {
+  std::vector<std::uint8_t> png = test::png_of(1, 1, kGrey);
+  // The width, big-endian, stands at byte 16
+  png[16] = 0x00;
+  png[17] = 0xff;
+  GltfBuilder builder = with_image(png);
+  builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
+  EXPECT_THAT(error_of(builder.load()), HasSubstr("exceeds 16384"));
+}
+
+TEST(GltfTextures, MissingTextureCoordinatesAreAWarning) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
+  builder.root["meshes"][0]["primitives"][0]["material"] = 0;
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("lack texture coordinates")));
+}
+
+}  // namespace
+}  // namespace lambent
