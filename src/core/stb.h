@@ -6,8 +6,6 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_PNG
 #define STBI_NO_STDIO
-/// stb_image refuses images wider or higher than this before it allocates.
-#define STBI_MAX_DIMENSIONS (1 << 16)
 
 #include <stb/stb_image.h>
 

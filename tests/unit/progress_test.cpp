@@ -16,7 +16,7 @@ struct Bench {
 };
 
 TEST(ProgressLine, ShowsShareAndTimeLeft) {
-  EXPECT_EQ(progress_line("trace", 0.25, 10.0, 40), "trace  [##........]  25 %  30 s left");
+  EXPECT_EQ(progress_line("trace", 0.25, 10.0, 40), "trace  [###...........]  25 %  30 s left");
   EXPECT_NE(progress_line("trace", 0.5, 185.0, 80).find("3 min 05 s left"), std::string::npos);
   EXPECT_NE(progress_line("trace", 0.5, 7800.0, 80).find("2 h 10 min left"), std::string::npos);
 }

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: Apache-2.0
+# Sourced by the other scripts: installs what Lambent is built from, where it is missing.
+
+# Debian package names (Debian 12 and newer, Ubuntu 24.04 and newer).
+lambent_packages=(
+  # Tools
+  g++ cmake ninja-build ccache git glslc
+  # Ray tracing, threads, mathematics
+  libembree-dev libtbb-dev libglm-dev libeigen3-dev
+  # Images and scenes
+  libopenexr-dev libstb-dev libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
+  nlohmann-json3-dev
+  # Program and errors
+  libcli11-dev libexpected-dev
+  # Tests and benches
+  libgtest-dev libgmock-dev libbenchmark-dev
+)
+
+# Prints the packages of the list that are not installed.
+lambent_missing_packages() {
+  local package
+  for package in "${lambent_packages[@]}"; do
+    dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2>/dev/null |
+      grep -qx installed || echo "$package"
+  done
+}
+
+# Installs the missing packages, naming them first. Returns 1 with a message where it cannot.
+lambent_install_dependencies() {
+  if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
+    {
+      echo "lambent: this script installs packages with apt-get, which is not here."
+      echo "lambent: install the equivalents of these by other means, then see README.md:"
+      printf '  %s\n' "${lambent_packages[@]}"
+    } >&2
+    # Somebody may have done so already: go on where the tools are there, and let CMake judge the rest.
+    command -v cmake >/dev/null && command -v ninja >/dev/null
+    return
+  fi
+
+  local missing
+  mapfile -t missing < <(lambent_missing_packages)
+  if ((${#missing[@]} == 0)); then
+    return 0
+  fi
+  echo "lambent: installing ${missing[*]}" >&2
+
+  local as_root=()
+  if ((EUID != 0)); then
+    if ! command -v sudo >/dev/null; then
+      echo "lambent: these packages are missing, and neither root nor sudo is here to install them:" >&2
+      echo "lambent:   apt-get install ${missing[*]}" >&2
+      return 1
+    fi
+    as_root=(sudo)
+  fi
+  if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q ||
+    ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -q -y --no-install-recommends "${missing[@]}"; then
+    echo "lambent: apt-get could not install: ${missing[*]}" >&2
+    return 1
+  fi
+}

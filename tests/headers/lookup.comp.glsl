@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bridged lookup loop over bindings of a shader's own.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
+
+#include "field/lookup.h"
+
+layout(local_size_x = 64) in;
+layout(scalar, binding = 0) readonly buffer Probes { vec4 irradiance_and_distance[]; } probes;
+layout(scalar, binding = 1) buffer Points { vec3 points[]; } io;
+layout(scalar, push_constant) uniform Constants { ProbeGrid grid; } constants;
+
+vec2 fetch_moments(int probe, vec3 direction) {
+  float mean = probes.irradiance_and_distance[probe].w + 0.0 * direction.x;
+  return vec2(mean, mean * mean);
+}
+
+vec3 fetch_irradiance(int probe, vec3 direction) {
+  return probes.irradiance_and_distance[probe].xyz + vec3(0.0 * direction.x);
+}
+
+#include "field/lookup.inl.h"
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  vec3 up = vec3(0.0, 1.0, 0.0);
+  io.points[i] = lookup_irradiance(constants.grid, io.points[i], up, up);
+}
