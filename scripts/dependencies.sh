@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
 # Sourced by the other scripts: installs what Lambent is built from, where it is missing.
 
 # Debian package names (Debian 12 and newer, Ubuntu 24.04 and newer).

@@ -126,7 +126,7 @@ void print_json(const std::vector<Comparison>& comparisons) {
     const bool plain = comparisons.size() == 1 || comparison.name_a.empty();
     add_numbers(comparison, plain ? "" : comparison.name_a + ".", numbers);
   }
-  std::printf("%s\n", numbers.dump(2).c_str());
+  std::printf("%s\n", numbers.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
 }
 
 std::string number_text(double value, const char* format) {

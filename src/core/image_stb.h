@@ -18,6 +18,11 @@ struct ImageHeader {
 
 using StbPixels = std::unique_ptr<std::uint8_t, void (*)(void*)>;
 
+/// Whether stb_image may be let loose on a PNG or JPEG at all: version 2.27 (Debian 12) writes
+/// beyond its tables where a JPEG declares more than 256 Huffman codes. Call it before any other
+/// function of stb_image.
+bool is_safe_for_stb(ByteView bytes);
+
 /// The size of a PNG or JPEG, checked against the limits.
 Expected<ImageHeader> read_stb_header(const std::string& path, ByteView bytes);
 

@@ -5,8 +5,8 @@
 
 #include <climits>
 #include <cstring>
-#include <memory>
 
+#include "core/image_stb.h"
 #include "core/stb.h"
 
 namespace lambent {
@@ -41,6 +41,9 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
   if (format == Format::unknown) return fail(file, place, "the image is not PNG, JPEG or WebP");
   if (bytes.size() > INT_MAX) return fail(file, place, "the image file is absurdly large");
   const int size = static_cast<int>(bytes.size());
+  if (format != Format::webp && !is_safe_for_stb(std::as_bytes(bytes))) {
+    return fail(file, place, "the image is corrupt or truncated");
+  }
 
   // Ask for the dimensions first: nothing is allocated for absurd ones
   TextureLevel level;
@@ -64,13 +67,13 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
     }
     return level;
   }
-  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
-      stbi_load_from_memory(bytes.data(), size, &level.width, &level.height, &channels, 4),
-      stbi_image_free);
-  if (!pixels || absurd(level.width, level.height)) {
-    return fail(file, place, "the image is corrupt or truncated");
+  constexpr int kRgba = 4;
+  const Expected<StbPixels> pixels = decode_stb_bytes(file, std::as_bytes(bytes), kRgba);
+  if (!pixels) {
+    return fail(file, place, "the image is corrupt or truncated (" + pixels.error().cause + ")");
   }
-  level.rgba.assign(pixels.get(), pixels.get() + rgba_bytes(level.width, level.height));
+  const std::uint8_t* first = pixels->get();
+  level.rgba.assign(first, first + rgba_bytes(level.width, level.height));
   return level;
 }
 

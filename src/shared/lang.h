@@ -32,7 +32,9 @@ using glm::vec3;
 using glm::vec4;
 using uint = std::uint32_t;
 
-inline int clamp(int x, int low, int high) { return x < low ? low : (x > high ? high : x); }
+inline int clamp(int x, int low, int high) {
+  return x < low ? low : (x > high ? high : x);
+}
 using glm::clamp;
 using glm::cross;
 using glm::dot;
@@ -60,13 +62,27 @@ using std::log2;
 using std::pow;
 using std::sin;
 using std::sqrt;
-inline float atan(float y, float x) { return std::atan2(y, x); }
-inline vec3 abs(const vec3& v) { return glm::abs(v); }
-inline vec2 abs(const vec2& v) { return glm::abs(v); }
-inline vec3 floor(const vec3& v) { return glm::floor(v); }
-inline vec2 floor(const vec2& v) { return glm::floor(v); }
-inline vec3 sqrt(const vec3& v) { return glm::sqrt(v); }
-inline vec3 pow(const vec3& v, const vec3& e) { return glm::pow(v, e); }
+inline float atan(float y, float x) {
+  return std::atan2(y, x);
+}
+inline vec3 abs(const vec3& v) {
+  return glm::abs(v);
+}
+inline vec2 abs(const vec2& v) {
+  return glm::abs(v);
+}
+inline vec3 floor(const vec3& v) {
+  return glm::floor(v);
+}
+inline vec2 floor(const vec2& v) {
+  return glm::floor(v);
+}
+inline vec3 sqrt(const vec3& v) {
+  return glm::sqrt(v);
+}
+inline vec3 pow(const vec3& v, const vec3& e) {
+  return glm::pow(v, e);
+}
 }  // namespace lambent
 
 #else

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small number formats, each as encode and decode. Encoders take a uniform random number per channel and round up or
-// down with the probability that makes the decoded value right on average (dither), so that a value stored again and
-// again neither stalls nor drifts; 0.5 everywhere rounds to nearest.
+// Small number formats, each as encode and decode. Encoders take a uniform random number per
+// channel and round up or down with the probability that makes the decoded value right on average
+// (dither), so that a value stored again and again neither stalls nor drifts; 0.5 everywhere rounds
+// to nearest.
 #ifndef LAMBENT_SHARED_PACKING_H
 #define LAMBENT_SHARED_PACKING_H
 
@@ -9,13 +10,16 @@
 
 LAMBENT_BEGIN
 
-// Unsigned floats with 5 exponent bits (bias 15) and 5 to 10 mantissa bits: the channels of R11G11B10F and, without
-// its sign, of a half. Numbers below the smallest normal one, 2^-14, are stored as 0 or as 2^-14.
+// Unsigned floats with 5 exponent bits (bias 15) and 5 to 10 mantissa bits: the channels of
+// R11G11B10F and, without its sign, of a half. Numbers below the smallest normal one, 2^-14, are
+// stored as 0 or as 2^-14.
 const float kSmallFloatMin = 6.103515625e-05f;
 const uint kSmallFloatBiasShift = 112u;  // 127 - 15, between the exponent biases
 
 /// 2 to an integer power, -126 to 127, exactly.
-LAMBENT_FN float power_of_two(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23u); }
+LAMBENT_FN float power_of_two(int exponent) {
+  return uintBitsToFloat(uint(exponent + 127) << 23u);
+}
 
 /// Largest finite value with that many mantissa bits.
 LAMBENT_FN float small_float_max(int mantissa_bits) {
@@ -30,7 +34,8 @@ LAMBENT_FN float decode_small_float(uint bits, int mantissa_bits) {
 /// The largest code whose value is not above `value`, which is clamped to [0, max].
 LAMBENT_FN uint encode_small_float_down(float value, int mantissa_bits) {
   float clamped = min(value, small_float_max(mantissa_bits));
-  uint code = (floatBitsToUint(clamped) - (kSmallFloatBiasShift << 23u)) >> uint(23 - mantissa_bits);
+  uint code =
+      (floatBitsToUint(clamped) - (kSmallFloatBiasShift << 23u)) >> uint(23 - mantissa_bits);
   return value >= kSmallFloatMin ? code : 0u;
 }
 
@@ -56,10 +61,12 @@ LAMBENT_FN uint encode_half2(vec2 value, vec2 u) {
 }
 
 LAMBENT_FN vec2 decode_half2(uint word) {
-  return vec2(decode_small_float(word & 0x7FFFu, 10), decode_small_float((word >> 16u) & 0x7FFFu, 10));
+  return vec2(decode_small_float(word & 0x7FFFu, 10),
+              decode_small_float((word >> 16u) & 0x7FFFu, 10));
 }
 
-// RGB9E5: three 9-bit mantissas under one 5-bit exponent (bias 15), as in EXT_texture_shared_exponent.
+// RGB9E5: three 9-bit mantissas under one 5-bit exponent (bias 15), as in
+// EXT_texture_shared_exponent.
 const float kRgb9e5Max = 65408.0f;
 const float kRgb9e5MantissaMax = 511.0f;
 const int kRgb9e5BiasAndBits = 24;  // exponent bias 15 + 9 mantissa bits
@@ -72,7 +79,8 @@ LAMBENT_FN vec3 decode_rgb9e5(uint word) {
 LAMBENT_FN uint encode_rgb9e5(vec3 value, vec3 u) {
   vec3 v = clamp(value, vec3(0.0f), vec3(kRgb9e5Max));
   float largest = max(v.x, max(v.y, v.z));
-  // The exponent of the largest channel, read off its bits; one more where rounding up would overflow 9 bits.
+  // The exponent of the largest channel, read off its bits; one more where rounding up would
+  // overflow 9 bits.
   int exponent = max(int(floatBitsToUint(largest) >> 23u) - 127, -16) + 16;
   if (largest > kRgb9e5MantissaMax * power_of_two(exponent - kRgb9e5BiasAndBits)) exponent += 1;
   exponent = min(exponent, 31);

@@ -29,7 +29,9 @@ LAMBENT_FN uvec3 hash_pcg3d(uvec3 v) {
 }
 
 /// A float in [0, 1) from the upper 24 bits: every value is exact and 1 never occurs.
-LAMBENT_FN float uniform_from_bits(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.0f); }
+LAMBENT_FN float uniform_from_bits(uint bits) {
+  return float(bits >> 8u) * (1.0f / 16777216.0f);
+}
 
 /// Two numbers in [0, 1) from one word, 16 bits each: coarse, but enough to dither with.
 LAMBENT_FN vec2 dither2_from_bits(uint bits) {

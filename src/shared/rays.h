@@ -6,13 +6,15 @@
 
 LAMBENT_BEGIN
 
-/// Coordinates smaller than this [m] are offset by a constant, larger ones by units in the last place.
+/// Coordinates smaller than this [m] are offset by a constant, larger ones by units in the last
+/// place.
 const float kRayOffsetOrigin = 1.0f / 32.0f;
 const float kRayOffsetFloatScale = 1.0f / 65536.0f;
 const float kRayOffsetIntScale = 256.0f;
 
-/// `p` moved off a surface, to the side its geometric normal points to, by just more than float error.
-/// Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray Tracing Gems, 2019.
+/// `p` moved off a surface, to the side its geometric normal points to, by just more than float
+/// error. Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
+/// Tracing Gems, 2019.
 LAMBENT_FN float offset_ray_component(float p, float n) {
   int units = int(kRayOffsetIntScale * n);
   float far = intBitsToFloat(floatBitsToInt(p) + (p < 0.0f ? -units : units));

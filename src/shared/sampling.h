@@ -40,7 +40,9 @@ LAMBENT_FN vec3 sample_cosine_hemisphere(vec2 u) {
   return vec3(radius * cos(angle), radius * sin(angle), sqrt(max(0.0f, 1.0f - u.x)));
 }
 
-LAMBENT_FN float pdf_cosine_hemisphere(float cos_theta) { return max(0.0f, cos_theta) * kInvPi; }
+LAMBENT_FN float pdf_cosine_hemisphere(float cos_theta) {
+  return max(0.0f, cos_theta) * kInvPi;
+}
 
 /// The point of the unit square that sample_cosine_hemisphere maps to a direction.
 LAMBENT_FN vec2 invert_cosine_hemisphere(vec3 direction) {
@@ -57,7 +59,9 @@ LAMBENT_FN vec3 sample_uniform_sphere(vec2 u) {
   return vec3(radius * cos(angle), radius * sin(angle), z);
 }
 
-LAMBENT_FN float pdf_uniform_sphere() { return 0.25f * kInvPi; }
+LAMBENT_FN float pdf_uniform_sphere() {
+  return 0.25f * kInvPi;
+}
 
 /// Uniform barycentrics (weights of the second and third vertex) of a triangle.
 LAMBENT_FN vec2 sample_uniform_triangle(vec2 u) {

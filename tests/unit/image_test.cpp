@@ -7,6 +7,7 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -220,6 +221,20 @@ TEST(Jpeg, IsReadAndItsTruncationsAreErrors) {
   ASSERT_TRUE(read) << read.error().message();
   EXPECT_NEAR(read->find("")->at(30, 20)[1], linear_from_srgb(128.0f / 255.0f), 0.01f);
   expect_truncations_fail(directory.file("a.jpg"), directory.file("cut.jpg"));
+}
+
+TEST(Jpeg, ImpossibleHuffmanTablesAreRefusedBeforeDecoding) {
+  const std::vector<std::uint8_t> grey(16 * 16 * 3, 128);
+  std::vector<std::byte> bytes;
+  ASSERT_NE(stbi_write_jpg_to_func(append, &bytes, 16, 16, 3, grey.data(), 90), 0);
+  ASSERT_TRUE(decode_png_or_jpeg("a.jpg", bytes));
+  const std::byte marker[] = {std::byte{0xff}, std::byte{0xc4}};
+  const auto table = std::search(bytes.begin(), bytes.end(), std::begin(marker), std::end(marker));
+  ASSERT_NE(table, bytes.end());
+  for (int length = 1; length <= 2; ++length) table[4 + length] = std::byte{0xff};
+  const auto image = decode_png_or_jpeg("a.jpg", bytes);
+  ASSERT_FALSE(image);
+  EXPECT_EQ(image.error().cause, "cannot be decoded: impossible Huffman tables");
 }
 
 TEST(Hdr, RoundTripIsWithinTheSharedExponentAndTruncationsAreErrors) {
