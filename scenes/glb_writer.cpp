@@ -3,16 +3,13 @@
 // KHR_materials_emissive_strength, _ior, _specular, _unlit and KHR_texture_transform.
 #include "scenes/glb_writer.h"
 
-#include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <future>
 #include <glm/gtc/type_ptr.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/atomic_file.h"
 #include "scenes/png_encoder.h"
 
 namespace lambent::scenes {
@@ -420,22 +417,9 @@ Expected<std::size_t> write_glb(const Scene& scene, const std::string& path,
     bytes.error().file = path;
     return tl::unexpected(bytes.error());
   }
-  const std::string temporary = path + ".part";
-  std::error_code error;
-  {
-    std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-    file.write(bytes->data(), static_cast<std::streamsize>(bytes->size()));
-    file.close();
-    if (!file) {
-      std::filesystem::remove(temporary, error);
-      return fail(path, "", "cannot be written", Error::Kind::failed);
-    }
-  }
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::error_code ignored;
-    std::filesystem::remove(temporary, ignored);
-    return fail(path, "", "cannot be written: " + error.message(), Error::Kind::failed);
+  if (const Expected<void> written = write_file_atomically(path, std::string_view(*bytes));
+      !written) {
+    return tl::unexpected(written.error());
   }
   return bytes->size();
 }

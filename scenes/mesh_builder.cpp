@@ -78,8 +78,12 @@ void MeshBuilder::facet(const glm::vec3& a, const glm::vec3& b, const glm::vec3&
 
 void MeshBuilder::quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
                        const glm::vec3& d) {
+  quad(a, b, c, d, glm::normalize(b - a));
+}
+
+void MeshBuilder::quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
+                       const glm::vec3& d, const glm::vec3& right) {
   const glm::vec3 n = glm::normalize(glm::cross(c - a, d - b));
-  const glm::vec3 right = glm::normalize(b - a);
   const glm::vec3 up = glm::cross(n, right);
   const auto uv = [&](const glm::vec3& p) {
     return glm::vec2(glm::dot(p, right), -glm::dot(p, up));

@@ -24,6 +24,10 @@ class MeshBuilder {
   /// on across pieces.
   void quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d);
 
+  /// The same where the lower edge does not run along the pattern: u grows along `right` (unit).
+  void quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d,
+            const glm::vec3& right);
+
   /// Which faces of a box are made.
   enum Faces : unsigned {
     kLeft = 1,    // -X
@@ -55,6 +59,30 @@ class MeshBuilder {
   /// that the body lies to the left of the way (upwards on the outside). Corners sharper than
   /// kCreaseAngle are kept.
   void lathe(const glm::vec3& foot, std::span<const glm::vec2> profile, int segments);
+
+  /// A wall with an arched opening, in the plane z = 0: from x = -half_width to half_width, from
+  /// `spring` up to `top`; the opening is half an ellipse. Ends and top are not made: neighbours
+  /// and slabs cover them.
+  struct Arch {
+    float half_width, spring, top;  // [m]
+    float half_span, rise;          // of the opening [m]
+    float thickness;                // along z, half on each side [m]
+    int segments;
+    bool soles;  // close the undersides of the springers
+  };
+  void arch_panel(const Arch& arch);
+
+  /// A raised band around that opening on the wall's +Z face: `width` along the wall, `depth` proud
+  /// of it.
+  void archivolt(const Arch& arch, float width, float depth);
+
+  /// A moulding: `profile` lists (outwards, up) from the lower to the upper edge of its face,
+  /// `path` runs on a level with the outside to its right, mitred at its corners; heights add to
+  /// the path's.
+  void moulding(std::span<const glm::vec2> profile, std::span<const glm::vec3> path, bool closed);
+
+  /// A round bar between two points, without end caps.
+  void bar(const glm::vec3& from, const glm::vec3& to, float radius, int segments);
 
   /// A sphere of flat facets, two poles and `rings` bands.
   void faceted_sphere(const glm::vec3& centre, float radius, int segments, int rings);

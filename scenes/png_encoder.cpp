@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scenes/png_encoder.h"
 
-#include <cstdlib>
 #include <new>
 
-// The library has its own copy; this one stays within this file.
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#define STB_IMAGE_WRITE_STATIC
-#include <stb/stb_image_write.h>
+#include "core/stb.h"
 
 namespace lambent::scenes {
 
@@ -23,12 +19,14 @@ std::string encode_png(const TextureLevel& image) {
   for (std::size_t i = 0; i < pixels; ++i) {
     for (int c = 0; c < channels; ++c) packed[channels * i + c] = image.rgba[kMaxChannels * i + c];
   }
-  int size = 0;
-  unsigned char* bytes = stbi_write_png_to_mem(packed.data(), image.width * channels, image.width,
-                                               image.height, channels, &size);
-  if (bytes == nullptr) throw std::bad_alloc();
-  std::string png(reinterpret_cast<const char*>(bytes), size);
-  std::free(bytes);
+  std::string png;
+  const auto append = [](void* out, void* data, int size) {
+    static_cast<std::string*>(out)->append(static_cast<const char*>(data), size);
+  };
+  if (stbi_write_png_to_func(append, &png, image.width, image.height, channels, packed.data(),
+                             image.width * channels) == 0) {
+    throw std::bad_alloc();
+  }
   return png;
 }
 

@@ -30,8 +30,7 @@ using Expected = tl::expected<T, E>;
 /// Shorthand for `return fail(file, place, cause);` in a function that returns an Expected.
 inline tl::unexpected<Error> fail(std::string file, std::string place, std::string cause,
                                   Error::Kind kind = Error::Kind::bad_input) {
-  return tl::unexpected<Error>(
-      Error{std::move(file), std::move(place), std::move(cause), kind});
+  return tl::unexpected<Error>(Error{std::move(file), std::move(place), std::move(cause), kind});
 }
 
 }  // namespace lambent

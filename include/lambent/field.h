@@ -32,37 +32,46 @@ enum class DistanceFormat : std::uint8_t {
 struct FieldSettings {
   /// Probes along each axis, each >= 2, or all 0: as many as `probe_spacing` asks for.
   glm::ivec3 probe_count{0};
-  /// Distance between neighbouring probes [m], > 0; 0: chosen so that there are about `probe_budget` probes.
-  /// Halving it costs 8 times the rays and memory.
+  /// Distance between neighbouring probes [m], > 0; 0: chosen so that there are about
+  /// `probe_budget` probes. Halving it costs 8 times the rays and memory.
   float probe_spacing = 0.0f;
   /// Probes to aim at where neither count nor spacing is given, >= 8. Costs grow in proportion.
   int probe_budget = 4096;
-  /// Where the outermost probes stand [m]; empty: fitted to the scene, just inside its bounding surfaces.
+  /// Where the outermost probes stand [m]; empty: fitted to the scene, just inside its bounding
+  /// surfaces.
   Bounds volume{};
 
-  /// Rays a probe traces in an update, 8 to 4096. Cost is in proportion; noise falls with the square root.
+  /// Rays a probe traces in an update, 16 to 4096. Cost is in proportion; noise falls with the
+  /// square root.
   int rays_per_probe = 144;
-  /// Share of the old value that an update keeps once enough updates have been averaged, 0 to 0.999. Higher is
-  /// smoother and slower to follow change.
+  /// Share of the old value that an update keeps once enough updates have been averaged, 0 to
+  /// 0.999. Higher is smoother and slower to follow change.
   float hysteresis = 0.97f;
 
-  /// Texels of a probe's irradiance tile along an edge, without gutter, 2 to 16. Bytes grow with the square.
+  /// Texels of a probe's irradiance tile along an edge, without gutter, 2 to 16. Bytes grow with
+  /// the square.
   int irradiance_texels = 4;
   /// The same of its distance tile, 4 to 32.
   int distance_texels = 14;
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
   DistanceFormat distance_format = DistanceFormat::rg16f;
 
-  /// Relighting stops when the estimated error of the multi-bounce solution falls below this share of it, > 0.
+  /// Relighting stops when the estimated error of the multi-bounce solution falls below this share
+  /// of it, > 0.
   float relight_tolerance = 0.002f;
   /// ... or after so many iterations, >= 1. Each costs a fraction of tracing.
   int max_relights = 32;
+  /// Bounces of indirect light to carry, >= 0; -1: all. 0 is the sky's light alone. A limit is
+  /// exact but not accelerated: each bounce costs a relight.
+  int max_bounces = -1;
   /// Albedo is clamped to this at surfels, so that light always dies out, 0 to 0.99.
   float max_albedo = 0.95f;
 
-  /// Points drawn on emissive triangles for a surfel's direct light, >= 1. Each costs a shadow ray a surfel.
+  /// Points drawn on emissive triangles for a surfel's direct light, >= 1. Each costs a shadow ray
+  /// a surfel.
   int emissive_samples = 1;
-  /// Added to the MIP level that a probe ray's footprint asks for [levels]. Lower is sharper and slower.
+  /// Added to the MIP level that a probe ray's footprint asks for [levels]. Lower is sharper and
+  /// slower.
   float texture_lod_bias = 0.0f;
 
   std::uint32_t seed = 1;
@@ -76,8 +85,8 @@ struct FieldGrid {
   int probes() const { return count.x * count.y * count.z; }
 };
 
-/// The grid that the settings ask for in a scene of these bounds. Fails on counts, spacings or volumes that make no
-/// sense and on more probes than memory could hold.
+/// The grid that the settings ask for in a scene of these bounds. Fails on counts, spacings or
+/// volumes that make no sense and on more probes than memory could hold.
 Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_bounds);
 
 /// What an update did. Times are wall-clock [ms].
@@ -88,36 +97,39 @@ struct UpdateStatistics {
   double blend_ms = 0.0;    ///< Distances and irradiance into the store.
   std::uint64_t probe_rays = 0;
   std::uint64_t shadow_rays = 0;
-  int relights = 0;        ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;   ///< Estimated relative error it stopped at.
+  int relights = 0;       ///< Iterations of the multi-bounce solve.
+  double residual = 0.0;  ///< Estimated relative error it stopped at.
+  double change = 0.0;    ///< Of the stored light, root mean square over root mean square.
 };
 
 /// A point to look the field up at.
 struct FieldQuery {
-  glm::vec3 position_ws{0.0f};   ///< [m]
-  glm::vec3 normal_ws{0.0f};     ///< Unit; irradiance is that of a surface with this normal.
-  glm::vec3 to_viewer_ws{0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
+  glm::vec3 position_ws{0.0f};  ///< [m]
+  glm::vec3 normal_ws{0.0f};    ///< Unit; irradiance is that of a surface with this normal.
+  glm::vec3 to_viewer_ws{
+      0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
 };
 
 /// A grid of irradiance probes with visibility, and the light that bounces between them.
 class IrradianceField {
  public:
-  /// A field that holds no light yet. `World` may be a different object in each update, but of the same place.
+  /// A field that holds no light yet. `World` may be a different object in each update, but of the
+  /// same place.
   static Expected<IrradianceField> make(const FieldSettings& settings, const Bounds& scene_bounds);
   ~IrradianceField();
   IrradianceField(IrradianceField&&) noexcept;
   IrradianceField& operator=(IrradianceField&&) noexcept;
 
-  /// Traces every probe once, solves for all bounces and blends the result into the store. The same calls
-  /// with the same seed give the same bits on any number of threads.
+  /// Traces every probe once, solves for all bounces and blends the result into the store. The same
+  /// calls with the same seed give the same bits on any number of threads.
   UpdateStatistics update(const World& world);
 
   /// Forgets all light; the next update starts anew.
   void reset();
 
-  /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not what lights and
-  /// emissive surfaces send straight. Both spans have the same length. Queries outside the grid are answered by
-  /// its nearest probes. Runs on all cores.
+  /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
+  /// what lights and emissive surfaces send straight. Both spans have the same length. Queries
+  /// outside the grid are answered by its nearest probes. Runs on all cores.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result) const;
 
   const FieldGrid& grid() const;

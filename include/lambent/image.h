@@ -11,9 +11,9 @@ namespace lambent {
 
 /// A float image: interleaved channels, rows from the top, pixel (0, 0) at the top left.
 struct Image {
-  int width = 0;     ///< Pixels, >= 0.
-  int height = 0;    ///< Pixels, >= 0.
-  int channels = 0;  ///< Floats a pixel; 3 is linear Rec. 709 unless said otherwise.
+  int width = 0;              ///< Pixels, >= 0.
+  int height = 0;             ///< Pixels, >= 0.
+  int channels = 0;           ///< Floats a pixel; 3 is linear Rec. 709 unless said otherwise.
   std::vector<float> pixels;  ///< width * height * channels floats.
 
   Image() = default;
@@ -34,7 +34,8 @@ struct Image {
   bool empty() const { return pixels.empty(); }
 };
 
-/// One named part of a frame, such as "direct". The layer named "" is the whole picture (EXR's R,G,B).
+/// One named part of a frame, such as "direct". The layer named "" is the whole picture (EXR's
+/// R,G,B).
 struct Layer {
   std::string name;
   Image image;
@@ -53,16 +54,17 @@ struct LayeredImage {
   Image& require(const std::string& name, int channels);
 };
 
-/// Reads .exr (every layer, float or half), .hdr, .png and .jpg (8 bit, decoded from sRGB to linear).
-/// Fails on files that are missing, broken or absurdly large.
+/// Reads .exr (every layer, float or half), .hdr, .png and .jpg (8 bit, decoded from sRGB to
+/// linear). Fails on files that are missing, broken or absurdly large.
 Expected<LayeredImage> read_image(const std::string& path);
 
-/// Writes 32-bit float EXR, one channel group per layer ("direct.R"; the layer "" is "R,G,B"; one-channel
-/// layers are "name.Y"). Writes to a temporary file beside `path` and renames, so no partial file remains.
+/// Writes 32-bit float EXR, one channel group per layer ("direct.R"; the layer "" is "R,G,B";
+/// one-channel layers are "name.Y"). Writes to a temporary file beside `path` and renames, so no
+/// partial file remains.
 Expected<void> write_exr(const std::string& path, const LayeredImage& image);
 
-/// Writes an 8-bit PNG of a display-ready image: channels (1, 3 or 4) already encoded, clamped to [0, 1].
-/// Same all-or-nothing promise as write_exr.
+/// Writes an 8-bit PNG of a display-ready image: channels (1, 3 or 4) already encoded, clamped to
+/// [0, 1]. Same all-or-nothing promise as write_exr.
 Expected<void> write_png(const std::string& path, const Image& display_encoded);
 
 }  // namespace lambent

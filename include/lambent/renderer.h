@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lambent/image.h"
+#include "lambent/progress.h"
 #include "lambent/scene.h"
 
 namespace lambent {
@@ -15,8 +16,8 @@ class IrradianceField;
 
 /// Settings of a frame.
 struct FrameSettings {
-  int width = 1280;   ///< Pixels, 1 to 16384.
-  int height = 720;   ///< Pixels, 1 to 16384.
+  int width = 1280;  ///< Pixels, 1 to 16384.
+  int height = 720;  ///< Pixels, 1 to 16384.
   /// Primary rays a pixel, >= 1: 1 through its centre, more spread over it. Cost is in proportion.
   int samples = 1;
   /// Points drawn on emissive triangles for a sample's direct light, >= 1. Each costs a shadow ray.
@@ -31,16 +32,16 @@ struct PassTime {
 };
 
 struct RenderedFrame {
-  /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect, irradiance,
-  /// glossy, emission, albedo, normal, position, depth.
+  /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect,
+  /// irradiance, glossy, emission, albedo, normal, position, depth.
   LayeredImage image;
   std::vector<PassTime> passes;
   std::uint64_t rays = 0;  ///< Primary and shadow rays.
 };
 
-/// Renders what the camera sees: direct light with shadow rays, and indirect light from the field. A null field
-/// gives direct light and emission alone.
+/// Renders what the camera sees: direct light with shadow rays, and indirect light from the field.
+/// A null field gives direct light and emission alone.
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
-                   const FrameSettings& settings);
+                           const FrameSettings& settings, const ProgressFn& progress = {});
 
 }  // namespace lambent

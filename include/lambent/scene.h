@@ -37,7 +37,7 @@ struct TextureView {
   int uv_set = 0;    ///< Which texture coordinates of the mesh: 0 or 1.
   Wrap wrap_u = Wrap::repeat;
   Wrap wrap_v = Wrap::repeat;
-  bool nearest = false;  ///< Point sampling in place of bilinear.
+  bool nearest = false;       ///< Point sampling in place of bilinear.
   glm::vec2 uv_offset{0.0f};  ///< KHR_texture_transform.
   float uv_rotation = 0.0f;   ///< Counter-clockwise about the origin [rad].
   glm::vec2 uv_scale{1.0f};
@@ -48,19 +48,20 @@ enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 /// A glTF metallic-roughness material. Factors multiply what the textures say.
 struct Material {
   std::string name;
-  glm::vec4 base_color{1.0f};     ///< Linear reflectance and coverage, each 0 to 1.
-  float metallic = 1.0f;          ///< 0 (dielectric) to 1 (metal).
-  float roughness = 1.0f;         ///< Perceptual roughness, 0 to 1; GGX alpha is its square.
-  glm::vec3 emission{0.0f};       ///< Radiance emitted by both sides [W/(m^2 sr)], >= 0.
-  float normal_scale = 1.0f;      ///< Strength of the normal map.
-  float ior = 1.5f;               ///< Index of refraction, >= 1 (KHR_materials_ior).
-  float specular = 1.0f;          ///< Strength of dielectric reflection, 0 to 1 (KHR_materials_specular).
+  glm::vec4 base_color{1.0f};  ///< Linear reflectance and coverage, each 0 to 1.
+  float metallic = 1.0f;       ///< 0 (dielectric) to 1 (metal).
+  float roughness = 1.0f;      ///< Perceptual roughness, 0 to 1; GGX alpha is its square.
+  glm::vec3 emission{0.0f};    ///< Radiance emitted by both sides [W/(m^2 sr)], >= 0.
+  float normal_scale = 1.0f;   ///< Strength of the normal map.
+  float ior = 1.5f;            ///< Index of refraction, >= 1 (KHR_materials_ior).
+  float specular = 1.0f;  ///< Strength of dielectric reflection, 0 to 1 (KHR_materials_specular).
   glm::vec3 specular_color{1.0f};  ///< Tint of dielectric F0, >= 0.
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;  ///< Coverage below which AlphaMode::mask lets rays through.
-  bool double_sided = false;  ///< A probe ray that meets the back of a single-sided surface brings no light.
-  bool unlit = false;         ///< base_color is shown as emitted radiance; reflects nothing.
-  bool lambert = false;       ///< Exact Lambert of albedo base_color * (1 - metallic); nothing specular.
+  bool double_sided =
+      false;  ///< A probe ray that meets the back of a single-sided surface brings no light.
+  bool unlit = false;    ///< base_color is shown as emitted radiance; reflects nothing.
+  bool lambert = false;  ///< Exact Lambert of albedo base_color * (1 - metallic); nothing specular.
 
   TextureView base_color_texture;          ///< RGBA, sRGB.
   TextureView metallic_roughness_texture;  ///< G roughness, B metallic.
@@ -73,19 +74,20 @@ struct Material {
 /// Triangles of one material in object space. Every non-empty attribute has one entry a vertex.
 struct Mesh {
   std::string name;
-  std::vector<glm::vec3> positions;   ///< [m], finite.
-  std::vector<glm::vec3> normals;     ///< Unit length; never empty after loading.
-  std::vector<glm::vec4> tangents;    ///< xyz unit, w = +1 or -1 (bitangent = w * cross(n, t)); may be empty.
+  std::vector<glm::vec3> positions;  ///< [m], finite.
+  std::vector<glm::vec3> normals;    ///< Unit length; never empty after loading.
+  std::vector<glm::vec4>
+      tangents;  ///< xyz unit, w = +1 or -1 (bitangent = w * cross(n, t)); may be empty.
   std::array<std::vector<glm::vec2>, 2> uvs;  ///< Texture coordinate sets; each may be empty.
-  std::vector<glm::vec4> colors;      ///< Linear, multiplied with base_color; may be empty.
-  std::vector<glm::uvec3> triangles;  ///< Vertex indices, each < positions.size().
-  int material = 0;                   ///< Index into Scene::materials.
+  std::vector<glm::vec4> colors;              ///< Linear, multiplied with base_color; may be empty.
+  std::vector<glm::uvec3> triangles;          ///< Vertex indices, each < positions.size().
+  int material = 0;                           ///< Index into Scene::materials.
 };
 
 /// A mesh placed in the world. Meshes are shared, not copied.
 struct Instance {
   std::string name;
-  int mesh = 0;  ///< Index into Scene::meshes.
+  int mesh = 0;                       ///< Index into Scene::meshes.
   glm::mat4 world_from_object{1.0f};  ///< Affine, finite; may mirror.
 };
 
@@ -94,21 +96,24 @@ struct Light {
   enum class Type : std::uint8_t { directional, point, spot };
   std::string name;
   Type type = Type::point;
-  glm::vec3 intensity{1.0f};  ///< Directional: irradiance on a perpendicular surface [W/m^2]. Else radiant intensity [W/sr].
-  glm::vec3 position_ws{0.0f};               ///< Point and spot [m].
-  glm::vec3 direction_ws{0.0f, 0.0f, -1.0f};  ///< The way the light travels; unit. Directional and spot.
-  float range = 0.0f;             ///< Distance at which KHR_lights_punctual's window reaches 0 [m]; 0: infinite.
-  float inner_cone_angle = 0.0f;  ///< Full intensity within [rad, from the axis].
+  glm::vec3 intensity{1.0f};  ///< Directional: irradiance on a perpendicular surface [W/m^2]. Else
+                              ///< radiant intensity [W/sr].
+  glm::vec3 position_ws{0.0f};  ///< Point and spot [m].
+  glm::vec3 direction_ws{0.0f, 0.0f,
+                         -1.0f};  ///< The way the light travels; unit. Directional and spot.
+  float range =
+      0.0f;  ///< Distance at which KHR_lights_punctual's window reaches 0 [m]; 0: infinite.
+  float inner_cone_angle = 0.0f;          ///< Full intensity within [rad, from the axis].
   float outer_cone_angle = 0.785398163f;  ///< No light beyond [rad, from the axis], <= pi/2.
 };
 
 struct Camera {
   std::string name;
-  glm::mat4 world_from_view{1.0f};    ///< Looks along its -Z, +Y up. No scale.
+  glm::mat4 world_from_view{1.0f};  ///< Looks along its -Z, +Y up. No scale.
   bool orthographic = false;
   float vertical_fov = 0.785398163f;  ///< Full angle [rad], perspective only.
   float vertical_extent = 1.0f;       ///< Full height of the view [m], orthographic only.
-  float aspect = 0.0f;                ///< Width over height that the file asks for; 0: the image's own.
+  float aspect = 0.0f;  ///< Width over height that the file asks for; 0: the image's own.
 };
 
 /// A camera at `eye` that looks at `target` with +Y up. `vertical_fov` in radians.
@@ -117,8 +122,8 @@ Camera look_at(const glm::vec3& eye, const glm::vec3& target, float vertical_fov
 /// The light from infinity.
 struct Environment {
   glm::vec3 radiance{0.0f};  ///< Constant sky [W/(m^2 sr)]; multiplies `map` where there is one.
-  Image map;                 ///< Latitude-longitude radiance, 3 channels, +Y at the top row; empty: constant.
-  float rotation = 0.0f;     ///< Of the map about +Y [rad].
+  Image map;  ///< Latitude-longitude radiance, 3 channels, +Y at the top row; empty: constant.
+  float rotation = 0.0f;  ///< Of the map about +Y [rad].
 };
 
 /// What a file held beyond what was kept; for `lambent info` and for people who wonder.
@@ -126,7 +131,8 @@ struct SceneSource {
   std::string path;
   std::string generator;
   std::vector<std::string> extensions;  ///< Used by the file, known to us or not.
-  std::vector<std::string> warnings;    ///< One sentence each: what was ignored or repaired, and where.
+  std::vector<std::string>
+      warnings;  ///< One sentence each: what was ignored or repaired, and where.
   int nodes = 0, animations = 0, skins = 0, morph_targets = 0, scenes = 0;
 };
 
@@ -143,20 +149,20 @@ struct Scene {
 };
 
 struct LoadOptions {
-  int scene = -1;               ///< Index of the glTF scene; -1: the file's default, else the first.
-  bool lambert = false;         ///< Reduce every material to exact Lambert (Material::lambert).
-  bool normal_maps = true;      ///< false: drop normal maps.
+  int scene = -1;           ///< Index of the glTF scene; -1: the file's default, else the first.
+  bool lambert = false;     ///< Reduce every material to exact Lambert (Material::lambert).
+  bool normal_maps = true;  ///< false: drop normal maps.
 };
 
-/// Reads .gltf or .glb. Errors name the file, the place in it and the cause; what could be repaired or
-/// ignored is told in Scene::source.warnings.
+/// Reads .gltf or .glb. Errors name the file, the place in it and the cause; what could be repaired
+/// or ignored is told in Scene::source.warnings.
 Expected<Scene> load_scene(const std::string& path, const LoadOptions& options = {});
 
 /// Reads a latitude-longitude environment, .hdr or .exr, into an Environment of unit factor.
 Expected<Environment> load_environment(const std::string& path);
 
-/// Checks what every pass relies on (indices in range, finite numbers, shapes that agree). load_scene has
-/// done it; call it on scenes made by hand. Fails with the first thing wrong.
+/// Checks what every pass relies on (indices in range, finite numbers, shapes that agree).
+/// load_scene has done it; call it on scenes made by hand. Fails with the first thing wrong.
 Expected<void> validate(const Scene& scene);
 
 /// Axis-aligned box [m]; empty when min > max.

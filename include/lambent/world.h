@@ -15,7 +15,8 @@ class EmissiveTriangles;
 /// Refers to the scene, which must outlive it and keep still.
 class World {
  public:
-  /// Builds everything. Throws std::runtime_error where the ray tracer cannot start or memory runs out.
+  /// Builds everything. Throws std::runtime_error where the ray tracer cannot start or memory runs
+  /// out.
   explicit World(const Scene& scene);
   ~World();
   World(World&&) noexcept;

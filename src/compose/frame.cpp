@@ -134,7 +134,7 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
 }  // namespace
 
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
-                   const FrameSettings& settings) {
+                           const FrameSettings& settings, const ProgressFn& progress) {
   assert(settings.width > 0 && settings.height > 0 && settings.samples > 0);
   RenderedFrame frame;
   frame.image.width = settings.width;
@@ -173,6 +173,10 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
       accumulate(world, camera, gbuffer, light, static_cast<std::size_t>(row) * settings.width,
                  share, layers);
       timer.finish("compose");
+      if (progress) {
+        const double rows_done = row + band.rows * (sample + 1.0) / settings.samples;
+        progress("frame", rows_done / settings.height);
+      }
     }
   }
   return frame;

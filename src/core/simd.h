@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Marks a kernel to be compiled for several x86-64 levels, the best picked when the program starts. Its loops are
-// elementwise, so every version computes the same bits (products and sums are never fused, see LambentTarget.cmake).
-// Sanitizers instrument the picking itself, which runs before they do: they get the plain version.
+// Marks a kernel to be compiled for several x86-64 levels, the best picked when the program starts.
+// Its loops are elementwise, so every version computes the same bits (products and sums are never
+// fused, see LambentTarget.cmake). Sanitizers instrument the picking itself, which runs before they
+// do: they get the plain version.
 #if defined(__x86_64__) && defined(__linux__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__) && !defined(__clang__)
 #define LAMBENT_SIMD_CLONES __attribute__((target_clones("default", "avx2", "arch=x86-64-v4")))

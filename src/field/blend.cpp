@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/blend.h"
 
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
 #include "core/simd.h"
 #include "field/tile.h"
 #include "shared/random.h"
@@ -9,46 +13,51 @@
 namespace lambent {
 namespace {
 
-// Texels that the kernel keeps in registers at a time: with 4 channels, 8 registers of 8 floats.
+// Texels that the kernel keeps in registers at a time, as one vector: the compiler splits it into what the processor has.
 constexpr int kBlock = 16;
+typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));
 
-/// One block of texels: sums[c][t] = sum over rays of values[ray][c] * weights[ray][t].
+// Smaller weights count for nothing in a float sum, but their products with values are denormal and a hundred times
+// slower to compute.
+constexpr float kMinWeight = 1e-9f;
+
+/// One block of texels: sums[t][c] = sum over rays of values[ray][c] * weights[ray][t].
 template <int channels>
 __attribute__((always_inline)) inline void accumulate_block(const float* weights, int stride,
                                                             const float* values, int rays,
-                                                            float (&sums)[channels][kBlock]) {
-  for (int c = 0; c < channels; ++c) {
-    for (int t = 0; t < kBlock; ++t) sums[c][t] = 0.0f;
-  }
+                                                            float* sums) {
+  Block block[channels] = {};
   for (int ray = 0; ray < rays; ++ray) {
-    const float* w = weights + static_cast<std::size_t>(ray) * stride;
-    const float* v = values + ray * channels;
-    for (int c = 0; c < channels; ++c) {
-      for (int t = 0; t < kBlock; ++t) sums[c][t] += v[c] * w[t];
-    }
+    Block w;
+    std::memcpy(&w, weights + static_cast<std::size_t>(ray) * stride, sizeof(w));
+    for (int c = 0; c < channels; ++c) block[c] += values[ray * channels + c] * w;
+  }
+  for (int t = 0; t < kBlock; ++t) {
+    for (int c = 0; c < channels; ++c) sums[t * channels + c] = block[c][t];
   }
 }
 
 LAMBENT_SIMD_CLONES void accumulate2(const float* weights, int stride, const float* values,
-                                     int rays, float (&sums)[2][kBlock]) {
+                                     int rays, float* sums) {
   accumulate_block<2>(weights, stride, values, rays, sums);
 }
 
 LAMBENT_SIMD_CLONES void accumulate4(const float* weights, int stride, const float* values,
-                                     int rays, float (&sums)[4][kBlock]) {
+                                     int rays, float* sums) {
   accumulate_block<4>(weights, stride, values, rays, sums);
 }
 
 template <int channels, class Accumulate>
 void apply(const std::vector<float>& weights, int padded, int texels, int rays, const float* values,
            float* out, Accumulate accumulate) {
-  float sums[channels][kBlock];
-  for (int first = 0; first < texels; first += kBlock) {
+  int first = 0;
+  for (; first + kBlock <= texels; first += kBlock) {
+    accumulate(weights.data() + first, padded, values, rays, out + first * channels);
+  }
+  if (first < texels) {
+    float sums[channels * kBlock];
     accumulate(weights.data() + first, padded, values, rays, sums);
-    const int count = std::min(kBlock, texels - first);
-    for (int t = 0; t < count; ++t) {
-      for (int c = 0; c < channels; ++c) out[(first + t) * channels + c] = sums[c][t];
-    }
+    std::copy_n(sums, (texels - first) * channels, out + first * channels);
   }
 }
 
@@ -75,9 +84,22 @@ BlendMatrix::BlendMatrix(int texels, float cosine_exponent, std::span<const vec3
     const vec3 normal = tile_direction({t % texels, t / texels}, texels);
     for (int i = 0; i < ray_count_; ++i) {
       const float cosine = max(0.0f, dot(normal, directions[i]));
+      const float weight = cosine_exponent == 1.0f ? cosine : pow(cosine, cosine_exponent);
       weights_[static_cast<std::size_t>(i) * padded_texels_ + t] =
-          cosine_exponent == 1.0f ? cosine : pow(cosine, cosine_exponent);
+          weight < kMinWeight ? 0.0f : weight;
     }
+  }
+}
+
+BlendMatrix::BlendMatrix(int texel_count, int ray_count, std::span<const float> columns)
+    : texel_count_(texel_count),
+      padded_texels_((texel_count + kBlock - 1) / kBlock * kBlock),
+      ray_count_(ray_count),
+      weights_(static_cast<std::size_t>(ray_count) * padded_texels_) {
+  assert(columns.size() == static_cast<std::size_t>(texel_count) * ray_count);
+  for (int i = 0; i < ray_count; ++i) {
+    std::copy_n(&columns[static_cast<std::size_t>(i) * texel_count], texel_count,
+                &weights_[static_cast<std::size_t>(i) * padded_texels_]);
   }
 }
 

@@ -27,6 +27,8 @@ class BlendMatrix {
  public:
   /// `texels` along a tile's edge, without gutter.
   BlendMatrix(int texels, float cosine_exponent, std::span<const vec3> directions);
+  /// Any matrix of texels x rays numbers, column (ray) after column.
+  BlendMatrix(int texel_count, int ray_count, std::span<const float> columns);
 
   int texels() const { return texel_count_; }  ///< Of a tile, without gutter.
   int rays() const { return ray_count_; }

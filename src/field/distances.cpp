@@ -25,9 +25,6 @@ constexpr float kBackFaceDistanceShare = 0.2f;
 // light nothing. JCGT 10(2) 2021, sec. 4.
 constexpr float kMaxBackFaceShare = 0.25f;
 
-// Texels that no ray came near keep what they had.
-constexpr float kMinWeight = 1e-6f;
-
 bool is_back_face(const Scene& scene, const Hit& hit) {
   if (hit.missed() || hit.front_face) return false;
   return !scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
@@ -39,7 +36,6 @@ void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<con
                      float share, uint salt, ProbeStore& store) {
   const int rays = blend.rays();
   const int texels = blend.texels();
-  const int edge = store.distance_texels();
   const float farthest = kMaxDistanceDiagonals * length(store.grid().spacing);
 
   // Compute what all rays together weigh in each texel: the same for every probe
@@ -67,11 +63,9 @@ void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<con
       // Compute the mean distance and mean squared distance along each texel's direction
       blend.apply2(&values[0].x, &sums[0].x);
       for (int t = 0; t < texels; ++t) {
-        const vec2 old = store.moments_texel(probe, ivec2(t % edge, t / edge) + ivec2(1));
-        const vec2 now = inside_matter ? vec2(0.0f) : sums[t] / totals[t];
-        moments[t] = totals[t].x > kMinWeight ? mix(old, now, share) : old;
+        moments[t] = inside_matter ? vec2(0.0f) : sums[t] / totals[t];
       }
-      store.store_moments(probe, moments, salt);
+      store.blend_moments(probe, moments, share, salt);
     }
   });
 }

@@ -13,6 +13,7 @@
 #include "field/probe_store.h"
 #include "field/relight.h"
 #include "field/surfels.h"
+#include "field/tile_fit.h"
 #include "lambent/world.h"
 #include "shared/random.h"
 
@@ -36,19 +37,27 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+int square(int x) {
+  return x * x;
+}
+
 Expected<void> check(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
   };
-  if (outside(s.rays_per_probe, 8, 4096)) return fail("", "rays", "must be 8 to 4096 a probe");
+  if (outside(s.rays_per_probe, 16, 4096)) return fail("", "rays", "must be 16 to 4096 a probe");
   if (outside(s.hysteresis, 0.0f, 0.999f)) return fail("", "hysteresis", "must be 0 to 0.999");
-  if (outside(s.irradiance_texels, 2, 16)) return fail("", "irradiance texels", "must be 2 to 16");
+  // An odd tile reads directions along the axes from one side only
+  if (outside(s.irradiance_texels, 2, 16) || s.irradiance_texels % 2 != 0) {
+    return fail("", "irradiance texels", "must be even, 2 to 16");
+  }
   if (outside(s.distance_texels, 4, 32)) return fail("", "distance texels", "must be 4 to 32");
   if (outside(s.max_albedo, 0.0f, 0.99f)) return fail("", "max albedo", "must be 0 to 0.99");
   if (outside(s.relight_tolerance, 1e-7f, 1.0f)) {
     return fail("", "relight tolerance", "must be 1e-7 to 1");
   }
   if (outside(s.max_relights, 1, 1000)) return fail("", "max relights", "must be 1 to 1000");
+  if (s.max_bounces < -1) return fail("", "bounces", "must be 0 or more, or -1 for all");
   if (outside(s.emissive_samples, 1, 64)) return fail("", "emissive samples", "must be 1 to 64");
   if (!std::isfinite(s.texture_lod_bias)) return fail("", "texture LOD bias", "must be finite");
   return {};
@@ -60,11 +69,14 @@ struct IrradianceField::State {
   State(const FieldSettings& field_settings, const FieldGrid& field_grid)
       : settings(field_settings),
         grid(field_grid),
-        store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings) {}
+        store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings),
+        tile_fit(square(settings.irradiance_texels), square(settings.irradiance_texels),
+                 tile_fit_matrix(settings.irradiance_texels)) {}
 
   FieldSettings settings;
   FieldGrid grid;
   ProbeStore store;
+  BlendMatrix tile_fit;
   Surfels surfels;
   std::vector<Hit> hits;
   int updates = 0;
@@ -154,12 +166,16 @@ UpdateStatistics IrradianceField::update(const World& world) {
   WorkingIrradiance history(texels);
   s.load_history(history);
   WorkingIrradiance solution = history;
-  const TransportOperator transport(s.store.grid(), s.surfels, irradiance_blend,
+  const TransportOperator transport(s.store.grid(), s.surfels, irradiance_blend, s.tile_fit,
                                     settings.irradiance_texels);
-  const RelightResult solved = relight(
-      transport, history, {share, settings.relight_tolerance, settings.max_relights}, solution);
+  const RelightResult solved =
+      settings.max_bounces >= 0
+          ? relight_bounces(transport, history, settings.max_bounces, solution)
+          : relight(transport, history, {share, settings.relight_tolerance, settings.max_relights},
+                    solution);
   statistics.relights = solved.iterations;
   statistics.residual = solved.error;
+  statistics.change = blended_change(history, solution, share);
   statistics.relight_ms = watch.lap();
 
   s.store_blended(history, solution, share, salt);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/simd.h"
 #include "field/irradiance_encoding.h"
 #include "shared/random.h"
 
@@ -30,6 +31,31 @@ void fill_gutter(uint* tile, int texels, int words) {
       std::copy_n(tile + (source.y * width + source.x) * words, words,
                   tile + (y * width + x) * words);
     }
+  }
+}
+
+/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square). Each texel's dither is a hash of
+/// `first_index` and its place in the row.
+LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count, float share,
+                                         uint first_index) {
+  for (int i = 0; i < count; ++i) {
+    const uint word = words[i];
+    const float old_mean = decode_small_float(word & 0x7FFFu, 10);
+    const float old_square = decode_small_float((word >> 16u) & 0x7FFFu, 10);
+    const float mean = old_mean + share * (now[2 * i] - old_mean);
+    const float square = old_square + share * (now[2 * i + 1] - old_square);
+    const uint bits = hash_pcg(first_index + static_cast<uint>(i));
+    const float u = static_cast<float>(bits & 0xFFFFu) * (1.0f / 65536.0f);
+    const float v = static_cast<float>(bits >> 16u) * (1.0f / 65536.0f);
+    words[i] = encode_small_float(mean, 10, u) | (encode_small_float(square, 10, v) << 16u);
+  }
+}
+
+LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int count, float share,
+                                         uint /*first_index*/) {
+  for (int i = 0; i < 2 * count; ++i) {
+    const float old = uintBitsToFloat(words[i]);
+    words[i] = floatBitsToUint(old + share * (now[i] - old));
   }
 }
 
@@ -101,30 +127,26 @@ void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uin
       for (int c = 0; c < 3; ++c) word[c] = floatBitsToUint(value[c]);
       continue;
     }
-    const uvec3 bits = hash_pcg3d(uvec3(static_cast<uint>(index), salt, 0u));
-    const vec3 u(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
+    const vec3 u = dither3_from_bits(hash_pcg(static_cast<uint>(index) + salt));
     *word = irradiance_format_ == IrradianceFormat::rgb9e5 ? encode_rgb9e5(value, u)
                                                            : encode_r11g11b10f(value, u);
   }
   fill_gutter(&irradiance_[texel_index(probe, {0, 0}, n) * words], n, words);
 }
 
-void ProbeStore::store_moments(int probe, std::span<const vec2> interior, uint salt) {
+void ProbeStore::blend_moments(int probe, std::span<const vec2> interior, float share, uint salt) {
   const int n = distance_texels_;
   assert(interior.size() == static_cast<std::size_t>(n) * n);
   const int words = words_per_distance_texel();
-  for (int t = 0; t < n * n; ++t) {
-    const std::size_t index = texel_index(probe, ivec2(t % n, t / n) + ivec2(1), n);
-    uint* word = &distance_[index * words];
-    if (distance_format_ == DistanceFormat::rg32f) {
-      word[0] = floatBitsToUint(interior[t].x);
-      word[1] = floatBitsToUint(interior[t].y);
-      continue;
-    }
-    const uvec3 bits = hash_pcg3d(uvec3(static_cast<uint>(index), salt, 1u));
-    *word = encode_half2(interior[t], {uniform_from_bits(bits.x), uniform_from_bits(bits.y)});
+  const std::size_t tile = texel_index(probe, {0, 0}, n);
+  for (int row = 0; row < n; ++row) {
+    const std::size_t first = tile + static_cast<std::size_t>(row + 1) * (n + 2) + 1;
+    const auto blend =
+        distance_format_ == DistanceFormat::rg16f ? blend_row_rg16f : blend_row_rg32f;
+    blend(&distance_[first * words], &interior[static_cast<std::size_t>(row) * n].x, n, share,
+          static_cast<uint>(first) + salt);
   }
-  fill_gutter(&distance_[texel_index(probe, {0, 0}, n) * words], n, words);
+  fill_gutter(&distance_[tile * words], n, words);
 }
 
 }  // namespace lambent

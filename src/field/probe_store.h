@@ -38,7 +38,8 @@ class ProbeStore {
   /// Encodes a probe's interior texels, row after row, and fills the gutter. `salt` (say, a hash of
   /// update and seed) makes the dither of this call its own.
   void store_irradiance(int probe, std::span<const vec3> interior, uint salt);
-  void store_moments(int probe, std::span<const vec2> interior, uint salt);
+  /// Moves a probe's moments a share of the way to new ones, 0 to 1, likewise.
+  void blend_moments(int probe, std::span<const vec2> interior, float share, uint salt);
 
   /// The encoded words, for kernels; `words_per_*_texel` of them a texel.
   std::span<const uint> irradiance_words() const { return irradiance_; }

@@ -104,9 +104,10 @@ class AndersonMemory {
 }  // namespace
 
 TransportOperator::TransportOperator(const ProbeGrid& grid, const Surfels& surfels,
-                                     const BlendMatrix& blend, int texels)
+                                     const BlendMatrix& blend, const BlendMatrix& fit, int texels)
     : surfels_(surfels),
       blend_(blend),
+      fit_(fit),
       offsets_(corner_offsets(grid)),
       texels_(texels * texels),
       taps_(static_cast<std::size_t>(texels + 1) * (texels + 1)) {
@@ -156,24 +157,79 @@ void TransportOperator::gather_probe_radiance(const WorkingIrradiance& field, st
   }
 }
 
+void TransportOperator::gather_probe_sky(std::size_t probe, float* radiance) const {
+  const int rays = surfels_.rays_per_probe;
+  for (int i = 0; i < rays; ++i) {
+    const std::size_t s = probe * rays + i;
+    const float counts = surfels_.counts[s] != 0 ? 1.0f : 0.0f;
+    const vec4 sent(surfels_.sky_radiance[s], counts);
+    for (int c = 0; c < 4; ++c) radiance[4 * i + c] = sent[c];
+  }
+}
+
 void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
                               WorkingIrradiance& received) const {
+  receive(
+      [&](std::size_t probe, float* radiance) { gather_probe_radiance(field, probe, radiance); },
+      fallback, received);
+}
+
+void TransportOperator::apply_sky(const WorkingIrradiance& fallback,
+                                  WorkingIrradiance& received) const {
+  receive([&](std::size_t probe, float* radiance) { gather_probe_sky(probe, radiance); }, fallback,
+          received);
+}
+
+template <class Gather>
+void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback,
+                                WorkingIrradiance& received) const {
   const int rays = surfels_.rays_per_probe;
   parallel_chunks(surfels_.size() / rays, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<float> radiance(4 * static_cast<std::size_t>(rays));
-    std::vector<vec4> sums(texels_);
+    std::vector<vec4> sums(texels_), at_centres(texels_);
     for (std::size_t probe = begin; probe < end; ++probe) {
-      gather_probe_radiance(field, probe, radiance.data());
+      gather(probe, radiance.data());
       blend_.apply4(radiance.data(), &sums[0].x);
+      // The mean radiance, weighted by the cosine, times pi is the irradiance at the texels'
+      // centres
+      bool known = true;
       for (int t = 0; t < texels_; ++t) {
-        // The mean of the radiance weighted by the cosine, times pi, is irradiance
-        const std::size_t index = probe * texels_ + t;
-        received[index] = sums[t].w > kMinBlendWeight * static_cast<float>(rays)
-                              ? vec4(vec3(sums[t]) * (kPi / sums[t].w), 0.0f)
-                              : fallback[index];
+        known = known && sums[t].w > kMinBlendWeight * static_cast<float>(rays);
+        at_centres[t] = vec4(vec3(sums[t]) * (kPi / max(sums[t].w, 1e-20f)), 0.0f);
+      }
+      vec4* out = &received[probe * texels_];
+      if (known) {
+        fit_.apply4(&at_centres[0].x, &out[0].x);
+        continue;
+      }
+
+      // Where rays count for some texels only, there is nothing to fit: the others keep what they
+      // had
+      for (int t = 0; t < texels_; ++t) {
+        const bool counted = sums[t].w > kMinBlendWeight * static_cast<float>(rays);
+        out[t] = counted ? at_centres[t] : fallback[probe * texels_ + t];
       }
     }
   });
+}
+
+RelightResult relight_bounces(const TransportOperator& transport, const WorkingIrradiance& history,
+                              int bounces, WorkingIrradiance& solution) {
+  transport.apply_sky(history, solution);
+  WorkingIrradiance received(solution.size());
+  for (int i = 0; i < bounces; ++i) {
+    transport.apply(solution, history, received);
+    solution.swap(received);
+  }
+  return {bounces, 0.0};
+}
+
+double blended_change(const WorkingIrradiance& history, const WorkingIrradiance& solution,
+                      float share) {
+  WorkingIrradiance difference(history.size());
+  add_scaled(solution, -1.0f, history, difference);
+  const double norm = std::sqrt(dot(solution, solution));
+  return norm > 0.0 ? share * std::sqrt(dot(difference, difference)) / norm : 0.0;
 }
 
 RelightResult relight(const TransportOperator& transport, const WorkingIrradiance& history,

@@ -26,20 +26,28 @@ using WorkingIrradiance = std::vector<vec4>;
 
 class TransportOperator {
  public:
+  /// `fit` is the matrix of tile_fit.h. All arguments must outlive the operator.
   TransportOperator(const ProbeGrid& grid, const Surfels& surfels, const BlendMatrix& blend,
-                    int texels);
+                    const BlendMatrix& fit, int texels);
 
   /// One bounce: what the probes would receive if surfels were lit by `field` besides direct light.
   /// Texels that no ray counts for take their value from `fallback`.
   void apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
              WorkingIrradiance& received) const;
 
+  /// No bounce: what the probes receive from the sky alone.
+  void apply_sky(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
+
  private:
   void gather_probe_radiance(const WorkingIrradiance& field, std::size_t probe,
                              float* radiance) const;
+  void gather_probe_sky(std::size_t probe, float* radiance) const;
+  template <class Gather>
+  void receive(Gather gather, const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
   const Surfels& surfels_;
   const BlendMatrix& blend_;
+  const BlendMatrix& fit_;
   CornerOffsets offsets_;
   int texels_;                                      // interior texels of a tile
   std::vector<std::array<std::uint16_t, 4>> taps_;  // interior texels of each place of a fetch
@@ -55,6 +63,14 @@ struct RelightResult {
   int iterations = 0;
   double error = 0.0;  ///< Estimated relative error of the solution.
 };
+
+/// The light of exactly so many bounces, without acceleration.
+RelightResult relight_bounces(const TransportOperator& transport, const WorkingIrradiance& history,
+                              int bounces, WorkingIrradiance& solution);
+
+/// Relative change of the field from `history` when a share of `solution` is blended in.
+double blended_change(const WorkingIrradiance& history, const WorkingIrradiance& solution,
+                      float share);
 
 /// Solves for the field's light. `solution` is the start on entry (the last solution, if there is
 /// one).

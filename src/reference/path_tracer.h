@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "core/progress.h"
+#include "lambent/progress.h"
 #include "lambent/image.h"
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"

@@ -8,8 +8,8 @@
 
 namespace lambent::reference {
 
-/// Passes of an estimate: enough to know its error to a fifth, few enough to stratify well.
-inline constexpr int kPasses = 16;
+/// Passes of an estimate: enough to know a pixel's error to a quarter, few enough to stratify well.
+inline constexpr int kPasses = 8;
 
 inline int pass_count(int samples) {
   return std::min(samples, kPasses);

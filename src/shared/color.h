@@ -21,5 +21,14 @@ LAMBENT_FN float srgb_from_linear(float linear) {
   return linear <= 0.0031308f ? linear * 12.92f : 1.055f * pow(linear, 1.0f / 2.4f) - 0.055f;
 }
 
+LAMBENT_FN vec3 linear_from_srgb(vec3 encoded) {
+  return vec3(linear_from_srgb(encoded.x), linear_from_srgb(encoded.y),
+              linear_from_srgb(encoded.z));
+}
+
+LAMBENT_FN vec3 srgb_from_linear(vec3 linear) {
+  return vec3(srgb_from_linear(linear.x), srgb_from_linear(linear.y), srgb_from_linear(linear.z));
+}
+
 LAMBENT_END
 #endif

@@ -14,27 +14,31 @@ LAMBENT_BEGIN
 const float kSmallFloatMin = 6.103515625e-05f;
 const uint kSmallFloatBiasShift = 112u;  // 127 - 15, between the exponent biases
 
+/// 2 to an integer power, -126 to 127, exactly.
+LAMBENT_FN float power_of_two(int exponent) { return uintBitsToFloat(uint(exponent + 127) << 23u); }
+
 /// Largest finite value with that many mantissa bits.
 LAMBENT_FN float small_float_max(int mantissa_bits) {
-  return 65536.0f * (1.0f - 0.5f * exp2(float(-mantissa_bits)));
+  return 65536.0f * (1.0f - 0.5f * power_of_two(-mantissa_bits));
 }
 
 LAMBENT_FN float decode_small_float(uint bits, int mantissa_bits) {
-  if (bits == 0u) return 0.0f;
-  return uintBitsToFloat((bits << uint(23 - mantissa_bits)) + (kSmallFloatBiasShift << 23u));
+  float value = uintBitsToFloat((bits << uint(23 - mantissa_bits)) + (kSmallFloatBiasShift << 23u));
+  return bits == 0u ? 0.0f : value;
 }
 
 /// The largest code whose value is not above `value`, which is clamped to [0, max].
 LAMBENT_FN uint encode_small_float_down(float value, int mantissa_bits) {
-  if (!(value >= kSmallFloatMin)) return 0u;
   float clamped = min(value, small_float_max(mantissa_bits));
-  return (floatBitsToUint(clamped) - (kSmallFloatBiasShift << 23u)) >> uint(23 - mantissa_bits);
+  uint code = (floatBitsToUint(clamped) - (kSmallFloatBiasShift << 23u)) >> uint(23 - mantissa_bits);
+  return value >= kSmallFloatMin ? code : 0u;
 }
 
 /// The code after `code`, in order of value; the largest follows itself.
 LAMBENT_FN uint next_small_float(uint code, int mantissa_bits) {
-  if (code == 0u) return 1u << uint(mantissa_bits);
-  return min(code + 1u, (31u << uint(mantissa_bits)) - 1u);
+  uint last = (31u << uint(mantissa_bits)) - 1u;
+  uint next = code < last ? code + 1u : last;
+  return code == 0u ? 1u << uint(mantissa_bits) : next;
 }
 
 /// Code of a value, dithered by `u` in [0, 1).
@@ -61,7 +65,7 @@ const float kRgb9e5MantissaMax = 511.0f;
 const int kRgb9e5BiasAndBits = 24;  // exponent bias 15 + 9 mantissa bits
 
 LAMBENT_FN vec3 decode_rgb9e5(uint word) {
-  float scale = exp2(float(int(word >> 27u) - kRgb9e5BiasAndBits));
+  float scale = power_of_two(int(word >> 27u) - kRgb9e5BiasAndBits);
   return vec3(float(word & 511u), float((word >> 9u) & 511u), float((word >> 18u) & 511u)) * scale;
 }
 
@@ -70,9 +74,9 @@ LAMBENT_FN uint encode_rgb9e5(vec3 value, vec3 u) {
   float largest = max(v.x, max(v.y, v.z));
   // The exponent of the largest channel, read off its bits; one more where rounding up would overflow 9 bits.
   int exponent = max(int(floatBitsToUint(largest) >> 23u) - 127, -16) + 16;
-  if (largest > kRgb9e5MantissaMax * exp2(float(exponent - kRgb9e5BiasAndBits))) exponent += 1;
+  if (largest > kRgb9e5MantissaMax * power_of_two(exponent - kRgb9e5BiasAndBits)) exponent += 1;
   exponent = min(exponent, 31);
-  float per_step = exp2(float(kRgb9e5BiasAndBits - exponent));
+  float per_step = power_of_two(kRgb9e5BiasAndBits - exponent);
   vec3 q = min(floor(v * per_step + u), vec3(kRgb9e5MantissaMax));
   return uint(q.x) | (uint(q.y) << 9u) | (uint(q.z) << 18u) | (uint(exponent) << 27u);
 }

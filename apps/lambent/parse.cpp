@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/parse.h"
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace lambent::cli {
+namespace {
+
+constexpr int kMaxImageSide = 16384;
+constexpr int kMinProbes = 2;
+constexpr int kMaxProbes = 4096;
+
+/// The numbers between separators, or nothing if any part is not a number.
+template <class T>
+std::vector<T> split_numbers(std::string_view text, char separator) {
+  std::vector<T> numbers;
+  while (true) {
+    const std::size_t end = std::min(text.find(separator), text.size());
+    T number{};
+    const char* last = text.data() + end;
+    const auto [stop, error] = std::from_chars(text.data(), last, number);
+    if (error != std::errc() || stop != last) return {};
+    numbers.push_back(number);
+    if (end == text.size()) return numbers;
+    text.remove_prefix(end + 1);
+  }
+}
+
+tl::unexpected<Error> malformed(const std::string& option, const std::string& text,
+                                const char* wanted) {
+  return fail(option, "", "'" + text + "' is not " + wanted);
+}
+
+Expected<std::vector<float>> parse_floats(const std::string& option, const std::string& text,
+                                          std::size_t count, const char* wanted) {
+  std::vector<float> numbers = split_numbers<float>(text, ',');
+  bool fine = numbers.size() == count;
+  for (const float number : numbers) fine = fine && std::isfinite(number);
+  if (!fine) return malformed(option, text, wanted);
+  return numbers;
+}
+
+Expected<std::vector<int>> parse_ints(const std::string& option, const std::string& text,
+                                      std::size_t count, int low, int high, const char* wanted) {
+  std::vector<int> numbers = split_numbers<int>(text, 'x');
+  bool fine = numbers.size() == count;
+  for (const int number : numbers) fine = fine && number >= low && number <= high;
+  if (!fine) return malformed(option, text, wanted);
+  return numbers;
+}
+
+}  // namespace
+
+Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text) {
+  const auto n = parse_floats(option, text, 3, "three numbers x,y,z");
+  if (!n) return tl::unexpected(n.error());
+  return glm::vec3((*n)[0], (*n)[1], (*n)[2]);
+}
+
+Expected<Bounds> parse_box(const std::string& option, const std::string& text) {
+  constexpr const char* kWanted = "a box x0,y0,z0,x1,y1,z1 whose second corner is greater";
+  const auto n = parse_floats(option, text, 6, kWanted);
+  if (!n) return tl::unexpected(n.error());
+  const Bounds box{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
+  if (!glm::all(glm::lessThan(box.min, box.max))) return malformed(option, text, kWanted);
+  return box;
+}
+
+Expected<glm::ivec2> parse_size(const std::string& option, const std::string& text) {
+  const auto n = parse_ints(option, text, 2, 1, kMaxImageSide, "a size WxH, each 1 to 16384");
+  if (!n) return tl::unexpected(n.error());
+  return glm::ivec2((*n)[0], (*n)[1]);
+}
+
+Expected<glm::ivec3> parse_counts(const std::string& option, const std::string& text) {
+  const auto n =
+      parse_ints(option, text, 3, kMinProbes, kMaxProbes, "counts XxYxZ, each 2 to 4096");
+  if (!n) return tl::unexpected(n.error());
+  return glm::ivec3((*n)[0], (*n)[1], (*n)[2]);
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Values of command line options that are more than a word or a number.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+
+#include "lambent/error.h"
+#include "lambent/scene.h"
+
+namespace lambent::cli {
+
+/// "x,y,z", finite numbers. `option` names the culprit in the error.
+Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text);
+
+/// "x0,y0,z0,x1,y1,z1": two corners of a box with min < max.
+Expected<Bounds> parse_box(const std::string& option, const std::string& text);
+
+/// "WxH", each 1 to 16384.
+Expected<glm::ivec2> parse_size(const std::string& option, const std::string& text);
+
+/// "XxYxZ", each 2 to 4096.
+Expected<glm::ivec3> parse_counts(const std::string& option, const std::string& text);
+
+}  // namespace lambent::cli

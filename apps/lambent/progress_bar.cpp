@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/progress_bar.h"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace lambent::cli {
+namespace {
+
+/// Stages that end within this [s] show nothing: nobody waits for them.
+constexpr double kQuietSeconds = 1.0;
+/// Least time between two drawings [s]: an eye follows no more, and terminals are slow.
+constexpr double kRedrawSeconds = 0.1;
+constexpr int kMinBarColumns = 10, kMaxBarColumns = 40;
+/// What is assumed of a terminal that does not tell.
+constexpr int kDefaultColumns = 80;
+/// Back to the start of the line, and erase it (ECMA-48 EL).
+constexpr std::string_view kWipe = "\r\x1b[K";
+
+/// "45 s", "3 min 05 s", "2 h 10 min".
+std::string duration_text(double seconds) {
+  const long whole = std::lround(std::min(std::max(seconds, 0.0), 1e9));
+  char text[48];
+  if (whole < 60) {
+    std::snprintf(text, sizeof text, "%ld s", whole);
+  } else if (whole < 3600) {
+    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
+  } else {
+    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
+  }
+  return text;
+}
+
+int terminal_columns() {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return kDefaultColumns;
+  return size.ws_col;
+}
+
+double steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+std::string progress_line(std::string_view stage, double share_done, double elapsed_seconds,
+                          int columns) {
+  const double share = std::isfinite(share_done) ? std::clamp(share_done, 0.0, 1.0) : 0.0;
+  char percent[16];
+  std::snprintf(percent, sizeof percent, " %3d %%", static_cast<int>(share * 100.0));
+  std::string tail = percent;
+  if (share > 0.0) tail += "  " + duration_text(elapsed_seconds * (1.0 - share) / share) + " left";
+
+  // The bar takes what is left of the line, and goes first where the terminal is narrow.
+  std::string line(stage);
+  const int room = columns - static_cast<int>(line.size() + tail.size()) - 4;
+  if (room >= kMinBarColumns) {
+    const int bar = std::min(room, kMaxBarColumns);
+    const int full = static_cast<int>(share * bar);
+    line += "  [" + std::string(static_cast<std::size_t>(full), '#') +
+            std::string(static_cast<std::size_t>(bar - full), '.') + "]";
+  }
+  line += tail;
+  return line.substr(0, static_cast<std::size_t>(std::max(columns, 0)));
+}
+
+ProgressBar::ProgressBar(Write write, Clock clock, int columns)
+    : write_(std::move(write)), clock_(std::move(clock)), columns_(columns) {}
+
+void ProgressBar::update(std::string_view stage, double share_done) {
+  const double now = clock_();
+  if (stage != stage_) {
+    clear();
+    stage_ = stage;
+    stage_start_ = now;
+    last_drawn_ = now;
+  }
+  if (share_done >= 1.0) {
+    clear();
+    stage_.clear();  // The same stage may come again, say in the next frame, and starts anew.
+    return;
+  }
+  if (now - stage_start_ < kQuietSeconds || now - last_drawn_ < kRedrawSeconds) return;
+  // The last column stays free: writing there makes some terminals wrap.
+  write_(std::string(kWipe) + progress_line(stage, share_done, now - stage_start_, columns_ - 1));
+  last_drawn_ = now;
+  drawn_ = true;
+}
+
+void ProgressBar::clear() {
+  if (drawn_) write_(kWipe);
+  drawn_ = false;
+}
+
+ProgressFn terminal_progress() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  const auto write = [](std::string_view text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+  };
+  const auto bar = std::make_shared<ProgressBar>(write, steady_seconds, terminal_columns());
+  return [bar](std::string_view stage, double share_done) { bar->update(stage, share_done); };
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "core/progress.h"
+
+namespace lambent::cli {
+
+/// One line such as "trace  [#####.....]  50 %  12 s left" of at most `columns` characters.
+std::string progress_line(std::string_view stage, double share_done, double elapsed_seconds,
+                          int columns);
+
+/// Draws the progress of one stage after another on one line of a terminal, and wipes it when a stage is done.
+/// Stages of under a second leave no trace.
+class ProgressBar {
+ public:
+  using Clock = std::function<double()>;  ///< Seconds since some fixed moment.
+  using Write = std::function<void(std::string_view)>;
+
+  ProgressBar(Write write, Clock clock, int columns);
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+  ~ProgressBar() { clear(); }
+
+  void update(std::string_view stage, double share_done);
+  /// Wipes the line, so that other output starts on a clean one.
+  void clear();
+
+ private:
+  Write write_;
+  Clock clock_;
+  int columns_;
+  std::string stage_;
+  double stage_start_ = 0.0;
+  double last_drawn_ = 0.0;
+  bool drawn_ = false;
+};
+
+/// Progress on stderr when that is a terminal, silent otherwise. The line is wiped when the last copy of the
+/// function is gone.
+ProgressFn terminal_progress();
+
+}  // namespace lambent::cli

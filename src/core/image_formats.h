@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// One reader and one writer per image format, between bytes and images; image.cpp picks.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lambent/image.h"
+
+namespace lambent {
+
+using ByteView = std::span<const std::byte>;
+
+/// Images wider or higher than this [pixels] are refused before anything is allocated.
+inline constexpr int kMaxImageSide = 1 << 16;
+/// Images (all layers together) of more floats than this are refused: 2 GiB, an 8k frame of 14 RGB
+/// layers.
+inline constexpr std::uint64_t kMaxImageFloats = std::uint64_t{1} << 29;
+
+/// Fails, naming `path`, unless an image of that shape is within the limits and not empty.
+Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
+                                std::int64_t channels);
+
+bool is_exr(ByteView bytes);
+bool is_hdr(ByteView bytes);
+bool is_png_or_jpeg(ByteView bytes);
+
+/// `path` only names the file in errors.
+Expected<LayeredImage> decode_exr(const std::string& path, ByteView bytes);
+Expected<LayeredImage> decode_hdr(const std::string& path, ByteView bytes);
+/// 8-bit sRGB colour becomes linear; alpha is linear already. One, three or four channels.
+Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView bytes);
+
+Expected<std::vector<std::byte>> encode_exr(const std::string& path, const LayeredImage& image);
+Expected<std::vector<std::byte>> encode_png(const std::string& path, const Image& display_encoded);
+
+}  // namespace lambent

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "lambent/image.h"
+
+namespace lambent {
+
+/// The curve between linear radiance and the display (see shared/tone_map.h).
+enum class ToneMap : std::uint32_t { linear = 0, aces = 1, neutral = 2 };
+
+/// "linear", "aces" or "neutral".
+std::optional<ToneMap> tone_map_from_name(std::string_view name);
+
+/// The sRGB-encoded picture in [0, 1] that write_png takes. One and two channels become three
+/// (grey; the second is dropped), a fourth (alpha) is clamped and kept. NaN shows as black.
+Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops);
+
+}  // namespace lambent

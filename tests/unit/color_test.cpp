@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shared/color.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/color_map.h"
+#include "core/tone_map.h"
+#include "shared/tone_map.h"
+
+namespace lambent {
+namespace {
+
+TEST(Srgb, RoundTripAndKnownValues) {
+  for (int i = 0; i <= 1000; ++i) {
+    const float value = static_cast<float>(i) / 1000.0f;
+    EXPECT_NEAR(srgb_from_linear(linear_from_srgb(value)), value, 1e-5f);
+  }
+  EXPECT_NEAR(srgb_from_linear(0.18f), 0.4614f, 1e-4f);
+  EXPECT_NEAR(linear_from_srgb(0.5f), 0.21404f, 1e-5f);
+}
+
+TEST(ToneMap, LinearShowsExposedRadianceClipped) {
+  const vec3 shown = tone_map(expose(vec3(0.1f, 0.3f, -1.0f), 1.0f), kToneMapLinear);
+  EXPECT_NEAR(shown.x, 0.2f, 1e-6f);
+  EXPECT_NEAR(shown.y, 0.6f, 1e-6f);
+  EXPECT_EQ(shown.z, 0.0f);
+  EXPECT_EQ(tone_map(vec3(5.0f), kToneMapLinear), vec3(1.0f));
+}
+
+TEST(ToneMap, EveryCurveRisesWithGreyAndStaysInRangeEvenForInfinity) {
+  for (const uint curve : {kToneMapLinear, kToneMapAces, kToneMapNeutral}) {
+    float last = -1.0f;
+    for (float grey = 0.0f; grey < 20.0f; grey += 0.01f) {
+      const vec3 shown = tone_map(vec3(grey), curve);
+      EXPECT_GE(shown.y, last) << "curve " << curve << " at " << grey;
+      EXPECT_LE(shown.y, 1.0f);
+      last = shown.y;
+    }
+    EXPECT_EQ(tone_map(vec3(0.0f), curve), vec3(0.0f));
+    const vec3 brightest = tone_map(vec3(std::numeric_limits<float>::infinity()), curve);
+    EXPECT_GT(brightest.x, 0.98f);
+    EXPECT_LE(brightest.x, 1.0f);
+  }
+}
+
+TEST(ToneMap, AcesKeepsGreysGreyAndMatchesItsCurve) {
+  const vec3 shown = tone_map_aces(vec3(0.18f));
+  EXPECT_NEAR(shown.x, shown.y, 2e-4f);
+  EXPECT_NEAR(shown.z, shown.y, 2e-4f);
+  // (0.18 (0.18 + 0.0245786) - 0.000090537) / (0.18 (0.983729 * 0.18 + 0.4329510) + 0.238081)
+  EXPECT_NEAR(shown.y, 0.10562f, 1e-4f);
+}
+
+TEST(ToneMap, NeutralReturnsTheBaseColorUnderADielectric) {
+  // What a viewer sees of base colour c under uniform white light is c + 0.04; the curve takes 0.04
+  // away.
+  const vec3 base(0.7f, 0.3f, 0.1f);
+  const vec3 shown = tone_map_neutral(base + vec3(0.04f));
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown[c], base[c], 1e-6f);
+  EXPECT_LT(tone_map_neutral(vec3(100.0f)).x, 1.0f);
+}
+
+TEST(ToneMap, HasNames) {
+  EXPECT_EQ(tone_map_from_name("aces"), ToneMap::aces);
+  EXPECT_EQ(tone_map_from_name("neutral"), ToneMap::neutral);
+  EXPECT_EQ(tone_map_from_name("linear"), ToneMap::linear);
+  EXPECT_FALSE(tone_map_from_name("filmic"));
+}
+
+TEST(DisplayImage, EncodesColorKeepsAlphaAndShowsNanAsBlack) {
+  Image image(1, 1, 4);
+  image.pixels = {0.09f, std::nanf(""), 7.0f, 0.25f};
+  const Image shown = display_image(image, ToneMap::linear, 1.0f);
+  ASSERT_EQ(shown.channels, 4);
+  EXPECT_NEAR(shown.pixels[0], srgb_from_linear(0.18f), 1e-6f);
+  EXPECT_EQ(shown.pixels[1], 0.0f);
+  EXPECT_NEAR(shown.pixels[2], 1.0f, 1e-6f);
+  EXPECT_EQ(shown.pixels[3], 0.25f);
+  Image grey(1, 1, 1);
+  grey.pixels = {0.18f};
+  EXPECT_EQ(display_image(grey, ToneMap::linear, 0.0f).channels, 3);
+}
+
+/// CIE lightness of an encoded colour: a measure of our order other than the one the maps were
+/// built in.
+float lightness(const glm::vec3& encoded) {
+  return 116.0f * std::cbrt(luminance(linear_from_srgb(encoded))) - 16.0f;
+}
+
+TEST(ColorMap, SequentialLightnessRisesAllTheWay) {
+  float last = -100.0f;
+  for (int i = 0; i <= 100; ++i) {
+    const float now = lightness(sequential_color(static_cast<float>(i) / 100.0f));
+    EXPECT_GT(now, last);
+    last = now;
+  }
+  EXPECT_EQ(sequential_color(-3.0f), sequential_color(0.0f));
+  EXPECT_EQ(sequential_color(3.0f), sequential_color(1.0f));
+}
+
+TEST(ColorMap, DivergingIsPalestAtZeroAndTellsTheSign) {
+  for (int i = 1; i <= 100; ++i) {
+    const float value = static_cast<float>(i) / 100.0f, less = value - 0.01f;
+    EXPECT_LT(lightness(diverging_color(value)), lightness(diverging_color(less)));
+    EXPECT_LT(lightness(diverging_color(-value)), lightness(diverging_color(-less)));
+    EXPECT_GT(diverging_color(value).x, diverging_color(value).z);
+    EXPECT_LT(diverging_color(-value).x, diverging_color(-value).z);
+  }
+}
+
+}  // namespace
+}  // namespace lambent
