@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/image_decode.h"
 
-#include <stb/stb_image.h>
 #include <webp/decode.h>
 
 #include <climits>
 #include <cstring>
 #include <memory>
+
+#include "core/stb.h"
 
 namespace lambent {
 namespace {

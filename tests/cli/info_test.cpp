@@ -101,7 +101,7 @@ TEST_F(Info, KnowsBuiltInScenes) {
 TEST_F(Info, BadInputIsStatusTwoAndNamesFileAndCause) {
   const Outcome missing = run_program("info " + (folder_ / "none.glb").string() + " 2>&1");
   EXPECT_EQ(missing.status, 2);
-  EXPECT_THAT(missing.text, HasSubstr("none.glb: the file does not exist"));
+  EXPECT_THAT(missing.text, HasSubstr("none.glb: no such file"));
   std::ofstream(folder_ / "scene.gltf") << R"({"asset": {"version": "2.0"}, "scene": 3})";
   const Outcome broken = run_program("info " + file() + " 2>&1");
   EXPECT_EQ(broken.status, 2);

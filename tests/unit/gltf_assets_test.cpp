@@ -8,8 +8,8 @@
 #include <map>
 #include <sstream>
 
+#include "core/file_bytes.h"
 #include "scene/gltf_import.h"
-#include "scene/read_file.h"
 #include "scene/texture.h"
 #include "unit/gltf_builder.h"
 
@@ -150,9 +150,10 @@ TEST(Assets, FuzzCorpusNeverCrashesAndImportsToValidScenes) {
   ASSERT_TRUE(std::filesystem::is_directory(corpus));
   int imported = 0;
   for (const auto& file : std::filesystem::directory_iterator(corpus)) {
-    const auto bytes = read_file(file.path().string(), file.path().string(), "");
+    const auto bytes = read_file(file.path().string());
     ASSERT_TRUE(bytes) << error_of(bytes);
-    const Expected<Scene> scene = load_scene_from_memory(*bytes);
+    const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes->data());
+    const Expected<Scene> scene = load_scene_from_memory({begin, bytes->size()});
     if (!scene) {
       EXPECT_FALSE(scene.error().cause.empty()) << file.path();
       continue;

@@ -60,12 +60,12 @@ TEST_F(GltfFile, ReadsBuffersBesideAndAboveIt) {
 
 TEST_F(GltfFile, MissingFilesAreNamed) {
   EXPECT_THAT(error_of(load_scene((folder_ / "none.gltf").string())),
-              HasSubstr("none.gltf: the file does not exist"));
-  EXPECT_THAT(error_of(load_scene(folder_.string())), HasSubstr("this is a folder"));
+              HasSubstr("none.gltf: no such file"));
+  EXPECT_THAT(error_of(load_scene(folder_.string())), HasSubstr("is a directory"));
   const Json root = triangle_with({{"byteLength", 36}, {"uri", "none.bin"}});
   const std::string error = error_of(load_scene(write("a.gltf", root.dump())));
   EXPECT_THAT(error, HasSubstr("a.gltf: buffers[0]"));
-  EXPECT_THAT(error, HasSubstr("none.bin): the file does not exist"));
+  EXPECT_THAT(error, HasSubstr("none.bin): no such file"));
 }
 
 TEST_F(GltfFile, MissingImagesAreNamed) {
@@ -75,7 +75,7 @@ TEST_F(GltfFile, MissingImagesAreNamed) {
   root["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
   const std::string error = error_of(load_scene(write("a.gltf", root.dump())));
   EXPECT_THAT(error, HasSubstr("images[1]"));
-  EXPECT_THAT(error, HasSubstr("none.png): the file does not exist"));
+  EXPECT_THAT(error, HasSubstr("none.png): no such file"));
 }
 
 TEST_F(GltfFile, TruncatedBuffersAreNamed) {

@@ -126,7 +126,8 @@ TEST(GltfMeshes, VerticesThatNoTriangleUsesAreDropped) {
   const Expected<Scene> scene = zigzag(kStrip, {1, 3, 2}).load();
   ASSERT_TRUE(scene) << error_of(scene);
   const Mesh& mesh = scene->meshes.at(0);
-  EXPECT_THAT(mesh.positions, ElementsAre(glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1, 1, 0)));
+  EXPECT_THAT(mesh.positions,
+              ElementsAre(glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1, 1, 0)));
   EXPECT_THAT(mesh.normals, SizeIs(3));
   EXPECT_THAT(mesh.triangles, ElementsAre(glm::uvec3(0, 2, 1)));
 }
