@@ -103,7 +103,7 @@ void upper_column(MeshBuilder& builder) {
   base.insert(base.end(), {{kRadius + 0.005f, y + 0.17f}, {kRadius + 0.005f, y + 0.19f}});
   builder.lathe(kOrigin, base, 16);
   const float neck = kUpperSpring - 0.3f;
-  shaft(builder, X);
+  shaft(builder, {y + 0.18f, neck, kRadius, 0, 16, 6});
   const Profile echinus{{0.128f, neck - 0.01f}, {0.15f, neck},         {0.15f, neck + 0.03f},
                         {0.13f, neck + 0.035f}, {0.13f, neck + 0.1f},  {0.16f, neck + 0.15f},
                         {0.21f, neck + 0.2f},   {0.22f, neck + 0.215f}};

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/progress.h"
+#include "lambent/progress.h"
 
 namespace lambent::cli {
 
