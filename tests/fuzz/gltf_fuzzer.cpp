@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "fuzz/gltf_input.h"
 #include "scene/gltf_import.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const lambent::Expected<lambent::Scene> scene = lambent::load_scene_from_memory({data, size});
+  const auto file = lambent::test::gltf_from_fuzz_input({data, size});
+  const lambent::Expected<lambent::Scene> scene = lambent::load_scene_from_memory(file);
   if (scene && !lambent::validate(*scene)) std::abort();
   if (!scene && scene.error().cause.empty()) std::abort();
   return 0;

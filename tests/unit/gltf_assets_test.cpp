@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/file_bytes.h"
+#include "fuzz/gltf_input.h"
 #include "scene/gltf_import.h"
 #include "scene/texture.h"
 #include "unit/gltf_builder.h"
@@ -153,7 +154,8 @@ TEST(Assets, FuzzCorpusNeverCrashesAndImportsToValidScenes) {
     const auto bytes = read_file(file.path().string());
     ASSERT_TRUE(bytes) << error_of(bytes);
     const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes->data());
-    const Expected<Scene> scene = load_scene_from_memory({begin, bytes->size()});
+    const Expected<Scene> scene =
+        load_scene_from_memory(test::gltf_from_fuzz_input({begin, bytes->size()}));
     if (!scene) {
       EXPECT_FALSE(scene.error().cause.empty()) << file.path();
       continue;
