@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/image_decode.h"
 
-#include <stb/stb_image.h>
 #include <webp/decode.h>
 
 #include <climits>
 #include <cstring>
 #include <memory>
+#include <string>
+
+#include "core/stb.h"
 
 namespace lambent {
 namespace {
@@ -32,6 +34,13 @@ std::size_t rgba_bytes(int width, int height) {
   return static_cast<std::size_t>(width) * height * 4;
 }
 
+// What went wrong on this thread, in the decoder's words where it has any.
+std::string broken(Format format) {
+  const char* reason = format == Format::webp ? nullptr : stbi_failure_reason();
+  const std::string cause = "the image is corrupt or truncated";
+  return reason ? cause + " (" + reason + ")" : cause;
+}
+
 }  // namespace
 
 Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const std::string& file,
@@ -48,7 +57,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
       format == Format::webp
           ? WebPGetInfo(bytes.data(), bytes.size(), &level.width, &level.height) != 0
           : stbi_info_from_memory(bytes.data(), size, &level.width, &level.height, &channels) != 0;
-  if (!readable) return fail(file, place, "the image is corrupt or truncated");
+  if (!readable) return fail(file, place, broken(format));
   if (absurd(level.width, level.height)) {
     return fail(file, place,
                 "the image's size of " + std::to_string(level.width) + " x " +
@@ -59,7 +68,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
     level.rgba.resize(rgba_bytes(level.width, level.height));
     if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), level.rgba.data(), level.rgba.size(),
                             level.width * 4)) {
-      return fail(file, place, "the WebP image is corrupt or truncated");
+      return fail(file, place, broken(format));
     }
     return level;
   }
@@ -67,7 +76,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
       stbi_load_from_memory(bytes.data(), size, &level.width, &level.height, &channels, 4),
       stbi_image_free);
   if (!pixels || absurd(level.width, level.height)) {
-    return fail(file, place, "the image is corrupt or truncated");
+    return fail(file, place, broken(format));
   }
   level.rgba.assign(pixels.get(), pixels.get() + rgba_bytes(level.width, level.height));
   return level;
