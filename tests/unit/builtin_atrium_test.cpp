@@ -16,14 +16,6 @@ const AnimatedScene& atrium() {
   return made;
 }
 
-const Camera& camera_named(const std::string& name) {
-  const auto& cameras = atrium().scene.cameras;
-  const auto found = std::find_if(cameras.begin(), cameras.end(),
-                                  [&](const Camera& camera) { return camera.name == name; });
-  if (found == cameras.end()) throw std::out_of_range(name);
-  return *found;
-}
-
 glm::vec3 eye_of(const Camera& camera) {
   return glm::vec3(camera.world_from_view[3]);
 }
