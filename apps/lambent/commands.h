@@ -15,7 +15,9 @@ namespace lambent::cli {
 /// What the chosen subcommand does once all arguments are known to be well formed.
 using Run = std::function<Expected<void>()>;
 
+void add_compare(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_make_scene(CLI::App& app, Run& run);
+void add_render(CLI::App& app, Run& run);
 
 }  // namespace lambent::cli

@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/heat_map.h"
 #include "core/metrics.h"
-#include "core/statistics.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 
@@ -42,7 +42,9 @@ bool is_picture(const std::string& layer) {
   return std::find(std::begin(kDataLayers), std::end(kDataLayers), layer) == std::end(kDataLayers);
 }
 
-std::string shown_name(const std::string& layer) { return layer.empty() ? "(picture)" : layer; }
+std::string shown_name(const std::string& layer) {
+  return layer.empty() ? "(picture)" : layer;
+}
 
 /// Files of 8 bits hold what a display shows, all others linear radiance.
 bool is_display_file(const std::string& path) {
@@ -54,7 +56,8 @@ bool is_display_file(const std::string& path) {
 }
 
 /// The layer, or an Error that lists those there are.
-Expected<const Image*> layer_of(const std::string& path, const LayeredImage& image, const std::string& name) {
+Expected<const Image*> layer_of(const std::string& path, const LayeredImage& image,
+                                const std::string& name) {
   if (const Image* found = image.find(name)) return found;
   std::string present;
   for (const Layer& layer : image.layers) {
@@ -64,8 +67,8 @@ Expected<const Image*> layer_of(const std::string& path, const LayeredImage& ima
 }
 
 /// What --layer asks for; without it every layer that both files have.
-Expected<std::vector<Comparison>> choose_layers(const CompareOptions& options, const LayeredImage& a,
-                                                const LayeredImage& b) {
+Expected<std::vector<Comparison>> choose_layers(const CompareOptions& options,
+                                                const LayeredImage& a, const LayeredImage& b) {
   std::vector<Comparison> chosen;
   for (const std::string& text : options.layers) {
     const std::size_t equals = text.find('=');
@@ -77,14 +80,14 @@ Expected<std::vector<Comparison>> choose_layers(const CompareOptions& options, c
     if (b.find(layer.name) != nullptr) chosen.push_back({layer.name, layer.name, {}});
   }
   if (chosen.empty()) {
-    return fail(options.path_b, "", "has no layer in common with " + options.path_a +
-                                        " (use --layer A_NAME=B_NAME)");
+    return fail(options.path_b, "",
+                "has no layer in common with " + options.path_a + " (use --layer A_NAME=B_NAME)");
   }
   return chosen;
 }
 
-/// The standard error that belongs to a layer of B: the layer of that name, or the whole picture where only one
-/// comparison is made.
+/// The standard error that belongs to a layer of B: the layer of that name, or the whole picture
+/// where only one comparison is made.
 Expected<const Image*> noise_of(const CompareOptions& options, const LayeredImage& noise,
                                 const std::string& layer, std::size_t comparisons) {
   if (const Image* same_name = noise.find(layer)) return same_name;
@@ -92,11 +95,14 @@ Expected<const Image*> noise_of(const CompareOptions& options, const LayeredImag
   return layer_of(options.noise_path, noise, layer);
 }
 
-void add_numbers(const Comparison& comparison, const std::string& prefix, Statistics& numbers) {
+// What is not finite becomes null.
+using Json = nlohmann::ordered_json;
+
+void add_numbers(const Comparison& comparison, const std::string& prefix, Json& numbers) {
   const Metrics& m = comparison.metrics;
-  const auto set = [&](const char* key, double value) { numbers.set(prefix + key, value); };
-  set("pixels", static_cast<double>(m.pixels));
-  set("excluded_pixels", static_cast<double>(m.excluded));
+  const auto set = [&](const char* key, double value) { numbers[prefix + key] = value; };
+  numbers[prefix + "pixels"] = m.pixels;
+  numbers[prefix + "excluded_pixels"] = m.excluded;
   set("mean_a", m.mean_a);
   set("mean_b", m.mean_b);
   set("mean_ratio", m.mean_ratio);
@@ -115,12 +121,12 @@ void add_numbers(const Comparison& comparison, const std::string& prefix, Statis
 }
 
 void print_json(const std::vector<Comparison>& comparisons) {
-  Statistics numbers;
+  Json numbers;
   for (const Comparison& comparison : comparisons) {
     const bool plain = comparisons.size() == 1 || comparison.name_a.empty();
     add_numbers(comparison, plain ? "" : comparison.name_a + ".", numbers);
   }
-  std::fputs(numbers.json().c_str(), stdout);
+  std::printf("%s\n", numbers.dump(2).c_str());
 }
 
 std::string number_text(double value, const char* format) {
@@ -151,7 +157,9 @@ void print_table(const std::vector<Comparison>& comparisons, bool noise) {
       {"FLIP", "%.4f", [](const Metrics& m) { return m.flip; }},
       {"HDR-FLIP", "%.4f", [](const Metrics& m) { return m.hdr_flip.value_or(kNothing); }},
   };
-  const auto shown = [&](const Column& column) { return noise || std::string(column.title) != "less noise"; };
+  const auto shown = [&](const Column& column) {
+    return noise || std::string(column.title) != "less noise";
+  };
   constexpr int kNameColumns = 14, kNumberColumns = 11;
 
   std::printf("%-*s", kNameColumns, "layer");
@@ -170,8 +178,8 @@ void print_table(const std::vector<Comparison>& comparisons, bool noise) {
   }
   for (const Comparison& comparison : comparisons) {
     if (comparison.metrics.excluded == 0) continue;
-    std::printf("%s: %zu pixels left out, being NaN or infinite\n", shown_name(comparison.name_a).c_str(),
-                comparison.metrics.excluded);
+    std::printf("%s: %zu pixels left out, being NaN or infinite\n",
+                shown_name(comparison.name_a).c_str(), comparison.metrics.excluded);
   }
 }
 
@@ -182,8 +190,8 @@ struct LayerNoise {
 };
 
 /// Measures one pair of layers, and adds its heat map to `pictures` where one is wanted.
-Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& a, const LayeredImage& b,
-                             const LayerNoise& noise, Comparison& comparison,
+Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& a,
+                             const LayeredImage& b, const LayerNoise& noise, Comparison& comparison,
                              std::vector<Image>& pictures) {
   const Expected<const Image*> layer_a = layer_of(options.path_a, a, comparison.name_a);
   if (!layer_a) return tl::unexpected(layer_a.error());
@@ -200,7 +208,8 @@ Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& 
   }
   const Expected<Metrics> metrics = compare_images(**layer_a, **layer_b, how);
   if (!metrics) {
-    return fail(options.path_a, "layer " + shown_name(comparison.name_a), metrics.error().message());
+    return fail(options.path_a, "layer " + shown_name(comparison.name_a),
+                metrics.error().message());
   }
   comparison.metrics = *metrics;
   if (!options.heat_map_path.empty()) {
@@ -223,8 +232,9 @@ Expected<void> compare(const CompareOptions& options) {
     const auto size = [](const LayeredImage& i) {
       return std::to_string(i.width) + "x" + std::to_string(i.height);
     };
-    return fail(options.path_a, "", "the images differ in size: " + size(*a) + ", but " + options.path_b +
-                                        " is " + size(*b));
+    return fail(
+        options.path_a, "",
+        "the images differ in size: " + size(*a) + ", but " + options.path_b + " is " + size(*b));
   }
 
   Expected<std::vector<Comparison>> comparisons = choose_layers(options, *a, *b);
@@ -232,13 +242,15 @@ Expected<void> compare(const CompareOptions& options) {
   std::vector<Image> pictures;
   for (Comparison& comparison : *comparisons) {
     const LayerNoise layer_noise{noise, comparisons->size()};
-    if (const auto done = compare_layer(options, *a, *b, layer_noise, comparison, pictures); !done) {
+    if (const auto done = compare_layer(options, *a, *b, layer_noise, comparison, pictures);
+        !done) {
       return done;
     }
   }
 
   if (!options.heat_map_path.empty()) {
-    if (const auto written = write_png(options.heat_map_path, stack(pictures)); !written) return written;
+    if (const auto written = write_png(options.heat_map_path, stack(pictures)); !written)
+      return written;
   }
   if (options.json) {
     print_json(*comparisons);
@@ -251,18 +263,22 @@ Expected<void> compare(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Run& run) {
-  CLI::App* command = app.add_subcommand("compare", "Measures how image A differs from reference B");
+  CLI::App* command =
+      app.add_subcommand("compare", "Measures how image A differs from reference B");
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->path_a, "Image: .exr, .hdr, .png or .jpg")->required();
   command->add_option("B", options->path_b, "Reference of the same size")->required();
-  command->add_option("--layer", options->layers,
-                      "Layer to compare, or A_NAME=B_NAME; the whole picture's name is empty. May be "
-                      "repeated. Default: all layers that both files have")
+  command
+      ->add_option("--layer", options->layers,
+                   "Layer to compare, or A_NAME=B_NAME; the whole picture's name is empty. May be "
+                   "repeated. Default: all layers that both files have")
       ->allow_extra_args(false);
   command->add_flag("--json", options->json, "Print one flat JSON object in place of a table");
   command->add_option("--heatmap", options->heat_map_path,
                       "PNG to write: signed relative error and FLIP, a row for each layer");
-  command->add_option("--block", options->block, "Squared errors of the means of NxN pixels, not of single ones")
+  command
+      ->add_option("--block", options->block,
+                   "Squared errors of the means of NxN pixels, not of single ones")
       ->check(CLI::Range(1, kMaxBlock));
   command->add_option("--noise", options->noise_path,
                       "Standard error of B per pixel (EXR): also print RMSE/B without B's noise");

@@ -24,8 +24,10 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   lambent::cli::Run run;
+  lambent::cli::add_compare(app, run);
   lambent::cli::add_info(app, run);
   lambent::cli::add_make_scene(app, run);
+  lambent::cli::add_render(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "compose/exposure.h"
 #include "core/atomic_file.h"
 #include "core/metrics.h"
 #include "core/tone_map.h"
@@ -51,6 +50,10 @@ struct Options {
   std::string distance_format = "rg16f";
 };
 
+// Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, keeps
+// structure.
+constexpr int kVerifyBlock = 8;
+
 // Defaults of --samples: enough for smooth edges, and for a picture in which noise is fine grain.
 constexpr int kFieldSamples = 4;
 constexpr int kReferenceSamples = 64;
@@ -93,7 +96,7 @@ Expected<void> write_output(const Options& options, const LayeredImage& image) {
   }
   float stops = 0.0f;
   if (options.exposure == "auto") {
-    stops = automatic_exposure(picture);
+    stops = static_cast<float>(std::log2(auto_exposure(picture)));
   } else if (!CLI::detail::lexical_cast(options.exposure, stops) || !std::isfinite(stops)) {
     return fail("--exposure", "",
                 "'" + options.exposure + "' is neither auto nor a number of stops");
@@ -184,7 +187,7 @@ Expected<LayeredImage> render_by_field(const Options& options, const World& worl
   RenderedFrame rendered = render_frame(world, field ? &*field : nullptr, camera, frame, progress);
   for (const PassTime& pass : rendered.passes) stats[pass.name + "_ms"] = pass.ms;
   stats["camera_rays"] = rendered.rays;
-  return std::move(rendered.image);
+  return rendered.image;
 }
 
 ReferenceSettings reference_settings(const Options& options, const glm::ivec2& size, int samples) {
@@ -208,13 +211,13 @@ LayeredImage render_by_reference(const Options& options, const World& world, con
   stats["relative_standard_error"] = result.relative_standard_error;
   std::printf("reference: %d samples a pixel, relative standard error %.4f\n", samples,
               result.relative_standard_error);
-  return std::move(result.image);
+  return result.image;
 }
 
 /// Path-traces the same view and prints the picture's error beside it.
-void verify(const Options& options, const World& world, const Camera& camera,
-            const glm::ivec2& size, const LayeredImage& image, const ProgressFn& progress,
-            Json& stats) {
+Expected<void> verify(const Options& options, const World& world, const Camera& camera,
+                      const glm::ivec2& size, const LayeredImage& image, const ProgressFn& progress,
+                      Json& stats) {
   const ReferenceResult reference = render_reference(
       world, camera, reference_settings(options, size, options.verify_samples), progress);
   std::printf("error against %d path-traced samples a pixel (their own: %.4f)\n",
@@ -223,13 +226,16 @@ void verify(const Options& options, const World& world, const Camera& camera,
     const Image* ours = image.find(name);
     const Image* truth = reference.image.find(name);
     if (ours == nullptr || truth == nullptr) continue;
-    const Metrics metrics = compare_images(*ours, *truth, {.block = kVerifyBlock});
+    const Expected<Metrics> metrics =
+        compare_images(*ours, *truth, {.block = kVerifyBlock, .perceptual = false});
+    if (!metrics) return tl::unexpected(metrics.error());
     const std::string label = *name == '\0' ? "all" : name;
     std::printf("  %-11s mean ratio %.4f, relative RMSE of 8x8 blocks %.4f\n", label.c_str(),
-                metrics.mean_ratio, metrics.relative_rmse);
-    stats["verify_" + label + "_mean_ratio"] = metrics.mean_ratio;
-    stats["verify_" + label + "_relative_rmse"] = metrics.relative_rmse;
+                metrics->mean_ratio, metrics->relative_rmse);
+    stats["verify_" + label + "_mean_ratio"] = metrics->mean_ratio;
+    stats["verify_" + label + "_relative_rmse"] = metrics->relative_rmse;
   }
+  return {};
 }
 
 Expected<void> check_numbers(const Options& options) {
@@ -264,15 +270,16 @@ Expected<void> render(const Options& options) {
   stats["build_ms"] = world.build_ms();
   stats["acceleration_structure_bytes"] = world.bytes();
 
-  ProgressBar bar;
+  const ProgressFn progress = terminal_progress();
   Expected<LayeredImage> image =
       options.method == "reference"
-          ? render_by_reference(options, world, *camera, *size, bar.function(), stats)
-          : render_by_field(options, world, *camera, *size, bar.function(), stats);
+          ? render_by_reference(options, world, *camera, *size, progress, stats)
+          : render_by_field(options, world, *camera, *size, progress, stats);
   if (!image) return tl::unexpected(image.error());
   if (const auto done = write_output(options, *image); !done) return done;
   if (options.verify_samples > 0) {
-    verify(options, world, *camera, *size, *image, bar.function(), stats);
+    const auto done = verify(options, world, *camera, *size, *image, progress, stats);
+    if (!done) return done;
   }
   if (!options.stats.empty()) return write_file_atomically(options.stats, stats.dump(2) + "\n");
   return {};

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of a frame, written once.
 #include <cassert>
-#include <chrono>
 
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
 #include "scene/light_sampling.h"
@@ -50,9 +50,7 @@ class PassTimer {
 
   /// Books the time since the last call on a pass.
   void finish(const char* name) {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
+    const double ms = watch_.lap();
     for (PassTime& pass : passes_) {
       if (pass.name == name) {
         pass.ms += ms;
@@ -64,7 +62,7 @@ class PassTimer {
 
  private:
   std::vector<PassTime>& passes_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Stopwatch watch_;
 };
 
 /// Irradiance of the field at each pixel, on a surface that faces along normal(pixel).

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/atomic_file.h"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -88,6 +90,18 @@ Expected<void> write_file_atomically(const std::string& path, std::span<const st
     const std::error_code rename_error = error;
     fs::remove(temporary, error);
     return fail(path, "", "cannot write: " + rename_error.message(), kind_of(rename_error.value()));
+  }
+  return {};
+}
+
+Expected<void> check_writable(const std::string& path) {
+  if (path.empty()) return fail("", "", "the name of the file to write is empty");
+  std::error_code error;
+  if (fs::is_directory(path, error)) return fail(path, "", "cannot write: is a directory");
+  fs::path directory = fs::path(path).parent_path();
+  if (directory.empty()) directory = ".";
+  if (::access(directory.c_str(), W_OK) != 0) {
+    return fail(path, "", system_cause("cannot write", errno), kind_of(errno));
   }
   return {};
 }

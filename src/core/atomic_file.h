@@ -17,4 +17,8 @@ namespace lambent {
 Expected<void> write_file_atomically(const std::string& path, std::span<const std::byte> bytes);
 Expected<void> write_file_atomically(const std::string& path, std::string_view text);
 
+/// Fails as write_file_atomically would for want of a directory or of the right to write, without writing: so that
+/// work of minutes does not end in a path that was mistyped.
+Expected<void> check_writable(const std::string& path);
+
 }  // namespace lambent

@@ -5,10 +5,10 @@
 #include "lambent/field.h"
 
 #include <cassert>
-#include <chrono>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "field/distances.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
@@ -22,20 +22,6 @@ namespace {
 
 constexpr std::size_t kQueriesPerTask = 4096;
 constexpr std::size_t kProbesPerTask = 64;
-
-class Stopwatch {
- public:
-  /// Milliseconds since construction or the last lap.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double ms = std::chrono::duration<double, std::milli>(now - start_).count();
-    start_ = now;
-    return ms;
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 int square(int x) {
   return x * x;
