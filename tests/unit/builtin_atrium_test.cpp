@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "raytracing/raytracer.h"
-#include "scenes/builtin.h"
+#include "scenes/recipes.h"
 #include "shared/color.h"
 #include "shared/sampling.h"
 
@@ -12,7 +12,8 @@ namespace lambent::scenes {
 namespace {
 
 const AnimatedScene& atrium() {
-  static const AnimatedScene made = make_animated("atrium").value();
+  // The patterns are what they are at any resolution; small textures are made fast.
+  static const AnimatedScene made = make_atrium(256);
   return made;
 }
 
