@@ -183,7 +183,7 @@ void add_cameras(Scene& scene) {
   add_camera(scene, "court", {-6.9f, 2.0f, -1.2f}, {7.5f, 2.0f, 1.9f}, 62.0f * kDegree, kAspect);
   add_camera(scene, "aisle", {-4.2f, 1.75f, 6.45f}, {7.5f, 1.75f, 5.4f}, 60.0f * kDegree, kAspect);
   add_camera(scene, "door", {3.3f, 1.65f, -0.75f}, {10.5f, 1.65f, 0.2f}, 46.0f * kDegree, kAspect);
-  add_camera(scene, "gallery", {-9.0f, 6.6f, -6.0f}, {5.0f, 6.6f, 2.2f}, 62.0f * kDegree, kAspect);
+  add_camera(scene, "gallery", {-9.7f, 6.6f, -0.7f}, {7.5f, 6.6f, 1.0f}, 60.0f * kDegree, kAspect);
 }
 
 }  // namespace
