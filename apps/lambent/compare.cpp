@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "core/heat_map.h"
 #include "core/metrics.h"
-#include "core/statistics.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 
@@ -95,11 +95,14 @@ Expected<const Image*> noise_of(const CompareOptions& options, const LayeredImag
   return layer_of(options.noise_path, noise, layer);
 }
 
-void add_numbers(const Comparison& comparison, const std::string& prefix, Statistics& numbers) {
+// What is not finite becomes null.
+using Json = nlohmann::ordered_json;
+
+void add_numbers(const Comparison& comparison, const std::string& prefix, Json& numbers) {
   const Metrics& m = comparison.metrics;
-  const auto set = [&](const char* key, double value) { numbers.set(prefix + key, value); };
-  set("pixels", static_cast<double>(m.pixels));
-  set("excluded_pixels", static_cast<double>(m.excluded));
+  const auto set = [&](const char* key, double value) { numbers[prefix + key] = value; };
+  numbers[prefix + "pixels"] = m.pixels;
+  numbers[prefix + "excluded_pixels"] = m.excluded;
   set("mean_a", m.mean_a);
   set("mean_b", m.mean_b);
   set("mean_ratio", m.mean_ratio);
@@ -118,12 +121,12 @@ void add_numbers(const Comparison& comparison, const std::string& prefix, Statis
 }
 
 void print_json(const std::vector<Comparison>& comparisons) {
-  Statistics numbers;
+  Json numbers;
   for (const Comparison& comparison : comparisons) {
     const bool plain = comparisons.size() == 1 || comparison.name_a.empty();
     add_numbers(comparison, plain ? "" : comparison.name_a + ".", numbers);
   }
-  std::fputs(numbers.json().c_str(), stdout);
+  std::printf("%s\n", numbers.dump(2).c_str());
 }
 
 std::string number_text(double value, const char* format) {

@@ -15,8 +15,8 @@ namespace lambent::cli {
 std::string progress_line(std::string_view stage, double share_done, double elapsed_seconds,
                           int columns);
 
-/// Draws the progress of one stage after another on one line of a terminal, and wipes it when a stage is done.
-/// Stages of under a second leave no trace.
+/// Draws the progress of one stage after another on one line of a terminal, and wipes it when a
+/// stage is done. Stages of under a second leave no trace.
 class ProgressBar {
  public:
   using Clock = std::function<double()>;  ///< Seconds since some fixed moment.
@@ -41,8 +41,8 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
-/// Progress on stderr when that is a terminal, silent otherwise. The line is wiped when the last copy of the
-/// function is gone.
+/// Progress on stderr when that is a terminal, silent otherwise. The line is wiped when the last
+/// copy of the function is gone.
 ProgressFn terminal_progress();
 
 }  // namespace lambent::cli

@@ -16,14 +16,15 @@ namespace {
 
 using ColorOf = std::function<glm::vec3(float)>;
 
-/// Panels are enlarged by whole factors until they are this wide [pixels], so that labels fit and pixels show.
+/// Panels are enlarged by whole factors until they are this wide [pixels], so that labels fit and
+/// pixels show.
 constexpr int kMinPanelWidth = 256;
 constexpr int kMargin = 8;
 constexpr int kLegendBar = 12;
 constexpr int kGlyphScale = 2, kGlyphWidth = 3, kGlyphHeight = 5;
 constexpr int kLegendHeight = kLegendBar + 3 * kMargin + kGlyphScale * kGlyphHeight;
-/// Where B is darker than this share of its mean, errors are measured against this share: black pixels would else
-/// drown the picture in infinite relative errors.
+/// Where B is darker than this share of its mean, errors are measured against this share: black
+/// pixels would else drown the picture in infinite relative errors.
 constexpr float kDarkShare = 0.1f;
 
 const glm::vec3 kBackground(1.0f), kInk(0.1f), kNotFinite(1.0f, 0.0f, 1.0f);
@@ -65,7 +66,8 @@ void draw_text(Image& image, int x, int y, std::string_view text) {
         for (int column = 0; column < kGlyphWidth; ++column) {
           const int bits = glyph.rows[static_cast<std::size_t>(row)];
           if (((bits >> (kGlyphWidth - 1 - column)) & 1) == 0) continue;
-          fill(image, x + column * kGlyphScale, y + row * kGlyphScale, kGlyphScale, kGlyphScale, kInk);
+          fill(image, x + column * kGlyphScale, y + row * kGlyphScale, kGlyphScale, kGlyphScale,
+               kInk);
         }
       }
     }
@@ -85,7 +87,8 @@ struct Panel {
   std::array<std::string_view, 3> labels;
 };
 
-void draw_panel(Image& picture, int left, const Panel& panel, const std::vector<char>& valid, int zoom) {
+void draw_panel(Image& picture, int left, const Panel& panel, const std::vector<char>& valid,
+                int zoom) {
   for (int y = 0; y < panel.values.height; ++y) {
     for (int x = 0; x < panel.values.width; ++x) {
       const bool finite = valid[static_cast<std::size_t>(y) * panel.values.width + x] != 0;
@@ -129,7 +132,8 @@ Image relative_errors(const ImagePair& pair) {
   Image errors(a.width, a.height, 1);
   double sum = 0.0;
   for (std::size_t i = 0; i < errors.pixels.size(); ++i) sum += std::abs(luminance_at(b, i));
-  const float floor = kDarkShare * static_cast<float>(sum / static_cast<double>(errors.pixels.size()));
+  const float floor =
+      kDarkShare * static_cast<float>(sum / static_cast<double>(errors.pixels.size()));
   for (std::size_t i = 0; i < errors.pixels.size(); ++i) {
     const float reference = luminance_at(b, i);
     const float difference = luminance_at(a, i) - reference;
@@ -150,10 +154,14 @@ Image heat_map(const ImagePair& pair, bool display) {
                        kHeatMapRange,
                        {"-50%", "0", "+50%"}};
   const Panel perceived{flip(clipped_rgb(pair.a, exposure), clipped_rgb(pair.b, exposure)),
-                        sequential_color, 0.0f, 1.0f, {"0", "0.5", "1"}};
+                        sequential_color,
+                        0.0f,
+                        1.0f,
+                        {"0", "0.5", "1"}};
   const int zoom = (kMinPanelWidth + pair.b.width - 1) / pair.b.width;
   const int panel_width = pair.b.width * zoom;
-  Image picture = blank(2 * panel_width + 3 * kMargin, pair.b.height * zoom + kMargin + kLegendHeight);
+  Image picture =
+      blank(2 * panel_width + 3 * kMargin, pair.b.height * zoom + kMargin + kLegendHeight);
   draw_panel(picture, kMargin, relative, pair.valid, zoom);
   draw_panel(picture, panel_width + 2 * kMargin, perceived, pair.valid, zoom);
   return picture;
@@ -169,7 +177,8 @@ Image stack(const std::vector<Image>& pictures) {
   int top = 0;
   for (const Image& picture : pictures) {
     for (int y = 0; y < picture.height; ++y) {
-      std::copy_n(picture.at(0, y), static_cast<std::size_t>(picture.width) * 3, result.at(0, top + y));
+      std::copy_n(picture.at(0, y), static_cast<std::size_t>(picture.width) * 3,
+                  result.at(0, top + y));
     }
     top += picture.height;
   }

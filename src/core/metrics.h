@@ -20,7 +20,8 @@ struct MetricsOptions {
   /// The images came from display files (PNG, JPEG): white is 1 and nothing is exposed; no
   /// HDR-FLIP.
   bool display = false;
-  bool perceptual = true;  ///< false leaves ssim and flip out (NaN): for layers that are no pictures.
+  bool perceptual =
+      true;  ///< false leaves ssim and flip out (NaN): for layers that are no pictures.
 };
 
 /// How image A differs from reference B. Numbers without a pixel to stand on are NaN.

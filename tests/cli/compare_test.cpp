@@ -15,7 +15,8 @@ using testing::run_program;
 
 LayeredImage frame(float direct, float indirect) {
   LayeredImage image{16, 8, {}};
-  for (const auto& [name, value] : {std::pair{"", direct + indirect}, {"direct", direct}, {"indirect", indirect}}) {
+  for (const auto& [name, value] :
+       {std::pair{"", direct + indirect}, {"direct", direct}, {"indirect", indirect}}) {
     for (float& pixel : image.require(name, 3).pixels) pixel = value;
   }
   return image;
@@ -48,7 +49,8 @@ TEST_F(Compare, JsonIsFlatWithLayersAsPrefixes) {
   EXPECT_NEAR(json.at("indirect.relative_rmse").get<double>(), 0.5, 1e-5);
   EXPECT_EQ(json.at("direct.rmse").get<double>(), 0.0);
   EXPECT_TRUE(json.at("direct.psnr_db").is_null());
-  for (const auto& [key, value] : json.items()) EXPECT_TRUE(value.is_number() || value.is_null()) << key;
+  for (const auto& [key, value] : json.items())
+    EXPECT_TRUE(value.is_number() || value.is_null()) << key;
 }
 
 TEST_F(Compare, LayersOfDifferentNamesAndAScale) {
@@ -88,7 +90,8 @@ TEST_F(Compare, BadInputIsStatus2WithAMessageAndNoOutput) {
       {"compare --heatmap " + heat + " " + a + " " + b, "cannot write"},
       {"compare --block 0 " + a + " " + b, "block"},
       {"compare --scale nan " + a + " " + b, "finite"},
-      {"compare --noise " + directory.file("small.exr") + " --layer direct " + a + " " + b, "standard error"},
+      {"compare --noise " + directory.file("small.exr") + " --layer direct " + a + " " + b,
+       "standard error"},
       {"compare --frobnicate " + a + " " + b, "frobnicate"},
       {"compare " + a, "B"},
   };

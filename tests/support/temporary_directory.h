@@ -9,14 +9,15 @@
 
 namespace lambent::testing {
 
-/// A directory of the running test's own, removed with all it holds. `purpose` tells several of one test apart.
+/// A directory of the running test's own, removed with all it holds. `purpose` tells several of one
+/// test apart.
 class TemporaryDirectory {
  public:
   explicit TemporaryDirectory(const std::string& purpose = "files") {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     path_ = std::filesystem::temp_directory_path() /
-            ("lambent-" + std::string(info->test_suite_name()) + "-" + info->name() + "-" + purpose + "-" +
-             std::to_string(::getpid()));
+            ("lambent-" + std::string(info->test_suite_name()) + "-" + info->name() + "-" +
+             purpose + "-" + std::to_string(::getpid()));
     std::filesystem::create_directories(path_);
   }
   ~TemporaryDirectory() {

@@ -174,8 +174,8 @@ TEST(Ssim, OfUnrelatedNoiseIsNearZeroAndOfInvertedNoiseNegative) {
 }
 
 TEST(Flip, OfBlackAndWhiteFollowsFromThePaper) {
-  // HyAB(black, white) = 100, and from green to blue (Hunt-adjusted) it is 203.3; no features differ:
-  // 0.95 + 0.05 (100^0.7 - 0.4 c) / (0.6 c) with c = 203.3^0.7 = 41.27.
+  // HyAB(black, white) = 100, and from green to blue (Hunt-adjusted) it is 203.3; no features
+  // differ: 0.95 + 0.05 (100^0.7 - 0.4 c) / (0.6 c) with c = 203.3^0.7 = 41.27.
   const Image map = flip(constant(48, 48, vec3(0.0f)), constant(48, 48, vec3(1.0f)));
   EXPECT_NEAR(mean(map), 0.967f, 0.001f);
 }

@@ -46,7 +46,8 @@ TEST(ProgressBar, DrawsAtMostTenTimesASecondAndWipesWhenDone) {
     bench.now += 0.01;
   }
   std::size_t drawings = 0;
-  for (std::size_t at = bench.output.find('['); at != std::string::npos; at = bench.output.find("  [", at + 1)) {
+  for (std::size_t at = bench.output.find('['); at != std::string::npos;
+       at = bench.output.find("  [", at + 1)) {
     ++drawings;
   }
   EXPECT_GE(drawings, 10u);
