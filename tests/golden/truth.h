@@ -32,15 +32,19 @@ struct Estimated {
   std::vector<double> value, variance;
 };
 
-/// The first three channels of an image; a single one three times.
+/// Channel `k` of a pixel; a single channel stands for all.
+inline double channel(const Image& image, std::size_t pixel, int k) {
+  return image.pixels[pixel * image.channels + std::min(k, image.channels - 1)];
+}
+
+/// The first three channels of an image, and of its error where there is one.
 inline Estimated from_image(const Image& image, const Image* error) {
   Estimated result{image.width, image.height, {}, {}};
   const std::size_t pixels = static_cast<std::size_t>(image.width) * image.height;
   for (std::size_t p = 0; p < pixels; ++p) {
     for (int k = 0; k < 3; ++k) {
-      const std::size_t i = p * image.channels + std::min(k, image.channels - 1);
-      const double se = error != nullptr ? error->pixels[i] : 0.0;
-      result.value.push_back(image.pixels[i]);
+      const double se = error != nullptr ? channel(*error, p, k) : 0.0;
+      result.value.push_back(channel(image, p, k));
       result.variance.push_back(se * se);
     }
   }
