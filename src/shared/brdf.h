@@ -47,8 +47,8 @@ struct ReflectedPair {
   vec3 specular;
 };
 
-/// BRDF times cosine, for unit directions to the viewer and to the light in the frame whose normal is +Z.
-/// Zero where either is below the surface.
+/// BRDF times cosine, for unit directions to the viewer and to the light in the frame whose normal
+/// is +Z. Zero where either is below the surface.
 LAMBENT_FN ReflectedPair evaluate_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
   ReflectedPair result = {vec3(0.0f), vec3(0.0f)};
   float n_dot_v = to_viewer.z;
@@ -84,7 +84,8 @@ LAMBENT_FN vec3 sample_ggx_visible_normal(vec3 to_viewer, float alpha, vec2 u) {
   return normalize(vec3(alpha * n.x, alpha * n.y, max(1e-6f, n.z)));
 }
 
-/// Density of the reflected direction that sample_ggx_visible_normal leads to [1/sr]. Heitz 2018, Eq. 17.
+/// Density of the reflected direction that sample_ggx_visible_normal leads to [1/sr]. Heitz 2018,
+/// Eq. 17.
 LAMBENT_FN float pdf_ggx_reflection(vec3 to_viewer, vec3 to_light, float alpha) {
   if (to_viewer.z <= 0.0f || to_light.z <= 0.0f) return 0.0f;
   vec3 h = normalize(to_viewer + to_light);
@@ -92,8 +93,8 @@ LAMBENT_FN float pdf_ggx_reflection(vec3 to_viewer, vec3 to_light, float alpha) 
   return g1 * ggx_distribution(h.z, alpha) / (4.0f * to_viewer.z);
 }
 
-/// Share of light from a uniform sky that the coat reflects: directional albedo, from fitted polynomials.
-/// Karis, "Physically Based Shading on Mobile", 2014 (after Lazarov 2013).
+/// Share of light from a uniform sky that the coat reflects: directional albedo, from fitted
+/// polynomials. Karis, "Physically Based Shading on Mobile", 2014 (after Lazarov 2013).
 LAMBENT_FN vec3 specular_albedo(Reflectance surface, float n_dot_v) {
   float roughness = sqrt(surface.alpha);
   float r_x = 1.0f - roughness;
@@ -114,8 +115,8 @@ LAMBENT_FN float specular_probability(Reflectance surface, float n_dot_v) {
   return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 1.0f);
 }
 
-/// A direction to reflect from: of the specular lobe with probability `specular_share` (u.z decides), else of the
-/// cosine lobe. May point below the surface, where the density is 0.
+/// A direction to reflect from: of the specular lobe with probability `specular_share` (u.z
+/// decides), else of the cosine lobe. May point below the surface, where the density is 0.
 LAMBENT_FN vec3 sample_lobes(Reflectance surface, vec3 to_viewer, float specular_share, vec3 u) {
   if (u.z >= specular_share) return sample_cosine_hemisphere(vec2(u.x, u.y));
   vec3 h = sample_ggx_visible_normal(to_viewer, surface.alpha, vec2(u.x, u.y));
@@ -123,7 +124,8 @@ LAMBENT_FN vec3 sample_lobes(Reflectance surface, vec3 to_viewer, float specular
 }
 
 /// Density of sample_lobes [1/sr].
-LAMBENT_FN float pdf_lobes(Reflectance surface, vec3 to_viewer, float specular_share, vec3 to_light) {
+LAMBENT_FN float pdf_lobes(Reflectance surface, vec3 to_viewer, float specular_share,
+                           vec3 to_light) {
   float pdf = (1.0f - specular_share) * pdf_cosine_hemisphere(to_light.z);
   if (specular_share > 0.0f) {
     pdf += specular_share * pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
