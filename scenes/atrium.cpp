@@ -14,8 +14,6 @@ namespace lambent::scenes {
 namespace atrium {
 namespace {
 
-constexpr int kFine = 1024, kCoarse = 512;  // texels a side
-
 /// What is added to the scene for one pattern.
 struct Order {
   const char* name;
@@ -58,23 +56,24 @@ Finish add_plain(Scene& scene, const char* name, const glm::vec3& color, float r
 
 }  // namespace
 
-Palette add_palette(Scene& scene) {
+Palette add_palette(Scene& scene, int texels) {
+  const int fine = texels, coarse = texels / 2;
   constexpr glm::vec3 kRed(0.52f, 0.045f, 0.035f), kBlue(0.035f, 0.10f, 0.38f),
       kOchre(0.62f, 0.33f, 0.055f), kCream(0.70f, 0.60f, 0.42f), kGold(0.66f, 0.42f, 0.10f);
   const auto fabric = [](const glm::vec3& ground, const glm::vec3& stripe) {
     return [=](glm::vec2 p) { return woven_fabric(p, ground, stripe); };
   };
   const std::vector<Order> orders{
-      {"sandstone", kFine, 2.4f, sandstone_blocks, true},
-      {"limestone", kCoarse, 1.6f, limestone, false},
-      {"marble", kFine, 2.4f, marble_checker, true},
-      {"flags", kFine, 3.0f, flagstones, true},
-      {"plaster", kCoarse, 2.5f, plaster, false},
-      {"wood", kCoarse, 1.2f, wood_planks, true},
-      {"terracotta", kCoarse, 1.2f, terracotta, false},
-      {"cloth_red", kCoarse, 0.8f, fabric(kRed, kGold), false},
-      {"cloth_blue", kCoarse, 0.8f, fabric(kBlue, kCream), false},
-      {"cloth_ochre", kCoarse, 0.8f, fabric(kOchre, kRed), false},
+      {"sandstone", fine, 2.4f, sandstone_blocks, true},
+      {"limestone", coarse, 1.6f, limestone, false},
+      {"marble", fine, 2.4f, marble_checker, true},
+      {"flags", fine, 3.0f, flagstones, true},
+      {"plaster", coarse, 2.5f, plaster, false},
+      {"wood", coarse, 1.2f, wood_planks, true},
+      {"terracotta", coarse, 1.2f, terracotta, false},
+      {"cloth_red", coarse, 0.8f, fabric(kRed, kGold), false},
+      {"cloth_blue", coarse, 0.8f, fabric(kBlue, kCream), false},
+      {"cloth_ochre", coarse, 0.8f, fabric(kOchre, kRed), false},
   };
   std::vector<std::future<TextureSet>> baking;
   for (const Order& order : orders) {
@@ -184,16 +183,16 @@ void add_cameras(Scene& scene) {
   add_camera(scene, "court", {-6.9f, 2.0f, -1.2f}, {7.5f, 2.0f, 1.9f}, 62.0f * kDegree, kAspect);
   add_camera(scene, "aisle", {-4.2f, 1.75f, 6.45f}, {7.5f, 1.75f, 5.4f}, 60.0f * kDegree, kAspect);
   add_camera(scene, "door", {3.3f, 1.65f, -0.75f}, {10.5f, 1.65f, 0.2f}, 46.0f * kDegree, kAspect);
-  add_camera(scene, "gallery", {-9.0f, 6.6f, -6.0f}, {5.0f, 6.6f, 2.2f}, 62.0f * kDegree, kAspect);
+  add_camera(scene, "gallery", {-9.7f, 6.6f, -0.7f}, {7.5f, 6.6f, 1.0f}, 60.0f * kDegree, kAspect);
 }
 
 }  // namespace
 }  // namespace atrium
 
-AnimatedScene make_atrium() {
+AnimatedScene make_atrium(int texels) {
   AnimatedScene made;
   Scene& scene = made.scene;
-  const atrium::Palette palette = atrium::add_palette(scene);
+  const atrium::Palette palette = atrium::add_palette(scene, texels);
   atrium::add_floors(scene, palette);
   atrium::add_walls(scene, palette);
   atrium::add_arcades(scene, palette);

@@ -56,8 +56,8 @@ struct Palette {
   Finish iron, water, lamp, leaf, orange;
 };
 
-/// Adds all textures and materials of the atrium.
-Palette add_palette(Scene& scene);
+/// Adds all textures and materials of the atrium; `texels` as in make_atrium.
+Palette add_palette(Scene& scene, int texels);
 
 void add_floors(Scene& scene, const Palette& palette);
 void add_walls(Scene& scene, const Palette& palette);

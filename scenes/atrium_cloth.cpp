@@ -15,7 +15,7 @@ using B = MeshBuilder;
 constexpr float kRodHeight = 2.84f;  // [m]
 constexpr float kHem = kAisleFloor + 0.06f;
 constexpr float kFullness = 1.9f;  // metres of cloth a metre of rod
-constexpr int kCellsAFold = 6, kCurtainRows = 12;
+constexpr int kCellsAFold = 8, kCurtainRows = 9;
 
 struct Curtain {
   float from, to;  // along the rod [m]
@@ -26,7 +26,7 @@ struct Curtain {
 
 /// How much of the rod's width a tied curtain takes at a height, 0 to 1.
 float tied_width(float y) {
-  constexpr float kTie = 1.3f, kAtTie = 0.24f, kAtHem = 0.42f;
+  constexpr float kTie = 1.3f, kAtTie = 0.28f, kAtHem = 0.46f;
   const auto ease = [](float x) { return x * x * (3.0f - 2.0f * x); };
   if (y < kTie) return glm::mix(kAtHem, kAtTie, ease((y - kHem) / (kTie - kHem)));
   const float x = (y - kTie) / (kRodHeight - kTie);
@@ -41,9 +41,9 @@ void hang(MeshBuilder& builder, const Curtain& curtain) {
     // Folds of uneven width; deeper further down and where the cloth is gathered
     const float uneven = s + 0.012f * std::sin(kTwoPi * 3.0f * s + curtain.variety);
     const float phase = kTwoPi * curtain.folds * uneven;
-    const float depth = glm::mix(0.075f, 0.042f, t) + 0.04f * (1.0f - gathered);
+    const float depth = glm::mix(0.07f, 0.042f, t) * (0.55f + 0.45f * gathered);
     const float sway = 0.035f * (1.0f - t) * std::sin(2.1f * s + 2.6f * t + curtain.variety);
-    const float lean = 0.35f * depth * std::sin(2.0f * phase + curtain.variety) * gathered;
+    const float lean = 0.15f * depth * std::sin(2.0f * phase + curtain.variety) * gathered;
     const float x = curtain.from + width * gathered * s + 0.4f * lean;
     return B::SurfacePoint{{x, y, depth * std::sin(phase) + sway},
                            {s * kFullness * std::abs(width), -y}};
@@ -79,7 +79,7 @@ void add_curtains(Scene& scene, const Palette& palette) {
   constexpr float kJamb = 1.17f;  // where curtains begin beside the columns [m]
   MeshBuilder builder;
   const auto tied = [&](const char* name, const Finish& finish, float variety) {
-    hang(builder, {-kJamb, -0.03f, 7, true, variety});
+    hang(builder, {-kJamb, -0.03f, 6, true, variety});
     return add_mesh(scene, builder, name, finish);
   };
   const int red = tied("curtain_red", palette.red, 0.3f);

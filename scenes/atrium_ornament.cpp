@@ -106,9 +106,9 @@ void upper_column(MeshBuilder& builder) {
   shaft(builder, {y + 0.18f, neck, kRadius, 0, 16, 6});
   const Profile echinus{{0.128f, neck - 0.01f}, {0.15f, neck},         {0.15f, neck + 0.03f},
                         {0.13f, neck + 0.035f}, {0.13f, neck + 0.1f},  {0.16f, neck + 0.15f},
-                        {0.21f, neck + 0.2f},   {0.22f, neck + 0.215f}};
+                        {0.21f, neck + 0.2f},   {0.24f, neck + 0.215f}};
   builder.lathe(kOrigin, echinus, 16);
-  builder.box({-0.24f, kUpperSpring - 0.09f, -0.24f}, {0.24f, kUpperSpring + 0.012f, 0.24f});
+  builder.box({-0.27f, kUpperSpring - 0.09f, -0.27f}, {0.27f, kUpperSpring + 0.012f, 0.27f});
 }
 
 }  // namespace

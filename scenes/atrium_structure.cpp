@@ -188,11 +188,12 @@ void add_vaults(Scene& scene, const Palette& palette) {
   builder.arch_panel(rib);
   const int rib_mesh = add_mesh(scene, builder, "rib", palette.sandstone);
   const float foot = 0.5f * clear;
-  builder.box({-foot, kLowerSpring - 0.14f, -0.2f},
-              {-kRibSpan + 0.05f, kLowerSpring + 0.001f, 0.2f}, B::kAllFaces & ~B::kLeft);
-  builder.box({-foot, kLowerSpring - 0.32f, -0.15f},
-              {-kRibSpan - 0.03f, kLowerSpring - 0.14f, 0.15f},
-              B::kAllFaces & ~(B::kLeft | B::kTop));
+  // The corbels reach into the capitals, behind which there is no wall.
+  constexpr float kIntoCapital = 0.06f;
+  builder.box({-foot - kIntoCapital, kLowerSpring - 0.14f, -0.2f},
+              {-kRibSpan + 0.05f, kLowerSpring + 0.001f, 0.2f});
+  builder.box({-foot - kIntoCapital, kLowerSpring - 0.32f, -0.15f},
+              {-kRibSpan - 0.03f, kLowerSpring - 0.14f, 0.15f}, B::kAllFaces & ~B::kTop);
   builder.box({kRibSpan - 0.05f, kLowerSpring - 0.16f, -0.24f},
               {foot, kLowerSpring + 0.001f, 0.24f}, B::kAllFaces & ~B::kRight);
   builder.box({kRibSpan, kAisleFloor + 0.3f, -0.2f}, {foot, kLowerSpring - 0.16f, 0.2f},

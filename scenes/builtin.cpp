@@ -24,7 +24,7 @@ constexpr std::array kRecipes{
     Recipe{"cube", make_cube},
     Recipe{"squares-parallel", make_squares_parallel},
     Recipe{"squares-perpendicular", make_squares_perpendicular},
-    Recipe{"atrium", make_atrium},
+    Recipe{"atrium", [] { return make_atrium(); }},
 };
 
 const Recipe* find(const std::string& name) {

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <future>
 #include <glm/gtc/type_ptr.hpp>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/atomic_file.h"
+#include "scenes/glb_container.h"
 #include "scenes/png_encoder.h"
 
 namespace lambent::scenes {
@@ -18,15 +18,12 @@ namespace {
 using nlohmann::json;
 
 // Numbers of the glTF and glb specifications.
-constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
+constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125;
 constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
 constexpr int kNearest = 9728, kLinear = 9729, kNearestMipmapLinear = 9986,
               kLinearMipmapLinear = 9987;
 constexpr int kRepeat = 10497, kMirroredRepeat = 33648, kClampToEdge = 33071;
-constexpr std::uint32_t kGlbMagic = 0x46546C67, kGlbVersion = 2;
-constexpr std::uint32_t kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::size_t kMaxShortIndex = 65534;
-constexpr std::size_t kMaxGlbBytes = 0xFFFFFFFF;
 constexpr float kDefaultIor = 1.5f;
 // glTF requires clipping planes; nothing here reads them [m].
 constexpr float kNear = 0.01f, kFar = 1000.0f;
@@ -55,7 +52,7 @@ class Document {
     write_nodes();
     for (const Animation& animation : animations_) write_animation(animation);
     if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
-    return assemble();
+    return glb_.assemble();
   }
 
  private:
@@ -64,32 +61,10 @@ class Document {
     return object["extensions"][extension];
   }
 
-  // --- binary data
-
-  int add_view(const void* data, std::size_t bytes, int target) {
-    const std::size_t offset = binary_.size();
-    binary_.append(static_cast<const char*>(data), bytes);
-    binary_.resize((binary_.size() + 3) / 4 * 4, '\0');
-    json view = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", bytes}};
-    if (target != 0) view["target"] = target;
-    root_["bufferViews"].push_back(view);
-    return static_cast<int>(root_["bufferViews"].size()) - 1;
-  }
-
-  int add_accessor(json accessor, const void* data, std::size_t bytes, int target) {
-    accessor["bufferView"] = add_view(data, bytes, target);
-    root_["accessors"].push_back(std::move(accessor));
-    return static_cast<int>(root_["accessors"].size()) - 1;
-  }
-
-  template <class V>
-  int add_vectors(const std::vector<V>& values, const char* type, int target) {
-    const json accessor = {{"componentType", kFloat}, {"count", values.size()}, {"type", type}};
-    return add_accessor(accessor, values.data(), values.size() * sizeof(V), target);
-  }
+  // --- attributes
 
   int add_positions(const std::vector<glm::vec3>& positions) {
-    const int index = add_vectors(positions, "VEC3", kArrayBuffer);
+    const int index = glb_.add_vectors(positions, "VEC3", kArrayBuffer);
     Bounds bounds;
     for (const glm::vec3& p : positions) bounds.add(p);
     root_["accessors"][index]["min"] = array(bounds.min);
@@ -102,7 +77,7 @@ class Document {
     json accessor = {{"count", count}, {"type", "SCALAR"}};
     if (mesh.positions.size() > kMaxShortIndex) {
       accessor["componentType"] = kUnsignedInt;
-      return add_accessor(accessor, mesh.triangles.data(), count * 4, kElementArrayBuffer);
+      return glb_.add_accessor(accessor, mesh.triangles.data(), count * 4, kElementArrayBuffer);
     }
     accessor["componentType"] = kUnsignedShort;
     std::vector<std::uint16_t> narrow;
@@ -110,7 +85,7 @@ class Document {
     for (const glm::uvec3& t : mesh.triangles) {
       for (int k = 0; k < 3; ++k) narrow.push_back(static_cast<std::uint16_t>(t[k]));
     }
-    return add_accessor(accessor, narrow.data(), count * 2, kElementArrayBuffer);
+    return glb_.add_accessor(accessor, narrow.data(), count * 2, kElementArrayBuffer);
   }
 
   // --- textures and materials
@@ -122,7 +97,7 @@ class Document {
     }
     for (std::size_t i = 0; i < encoding.size(); ++i) {
       const std::string png = encoding[i].get();
-      const int view = add_view(png.data(), png.size(), 0);
+      const int view = glb_.add_view(png.data(), png.size(), 0);
       root_["images"].push_back(
           {{"name", scene_.textures[i].name}, {"mimeType", "image/png"}, {"bufferView", view}});
     }
@@ -223,18 +198,18 @@ class Document {
     json primitive = {{"material", mesh.material}};
     json& attributes = primitive["attributes"];
     attributes["POSITION"] = add_positions(mesh.positions);
-    attributes["NORMAL"] = add_vectors(mesh.normals, "VEC3", kArrayBuffer);
+    attributes["NORMAL"] = glb_.add_vectors(mesh.normals, "VEC3", kArrayBuffer);
     const bool mapped = scene_.materials[mesh.material].normal_texture.texture >= 0;
     if (mapped && !mesh.tangents.empty()) {
-      attributes["TANGENT"] = add_vectors(mesh.tangents, "VEC4", kArrayBuffer);
+      attributes["TANGENT"] = glb_.add_vectors(mesh.tangents, "VEC4", kArrayBuffer);
     }
     for (int set = 0; set < 2; ++set) {
       if (mesh.uvs[set].empty()) continue;
       attributes["TEXCOORD_" + std::to_string(set)] =
-          add_vectors(mesh.uvs[set], "VEC2", kArrayBuffer);
+          glb_.add_vectors(mesh.uvs[set], "VEC2", kArrayBuffer);
     }
     if (!mesh.colors.empty())
-      attributes["COLOR_0"] = add_vectors(mesh.colors, "VEC4", kArrayBuffer);
+      attributes["COLOR_0"] = glb_.add_vectors(mesh.colors, "VEC4", kArrayBuffer);
     primitive["indices"] = add_indices(mesh);
     root_["meshes"].push_back({{"name", mesh.name}, {"primitives", {primitive}}});
   }
@@ -343,13 +318,13 @@ class Document {
         translations.push_back(key.translation);
         rotations.emplace_back(key.rotation.x, key.rotation.y, key.rotation.z, key.rotation.w);
       }
-      const int input = add_vectors(times, "SCALAR", 0);
+      const int input = glb_.add_vectors(times, "SCALAR", 0);
       root_["accessors"][input]["min"] = {times.front()};
       root_["accessors"][input]["max"] = {times.back()};
       const bool light = track.target == Track::Target::light;
       const int node = (light ? light_nodes_ : instance_nodes_)[track.index];
-      add_channel(out, node, "translation", input, add_vectors(translations, "VEC3", 0));
-      add_channel(out, node, "rotation", input, add_vectors(rotations, "VEC4", 0));
+      add_channel(out, node, "translation", input, glb_.add_vectors(translations, "VEC3", 0));
+      add_channel(out, node, "rotation", input, glb_.add_vectors(rotations, "VEC4", 0));
     }
     root_["animations"].push_back(std::move(out));
   }
@@ -360,33 +335,10 @@ class Document {
                                      {"target", {{"node", node}, {"path", path}}}});
   }
 
-  // --- container
-
-  std::string assemble() {
-    root_["buffers"].push_back({{"byteLength", binary_.size()}});
-    std::string text = root_.dump();
-    text.resize((text.size() + 3) / 4 * 4, ' ');
-    std::string out;
-    const auto put = [&out](std::uint32_t word) {
-      for (int shift = 0; shift < 32; shift += 8) out.push_back(static_cast<char>(word >> shift));
-    };
-    constexpr std::size_t kHeader = 12, kChunkHeader = 8;
-    put(kGlbMagic);
-    put(kGlbVersion);
-    put(static_cast<std::uint32_t>(kHeader + 2 * kChunkHeader + text.size() + binary_.size()));
-    put(static_cast<std::uint32_t>(text.size()));
-    put(kJsonChunk);
-    out += text;
-    put(static_cast<std::uint32_t>(binary_.size()));
-    put(kBinaryChunk);
-    out += binary_;
-    return out;
-  }
-
   const Scene& scene_;
   const Animations& animations_;
-  json root_;
-  std::string binary_;
+  GlbContainer glb_;
+  json& root_ = glb_.root;
   std::set<std::string> extensions_;
   std::vector<int> roots_, instance_nodes_, light_nodes_;
 };
@@ -404,7 +356,7 @@ Expected<std::string> encode_glb(const Scene& scene, const Animations& animation
     }
   }
   std::string bytes = Document(scene, animations).encode();
-  if (bytes.size() > kMaxGlbBytes) {
+  if (bytes.size() > GlbContainer::kMaxBytes) {
     return fail("", "", "the scene is larger than the 4 GiB that a .glb file can hold");
   }
   return bytes;

@@ -126,15 +126,17 @@ void MeshBuilder::surface(int columns, int rows, bool closed,
     if (closed) points.back().position = points[points.size() - stride].position;
   }
 
-  // Sum the areas' normals around every vertex; the seam of a closed surface belongs to both of its
-  // ends.
+  // Sum the cells' unit normals around every vertex, so that narrow cells of a sharp fold count as
+  // much as wide ones; the seam of a closed surface belongs to both of its ends.
   std::vector<glm::vec3> normals(points.size(), glm::vec3(0.0f));
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       const int a = j * stride + i, b = a + 1, c = b + stride, d = a + stride;
       const glm::vec3 n = glm::cross(points[c].position - points[a].position,
                                      points[d].position - points[b].position);
-      for (int k : {a, b, c, d}) normals[k] += n;
+      const float size = glm::length(n);
+      if (size == 0.0f) continue;
+      for (int k : {a, b, c, d}) normals[k] += n / size;
     }
   }
   for (int j = 0; closed && j <= rows; ++j) {

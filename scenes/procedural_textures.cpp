@@ -138,8 +138,8 @@ Texel limestone(glm::vec2 p) {
   const float pit = smooth(0.74f, 0.86f, noise(p, {90, 70}, 81));
   glm::vec3 color =
       glm::mix(glm::vec3(0.46f, 0.39f, 0.29f), glm::vec3(0.60f, 0.535f, 0.425f), cloud);
-  color *= (0.93f + 0.12f * grain) * (1.0f - 0.28f * pit);
-  return {color, 0.0007f * grain + 0.002f * cloud - 0.0016f * pit, 0.62f + 0.2f * grain};
+  color *= (0.93f + 0.12f * grain) * (1.0f - 0.14f * pit);
+  return {color, 0.0007f * grain + 0.002f * cloud - 0.0009f * pit, 0.62f + 0.2f * grain};
 }
 
 Texel marble_checker(glm::vec2 p) {

@@ -14,6 +14,7 @@ AnimatedScene make_two_rooms_sealed();
 AnimatedScene make_cube();
 AnimatedScene make_squares_parallel();
 AnimatedScene make_squares_perpendicular();
-AnimatedScene make_atrium();
+/// `texels` is the side of the largest textures; the others have half of it. At least 2.
+AnimatedScene make_atrium(int texels = 1024);
 
 }  // namespace lambent::scenes

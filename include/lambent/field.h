@@ -102,7 +102,7 @@ struct UpdateStatistics {
   double change = 0.0;    ///< Of the stored light, root mean square over root mean square.
 };
 
-/// A point to look the field up at.
+/// A point to look the field up at. All numbers must be finite.
 struct FieldQuery {
   glm::vec3 position_ws{0.0f};  ///< [m]
   glm::vec3 normal_ws{0.0f};    ///< Unit; irradiance is that of a surface with this normal.

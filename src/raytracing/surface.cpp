@@ -67,7 +67,8 @@ Reflectance reflectance_at(const Scene& scene, const Mesh& mesh, const Material&
       glm::clamp(glm::vec3(base_color_at(scene, mesh, material, point, footprint)), 0.0f, 1.0f);
   float metallic = material.metallic;
   float roughness = material.roughness;
-  if (material.metallic_roughness_texture.texture >= 0) {
+  const bool needs_texel = !material.lambert || metallic > 0.0f;
+  if (needs_texel && material.metallic_roughness_texture.texture >= 0) {
     const glm::vec4 texel =
         texture_at(scene, mesh, material.metallic_roughness_texture, point, footprint);
     roughness *= texel.g;

@@ -23,7 +23,8 @@ float mip_level(const Scene& scene, const std::vector<glm::vec2>& uvs, const Tex
       0.5f * std::abs((edge1.x * edge2.y - edge1.y * edge2.x) * view.uv_scale.x * view.uv_scale.y) *
       static_cast<float>(base.width) * static_cast<float>(base.height);
   const float cone_texels = triangle_texels * footprint.share_of_triangle;
-  return cone_texels > 1.0f ? 0.5f * std::log2(cone_texels) : 0.0f;
+  // round(log2(t) / 2) = floor(log2(2 t) / 2)
+  return cone_texels > 1.0f ? static_cast<float>(std::ilogb(2.0f * cone_texels) / 2) : 0.0f;
 }
 
 }  // namespace

@@ -1,43 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes that URIs and buffer views stand for.
 #include <array>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
+#include <string_view>
 
+#include "core/file_bytes.h"
 #include "scene/gltf_document.h"
-#include "scene/read_file.h"
-
-namespace lambent {
-
-Expected<std::vector<std::uint8_t>> read_file(const std::string& path, const std::string& file,
-                                              const std::string& place) {
-  std::error_code code;
-  const auto status = std::filesystem::status(path, code);
-  if (!std::filesystem::exists(status)) return fail(file, place, "the file does not exist");
-  if (std::filesystem::is_directory(status))
-    return fail(file, place, "this is a folder, not a file");
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(path.c_str(), "rb"),
-                                                               std::fclose);
-  if (!stream) return fail(file, place, std::string("cannot be opened: ") + std::strerror(errno));
-  std::vector<std::uint8_t> bytes;
-  constexpr std::size_t kBlock = std::size_t{1} << 20;
-  const auto size = std::filesystem::file_size(path, code);
-  if (!code) bytes.reserve(size);
-  for (;;) {
-    const std::size_t before = bytes.size();
-    bytes.resize(before + kBlock);
-    const std::size_t count = std::fread(bytes.data() + before, 1, kBlock, stream.get());
-    bytes.resize(before + count);
-    if (count < kBlock) break;
-  }
-  if (std::ferror(stream.get())) return fail(file, place, "cannot be read");
-  return bytes;
-}
-
-}  // namespace lambent
 
 namespace lambent::gltf {
 namespace {
@@ -145,7 +113,10 @@ Expected<Bytes> read_uri(const Document& document, const std::string& uri,
                             "the URI " + shown + " refers to a file, but this scene has none");
   }
   const std::string full = (std::filesystem::path(document.folder) / path).string();
-  return read_file(full, document.file, place + " (" + full + ")");
+  const Expected<std::vector<std::byte>> content = read_file(full);
+  if (!content) return document.fail_at(place + " (" + full + ")", content.error().cause);
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(content->data());
+  return Bytes(begin, begin + content->size());
 }
 
 Expected<ByteSpan> view_bytes(const Document& document, int view) {

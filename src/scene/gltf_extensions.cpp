@@ -29,7 +29,7 @@ constexpr Extension kKnown[] = {
     {"KHR_materials_transmission",          false, "surfaces are rendered opaque"},
     {"KHR_materials_unlit",                 true,  nullptr},
     {"KHR_materials_variants",              false, "the default variant is shown"},
-    {"KHR_materials_volume",                false, "surfaces are rendered without a volume behind them"},
+    {"KHR_materials_volume",                false, "surfaces have no volume behind them"},
     {"KHR_mesh_quantization",               true,  nullptr},
     {"KHR_texture_basisu",                  false, "textures use their plain image"},
     {"KHR_texture_transform",               true,  nullptr},

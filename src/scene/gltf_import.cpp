@@ -6,13 +6,13 @@
 #include <new>
 #include <optional>
 
+#include "core/file_bytes.h"
 #include "scene/gltf_accessors.h"
 #include "scene/gltf_lights_cameras.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_textures.h"
-#include "scene/read_file.h"
 
 namespace lambent {
 namespace gltf {
@@ -258,9 +258,10 @@ Expected<Scene> import(ByteSpan bytes, const std::string& file, bool file_access
 }  // namespace gltf
 
 Expected<Scene> load_scene(const std::string& path, const LoadOptions& options) {
-  Expected<std::vector<std::uint8_t>> bytes = read_file(path, path, "");
-  if (!bytes) return tl::unexpected(std::move(bytes).error());
-  return gltf::import(*bytes, path, true, options);
+  const Expected<std::vector<std::byte>> bytes = read_file(path);
+  if (!bytes) return tl::unexpected(bytes.error());
+  const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes->data());
+  return gltf::import({begin, bytes->size()}, path, true, options);
 }
 
 Expected<Scene> load_scene_from_memory(std::span<const std::uint8_t> bytes,

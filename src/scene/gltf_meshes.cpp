@@ -228,6 +228,7 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
   }
   document.repaired("triangles without area were dropped", drop_degenerate_triangles(mesh), place);
   if (mesh.triangles.empty()) return std::nullopt;
+  drop_unused_vertices(mesh);
   complete(document, place, tangent_uv_set, mesh);
   return mesh;
 }

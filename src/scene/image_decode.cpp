@@ -5,6 +5,7 @@
 
 #include <climits>
 #include <cstring>
+#include <string>
 
 #include "core/image_stb.h"
 #include "core/stb.h"
@@ -33,6 +34,13 @@ std::size_t rgba_bytes(int width, int height) {
   return static_cast<std::size_t>(width) * height * 4;
 }
 
+// What went wrong on this thread, in the decoder's words where it has any.
+std::string broken(Format format) {
+  const char* reason = format == Format::webp ? nullptr : stbi_failure_reason();
+  const std::string cause = "the image is corrupt or truncated";
+  return reason ? cause + " (" + reason + ")" : cause;
+}
+
 }  // namespace
 
 Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const std::string& file,
@@ -42,7 +50,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
   if (bytes.size() > INT_MAX) return fail(file, place, "the image file is absurdly large");
   const int size = static_cast<int>(bytes.size());
   if (format != Format::webp && !is_safe_for_stb(std::as_bytes(bytes))) {
-    return fail(file, place, "the image is corrupt or truncated");
+    return fail(file, place, "the image is corrupt (impossible Huffman tables)");
   }
 
   // Ask for the dimensions first: nothing is allocated for absurd ones
@@ -52,7 +60,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
       format == Format::webp
           ? WebPGetInfo(bytes.data(), bytes.size(), &level.width, &level.height) != 0
           : stbi_info_from_memory(bytes.data(), size, &level.width, &level.height, &channels) != 0;
-  if (!readable) return fail(file, place, "the image is corrupt or truncated");
+  if (!readable) return fail(file, place, broken(format));
   if (absurd(level.width, level.height)) {
     return fail(file, place,
                 "the image's size of " + std::to_string(level.width) + " x " +
@@ -63,7 +71,7 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
     level.rgba.resize(rgba_bytes(level.width, level.height));
     if (!WebPDecodeRGBAInto(bytes.data(), bytes.size(), level.rgba.data(), level.rgba.size(),
                             level.width * 4)) {
-      return fail(file, place, "the WebP image is corrupt or truncated");
+      return fail(file, place, broken(format));
     }
     return level;
   }

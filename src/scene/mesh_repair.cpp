@@ -119,6 +119,38 @@ std::size_t drop_degenerate_triangles(Mesh& mesh) {
   return std::erase_if(mesh.triangles, is_degenerate);
 }
 
+void drop_unused_vertices(Mesh& mesh) {
+  constexpr std::uint32_t kUnused = ~0u;
+  std::vector<std::uint32_t> new_index(mesh.positions.size(), kUnused);
+  std::size_t used = 0;
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      std::uint32_t& index = new_index[triangle[k]];
+      if (index != kUnused) continue;
+      index = 0;
+      ++used;
+    }
+  }
+  if (used == mesh.positions.size()) return;
+
+  std::vector<std::uint32_t> kept;
+  kept.reserve(used);
+  for (std::uint32_t vertex = 0; vertex < new_index.size(); ++vertex) {
+    if (new_index[vertex] == kUnused) continue;
+    new_index[vertex] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(vertex);
+  }
+  gather(mesh.positions, kept);
+  gather(mesh.normals, kept);
+  gather(mesh.tangents, kept);
+  gather(mesh.uvs[0], kept);
+  gather(mesh.uvs[1], kept);
+  gather(mesh.colors, kept);
+  for (glm::uvec3& triangle : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) triangle[k] = new_index[triangle[k]];
+  }
+}
+
 void make_flat_normals(Mesh& mesh) {
   std::vector<std::uint32_t> vertices;
   vertices.reserve(mesh.triangles.size() * 3);

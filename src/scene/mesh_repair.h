@@ -11,6 +11,10 @@ namespace lambent {
 /// Drops triangles without area, for which there is no normal. Returns how many.
 std::size_t drop_degenerate_triangles(Mesh& mesh);
 
+/// Drops vertices that no triangle uses: primitives of one file often share a vertex buffer of
+/// which each uses a part, and bounds are those of all vertices.
+void drop_unused_vertices(Mesh& mesh);
+
 /// Gives each triangle vertices of its own with its geometric normal (glTF 2.0, sec. 3.7.2.1).
 void make_flat_normals(Mesh& mesh);
 

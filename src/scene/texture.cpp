@@ -108,53 +108,70 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb) {
   return coarse;
 }
 
-// Texel index after wrapping; `i` may be any integer that a float near the texture can round to.
-int wrap_index(int i, int size, Wrap wrap) {
-  if (wrap == Wrap::clamp_to_edge) return std::clamp(i, 0, size - 1);
-  if (wrap == Wrap::repeat) {
-    const int m = i % size;
-    return m < 0 ? m + size : m;
-  }
-  const int period = 2 * size;
-  int m = i % period;
-  if (m < 0) m += period;
-  return m < size ? m : period - 1 - m;
+// std::floor is a library call on the baseline processor. Floats from 2^23 on have no fraction.
+float fast_floor(float value) {
+  constexpr float kAllIntegers = 8388608.0f;
+  if (!(std::abs(value) < kAllIntegers)) return value;
+  const auto truncated = static_cast<float>(static_cast<int>(value));
+  return truncated > value ? truncated - 1.0f : truncated;
 }
 
-// Texture coordinate brought near [0, 1) first, so that scaling by the size cannot overflow an int.
+// Texture coordinate brought into [0, 1], [0, 2] where it mirrors, so that texel indices stay
+// within one of the texture.
 float wrap_coordinate(float u, Wrap wrap) {
   if (!std::isfinite(u)) return 0.0f;
-  if (wrap == Wrap::clamp_to_edge) return std::clamp(u, -1.0f, 2.0f);
-  return wrap == Wrap::repeat ? u - std::floor(u) : u - 2.0f * std::floor(0.5f * u);
+  if (wrap == Wrap::repeat) return u - fast_floor(u);
+  if (wrap == Wrap::clamp_to_edge) return std::clamp(u, 0.0f, 1.0f);
+  return u - 2.0f * fast_floor(0.5f * u);
 }
 
-glm::vec4 fetch(const TextureLevel& level, int x, int y, const std::array<float, 256>& color) {
-  const std::uint8_t* p = &level.rgba[(static_cast<std::size_t>(y) * level.width + x) * 4];
-  return {color[p[0]], color[p[1]], color[p[2]], linear_decode_table()[p[3]]};
+// Texel index after wrapping, for indices that come from wrap_coordinate or are one off: no
+// division.
+int wrap_index(int i, int size, Wrap wrap) {
+  if (wrap == Wrap::repeat) {
+    if (i < 0) return i + size;
+    return i < size ? i : i - size;
+  }
+  if (wrap == Wrap::mirrored_repeat) {
+    if (i < 0) i = -1 - i;
+    if (i >= 2 * size) i -= 2 * size;
+    if (i >= size) i = 2 * size - 1 - i;
+  }
+  return std::clamp(i, 0, size - 1);
 }
 
-glm::vec4 sample_level(const Texture& texture, const TextureLevel& level, const TextureView& view,
-                       glm::vec2 uv) {
-  const auto& color = texture.srgb ? srgb_decode_table() : linear_decode_table();
-  const float x = wrap_coordinate(uv.x, view.wrap_u) * static_cast<float>(level.width);
-  const float y = wrap_coordinate(uv.y, view.wrap_v) * static_cast<float>(level.height);
+// How a texture's bytes become floats.
+struct Decoder {
+  const float* color;
+  const float* alpha;
+
+  glm::vec4 operator()(const TextureLevel& level, int x, int y) const {
+    const std::uint8_t* p = level.rgba.data() + (static_cast<std::size_t>(y) * level.width + x) * 4;
+    return {color[p[0]], color[p[1]], color[p[2]], alpha[p[3]]};
+  }
+};
+
+glm::vec4 sample_level(const TextureLevel& level, const Decoder& decode, const TextureView& view,
+                       glm::vec2 wrapped_uv) {
+  const float x = wrapped_uv.x * static_cast<float>(level.width);
+  const float y = wrapped_uv.y * static_cast<float>(level.height);
   if (view.nearest) {
-    return fetch(level, wrap_index(static_cast<int>(std::floor(x)), level.width, view.wrap_u),
-                 wrap_index(static_cast<int>(std::floor(y)), level.height, view.wrap_v), color);
+    return decode(level, wrap_index(static_cast<int>(x), level.width, view.wrap_u),
+                  wrap_index(static_cast<int>(y), level.height, view.wrap_v));
   }
 
   // Blend the four texels whose centres surround the point
-  const float left = std::floor(x - 0.5f);
-  const float top = std::floor(y - 0.5f);
+  const float left = fast_floor(x - 0.5f);
+  const float top = fast_floor(y - 0.5f);
   const float fx = x - 0.5f - left;
   const float fy = y - 0.5f - top;
   const int x0 = wrap_index(static_cast<int>(left), level.width, view.wrap_u);
   const int x1 = wrap_index(static_cast<int>(left) + 1, level.width, view.wrap_u);
   const int y0 = wrap_index(static_cast<int>(top), level.height, view.wrap_v);
   const int y1 = wrap_index(static_cast<int>(top) + 1, level.height, view.wrap_v);
-  const glm::vec4 upper = glm::mix(fetch(level, x0, y0, color), fetch(level, x1, y0, color), fx);
-  const glm::vec4 lower = glm::mix(fetch(level, x0, y1, color), fetch(level, x1, y1, color), fx);
-  return glm::mix(upper, lower, fy);
+  return ((1.0f - fx) * (1.0f - fy)) * decode(level, x0, y0) +
+         (fx * (1.0f - fy)) * decode(level, x1, y0) + ((1.0f - fx) * fy) * decode(level, x0, y1) +
+         (fx * fy) * decode(level, x1, y1);
 }
 
 }  // namespace
@@ -183,13 +200,17 @@ glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 
   assert(view.texture >= 0 && view.texture < static_cast<int>(scene.textures.size()));
   const Texture& texture = scene.textures[view.texture];
   const glm::vec2 transformed = transform_uv(view, uv);
+  const glm::vec2 wrapped(wrap_coordinate(transformed.x, view.wrap_u),
+                          wrap_coordinate(transformed.y, view.wrap_v));
+  const float* const linear = linear_decode_table().data();
+  const Decoder decode = {texture.srgb ? srgb_decode_table().data() : linear, linear};
   const float last = static_cast<float>(texture.levels.size() - 1);
   const float level = lod > 0.0f ? std::min(lod, last) : 0.0f;
   const auto finer = static_cast<std::size_t>(level);
   const float blend = level - static_cast<float>(finer);
-  const glm::vec4 fine = sample_level(texture, texture.levels[finer], view, transformed);
+  const glm::vec4 fine = sample_level(texture.levels[finer], decode, view, wrapped);
   if (blend <= 0.0f) return fine;
-  return glm::mix(fine, sample_level(texture, texture.levels[finer + 1], view, transformed), blend);
+  return glm::mix(fine, sample_level(texture.levels[finer + 1], decode, view, wrapped), blend);
 }
 
 }  // namespace lambent

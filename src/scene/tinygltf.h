@@ -7,7 +7,7 @@
 #define TINYGLTF_NO_INCLUDE_JSON
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
-// Debian's libdraco exports another version of tinygltf under the same names, and the loader would mix the
-// two: ours goes by another name, and is compiled in.
+// Debian's libdraco exports another version of tinygltf under the same names, and the loader would
+// mix the two: ours goes by another name, and is compiled in.
 #define tinygltf lambent_tinygltf
 #include <tiny_gltf.h>

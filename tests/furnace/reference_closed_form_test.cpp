@@ -209,6 +209,36 @@ TEST(ReferenceFormFactor, IsTheSameForEveryStrategy) {
   }
 }
 
+// Lambert 1760: irradiance from a polygon of radiance 1 that lies above the horizon.
+double polygon_irradiance(const glm::dvec3& point, const glm::dvec3& normal,
+                          const std::vector<glm::dvec3>& corners) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const glm::dvec3 a = glm::normalize(corners[i] - point);
+    const glm::dvec3 b = glm::normalize(corners[(i + 1) % corners.size()] - point);
+    const glm::dvec3 axis = glm::cross(a, b);
+    const double length = glm::length(axis);
+    sum += std::atan2(length, glm::dot(a, b)) * glm::dot(normal, axis / length);
+  }
+  return std::abs(sum) / 2.0;
+}
+
+TEST(ReferenceClosedForm, PolygonLightFollowsLambertsFormula) {
+  const Scene scene = one_emitter({2.13f, 5.488f, 2.27f}, {1.3f, 0.0f, 0.0f}, {0.0f, 0.0f, 1.05f});
+  const World world(scene);
+  const std::vector<glm::dvec3> corners = {
+      {2.13, 5.488, 2.27}, {3.43, 5.488, 2.27}, {3.43, 5.488, 3.32}, {2.13, 5.488, 3.32}};
+  // On the walls around the lamp, from well below it to where it is seen at a grazing angle
+  for (const float height : {1.0f, 4.0f, 5.2f, 5.4f}) {
+    const SurfacePoint points[2] = {{{0.03f, height, 5.59f}, {0.0f, 0.0f, -1.0f}},
+                                    {{0.0f, height, 1.7f}, {1.0f, 0.0f, 0.0f}}};
+    for (const SurfacePoint& point : points) {
+      const double expected = polygon_irradiance(point.position_ws, point.normal_ws, corners);
+      EXPECT_NEAR(irradiance(world, point, 1 << 12).mean.x / expected, 1.0, 0.005) << height;
+    }
+  }
+}
+
 TEST(ReferenceClosedForm, CubeLitFromItsCentreMatchesSolvedRadiosity) {
   Scene scene;
   scene.materials = {lambert(glm::vec3(2.0f / 3.0f))};

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "raytracing/raytracer.h"
-#include "scenes/builtin.h"
+#include "scenes/recipes.h"
 #include "shared/color.h"
 #include "shared/sampling.h"
 
@@ -12,16 +12,9 @@ namespace lambent::scenes {
 namespace {
 
 const AnimatedScene& atrium() {
-  static const AnimatedScene made = make_animated("atrium").value();
+  // The patterns are what they are at any resolution; small textures are made fast.
+  static const AnimatedScene made = make_atrium(256);
   return made;
-}
-
-const Camera& camera_named(const std::string& name) {
-  const auto& cameras = atrium().scene.cameras;
-  const auto found = std::find_if(cameras.begin(), cameras.end(),
-                                  [&](const Camera& camera) { return camera.name == name; });
-  if (found == cameras.end()) throw std::out_of_range(name);
-  return *found;
 }
 
 glm::vec3 eye_of(const Camera& camera) {

@@ -122,6 +122,16 @@ TEST(GltfMeshes, TrianglesWithoutAreaAreDropped) {
       ElementsAre("2 triangles without area were dropped, first in meshes[0].primitives[0]."));
 }
 
+TEST(GltfMeshes, VerticesThatNoTriangleUsesAreDropped) {
+  const Expected<Scene> scene = zigzag(kStrip, {1, 3, 2}).load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  const Mesh& mesh = scene->meshes.at(0);
+  EXPECT_THAT(mesh.positions,
+              ElementsAre(glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(1, 1, 0)));
+  EXPECT_THAT(mesh.normals, SizeIs(3));
+  EXPECT_THAT(mesh.triangles, ElementsAre(glm::uvec3(0, 2, 1)));
+}
+
 TEST(GltfMeshes, IndicesOutOfRangeNameTheAccessor) {
   EXPECT_THAT(error_of(zigzag(kFan, {0, 1, 5}).load()),
               HasSubstr("accessors[2]: index 5 at 2 is out of range"));

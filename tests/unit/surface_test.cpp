@@ -220,8 +220,9 @@ TEST(Surface, FootprintPicksTheMipLevel) {
   EXPECT_TRUE(sharp < 0.01f || sharp > 0.99f);
   EXPECT_EQ(albedo(0.5f / 64.0f), sharp);
   EXPECT_NEAR(albedo(2.0f / 64.0f), 0.5f, 0.01f);
-  const float between = albedo(1.41421f / 64.0f);
-  EXPECT_NEAR(between, 0.5f * (sharp + 0.5f), 0.05f);
+  // A cone 1.4 texels wide covers 2: halfway between the levels
+  EXPECT_EQ(albedo(1.3f / 64.0f), sharp);
+  EXPECT_NEAR(albedo(1.5f / 64.0f), 0.5f, 0.01f);
 }
 
 TEST(Surface, CoverageIsAlphaTimesVertexAlpha) {
