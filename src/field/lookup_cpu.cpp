@@ -68,7 +68,7 @@ struct CornerFetch {
 /// First half: where to look, for each corner.
 template <int words_per_texel>
 LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& query,
-                                         CornerFetch& fetch) {
+                                         CornerFetch& __restrict fetch) {
   const ProbeCell cell = probe_cell(t.grid, query.position_ws);
   const vec3 low = probe_position(t.grid, cell.base);
   const vec3 position = query.position_ws, normal = query.normal_ws;
@@ -123,7 +123,7 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
 /// Second half: interpolate the moments, bound the visibility and weigh the corners.
 template <DistanceFormat format>
 LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetch,
-                                        CornerWeights& result) {
+                                        CornerWeights& __restrict result) {
   const int width = t.distance_texels + 2;
   float weight[kCorners];
   for (int k = 0; k < kCorners; ++k) {
@@ -182,46 +182,81 @@ LAMBENT_SIMD_CLONES void weigh_all_rg32f(const Tables& t, const FieldQuery* quer
 }
 
 template <IrradianceFormat format>
-LAMBENT_FORCE_INLINE vec3 decode_irradiance(const uint* words, int texel) {
+LAMBENT_FORCE_INLINE void decode_irradiance(const uint* word, float& r, float& g, float& b) {
   if constexpr (format == IrradianceFormat::rgb9e5) {
-    const uint word = words[texel];
-    // 2^(exponent - 24), built from its bits: the exponent field is never small enough to be
-    // denormal
-    const float scale = uintBitsToFloat(((word >> 27u) + (127u - kRgb9e5BiasAndBits)) << 23u);
-    return vec3(static_cast<float>(word & 511u), static_cast<float>((word >> 9u) & 511u),
-                static_cast<float>((word >> 18u) & 511u)) *
-           scale;
+    const float scale = power_of_two(static_cast<int>(*word >> 27u) - kRgb9e5BiasAndBits);
+    r = static_cast<float>(static_cast<int>(*word & 511u)) * scale;
+    g = static_cast<float>(static_cast<int>((*word >> 9u) & 511u)) * scale;
+    b = static_cast<float>(static_cast<int>((*word >> 18u) & 511u)) * scale;
   } else if constexpr (format == IrradianceFormat::r11g11b10f) {
-    return decode_r11g11b10f(words[texel]);
+    r = linear_from_perceptual(decode_small_float(*word & 0x7FFu, 6));
+    g = linear_from_perceptual(decode_small_float((*word >> 11u) & 0x7FFu, 6));
+    b = linear_from_perceptual(decode_small_float(*word >> 22u, 5));
   } else {
-    return {uintBitsToFloat(words[3 * texel]), uintBitsToFloat(words[3 * texel + 1]),
-            uintBitsToFloat(words[3 * texel + 2])};
+    r = uintBitsToFloat(word[0]);
+    g = uintBitsToFloat(word[1]);
+    b = uintBitsToFloat(word[2]);
   }
 }
 
 /// Weighted irradiance of a cell's probes along the surface normal: all eight are read at the same
 /// place of their tile.
 template <IrradianceFormat format>
-void gather_irradiance(const Tables& t, const FieldQuery* queries, const CornerWeights* weights,
-                       vec3* result, std::size_t count) {
+LAMBENT_FORCE_INLINE void gather_irradiance(const Tables& t, const FieldQuery* queries,
+                                            const CornerWeights* weights, vec3* result,
+                                            std::size_t count) {
+  constexpr int kWords = format == IrradianceFormat::float32 ? 3 : 1;
   const int width = t.irradiance_texels + 2;
+  int tile_offset[kCorners];
+  for (int k = 0; k < kCorners; ++k) tile_offset[k] = kWords * t.offsets.probe[k] * width * width;
+
   for (std::size_t i = 0; i < count; ++i) {
     const TileFetch fetch = tile_fetch(queries[i].normal_ws, t.irradiance_texels);
     const vec2 f = fetch.fraction;
     const float shares[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
                              f.x * f.y};
-    const int first = fetch.corner.y * width + fetch.corner.x;
+    const uint* first = t.irradiance_words + kWords * (weights[i].base * width * width +
+                                                       fetch.corner.y * width + fetch.corner.x);
+    const int steps[4] = {0, kWords, kWords * width, kWords * (width + 1)};
+
+    // Read the four texels of each corner's tile
+    float red[kCorners] = {}, green[kCorners] = {}, blue[kCorners] = {};
+    for (int tap = 0; tap < 4; ++tap) {
+      const float share = shares[tap];
+      for (int k = 0; k < kCorners; ++k) {
+        float r, g, b;
+        decode_irradiance<format>(first + steps[tap] + tile_offset[k], r, g, b);
+        red[k] += share * r;
+        green[k] += share * g;
+        blue[k] += share * b;
+      }
+    }
+
+    // Weigh the corners
     vec3 sum(0.0f);
     for (int k = 0; k < kCorners; ++k) {
-      const int tile = (weights[i].base + t.offsets.probe[k]) * (width * width) + first;
-      vec3 value = decode_irradiance<format>(t.irradiance_words, tile) * shares[0];
-      value += decode_irradiance<format>(t.irradiance_words, tile + 1) * shares[1];
-      value += decode_irradiance<format>(t.irradiance_words, tile + width) * shares[2];
-      value += decode_irradiance<format>(t.irradiance_words, tile + width + 1) * shares[3];
-      sum += value * weights[i].weight[k];
+      sum += vec3(red[k], green[k], blue[k]) * weights[i].weight[k];
     }
     result[i] = sum;
   }
+}
+
+LAMBENT_SIMD_CLONES void gather_rgb9e5(const Tables& t, const FieldQuery* queries,
+                                       const CornerWeights* weights, vec3* result,
+                                       std::size_t count) {
+  gather_irradiance<IrradianceFormat::rgb9e5>(t, queries, weights, result, count);
+}
+
+LAMBENT_SIMD_CLONES void gather_r11g11b10f(const Tables& t, const FieldQuery* queries,
+                                           const CornerWeights* weights, vec3* result,
+                                           std::size_t count) {
+  gather_irradiance<IrradianceFormat::r11g11b10f>(t, queries, weights, result, count);
+}
+
+LAMBENT_SIMD_CLONES void gather_float32(const Tables& t, const FieldQuery* queries,
+                                        const CornerWeights* weights, vec3* result,
+                                        std::size_t count) {
+  gather_irradiance<IrradianceFormat::float32>(t, queries, weights, result, count);
 }
 
 }  // namespace
@@ -254,14 +289,13 @@ void lookup_irradiance(const ProbeStore& store, std::span<const FieldQuery> quer
     corner_weights(store, {batch, count}, {weights, count});
     switch (store.irradiance_format()) {
       case IrradianceFormat::rgb9e5:
-        gather_irradiance<IrradianceFormat::rgb9e5>(tables, batch, weights, &result[first], count);
+        gather_rgb9e5(tables, batch, weights, &result[first], count);
         break;
       case IrradianceFormat::r11g11b10f:
-        gather_irradiance<IrradianceFormat::r11g11b10f>(tables, batch, weights, &result[first],
-                                                        count);
+        gather_r11g11b10f(tables, batch, weights, &result[first], count);
         break;
       case IrradianceFormat::float32:
-        gather_irradiance<IrradianceFormat::float32>(tables, batch, weights, &result[first], count);
+        gather_float32(tables, batch, weights, &result[first], count);
         break;
     }
   }
