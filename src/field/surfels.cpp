@@ -84,6 +84,7 @@ std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
     std::vector<PendingLight> pending;
     for (std::size_t probe = begin; probe < end; ++probe) {
       const vec3 origin = probe_position(grid, probe_coords(grid, static_cast<int>(probe)));
+      prefetch_surfaces(scene, hits.subspan(probe * rays, rays));
       for (std::size_t i = 0; i < rays; ++i) {
         const std::size_t s = probe * rays + i;
         surfels.emission[s] = 0u;
