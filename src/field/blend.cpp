@@ -13,12 +13,13 @@
 namespace lambent {
 namespace {
 
-// Texels that the kernel keeps in registers at a time, as one vector: the compiler splits it into what the processor has.
+// Texels that the kernel keeps in registers at a time, as one vector: the compiler splits it into
+// what the processor has.
 constexpr int kBlock = 16;
 typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));
 
-// Smaller weights count for nothing in a float sum, but their products with values are denormal and a hundred times
-// slower to compute.
+// Smaller weights count for nothing in a float sum, but their products with values are denormal and
+// a hundred times slower to compute.
 constexpr float kMinWeight = 1e-9f;
 
 /// One block of texels: sums[t][c] = sum over rays of values[ray][c] * weights[ray][t].

@@ -54,23 +54,50 @@ LAMBENT_FORCE_INLINE void decode_moments(const uint* words, int texel, float& me
   }
 }
 
-/// Chebyshev visibility of the biased point from each corner's probe.
-template <DistanceFormat format>
-LAMBENT_FORCE_INLINE void corner_visibilities(const Tables& t, int base,
-                                              const float (&px)[kCorners],
-                                              const float (&py)[kCorners],
-                                              const float (&pz)[kCorners], const vec3& biased,
-                                              float (&visibility)[kCorners]) {
-  const float scale = 0.5f * static_cast<float>(t.distance_texels);
-  const float last = static_cast<float>(t.distance_texels);
-  const int width = t.distance_texels + 2;
+/// A lookup between its two halves: what is known of the eight corners before their moments are
+/// read.
+struct CornerFetch {
+  int base;
+  int texel[kCorners];  // first of the four in the store, in texels
+  float fraction_x[kCorners], fraction_y[kCorners];
+  float dist[kCorners];  // from the probe to the biased point [m]
+  float trilinear[kCorners];
+  float wrap[kCorners];  // weight by the probe's side of the surface
+};
 
-  // Find the texel, and the share of its neighbours, of the direction from each probe
-  float dist[kCorners], fx[kCorners], fy[kCorners];
-  int texel[kCorners];
+/// First half: where to look, for each corner.
+template <int words_per_texel>
+LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& query,
+                                         CornerFetch& __restrict fetch) {
+  const ProbeCell cell = probe_cell(t.grid, query.position_ws);
+  const vec3 low = probe_position(t.grid, cell.base);
+  const vec3 position = query.position_ws, normal = query.normal_ws;
+  const vec3 biased = biased_position(position, normal, query.to_viewer_ws, t.spacing_min);
+  const int base = probe_index(t.grid, cell.base);
+  const float last = static_cast<float>(t.distance_texels);
+  const float scale = 0.5f * last;
+  const int width = t.distance_texels + 2;
+  fetch.base = base;
+
   for (int k = 0; k < kCorners; ++k) {
-    const float x = biased.x - px[k], y = biased.y - py[k], z = biased.z - pz[k];
-    dist[k] = std::sqrt(x * x + y * y + z * z);
+    const float px = low.x + ((k & 1) != 0 ? t.grid.spacing.x : 0.0f);
+    const float py = low.y + ((k & 2) != 0 ? t.grid.spacing.y : 0.0f);
+    const float pz = low.z + ((k & 4) != 0 ? t.grid.spacing.z : 0.0f);
+    fetch.trilinear[k] = ((k & 1) != 0 ? cell.fraction.x : 1.0f - cell.fraction.x) *
+                         ((k & 2) != 0 ? cell.fraction.y : 1.0f - cell.fraction.y) *
+                         ((k & 4) != 0 ? cell.fraction.z : 1.0f - cell.fraction.z);
+
+    // Compute on which side of the surface the probe is
+    const float tx = px - position.x, ty = py - position.y, tz = pz - position.z;
+    const float length_squared = tx * tx + ty * ty + tz * tz;
+    const float along = tx * normal.x + ty * normal.y + tz * normal.z;
+    const float cosine = along / std::sqrt(length_squared > 1e-12f ? length_squared : 1e-12f);
+    const float wrap = 0.5f * (cosine + 1.0f);
+    fetch.wrap[k] = wrap * wrap;
+
+    // Find the texel, and the share of its neighbours, of the direction from the probe
+    const float x = biased.x - px, y = biased.y - py, z = biased.z - pz;
+    fetch.dist[k] = std::sqrt(x * x + y * y + z * z);
     const float l1 = std::fabs(x) + std::fabs(y) + std::fabs(z);
     const float inverse = 1.0f / (l1 > 1e-12f ? l1 : 1e-12f);
     const float ox = x * inverse, oy = y * inverse;
@@ -81,126 +108,155 @@ LAMBENT_FORCE_INLINE void corner_visibilities(const Tables& t, int base,
     // u and v lie in [0.5, texels + 0.5], so truncation is floor.
     const int cx = static_cast<int>(u < last ? u : last);
     const int cy = static_cast<int>(v < last ? v : last);
-    fx[k] = u - static_cast<float>(cx);
-    fy[k] = v - static_cast<float>(cy);
-    texel[k] = (base + t.offsets.probe[k]) * (width * width) + cy * width + cx;
+    fetch.fraction_x[k] = u - static_cast<float>(cx);
+    fetch.fraction_y[k] = v - static_cast<float>(cy);
+    fetch.texel[k] = (base + t.offsets.probe[k]) * (width * width) + cy * width + cx;
   }
 
-  // Interpolate the moments and bound the visibility
+  // The store is larger than the nearer caches: have its lines under way before they are read
   for (int k = 0; k < kCorners; ++k) {
-    float m00, m10, m01, m11, s00, s10, s01, s11;
-    decode_moments<format>(t.distance_words, texel[k], m00, s00);
-    decode_moments<format>(t.distance_words, texel[k] + 1, m10, s10);
-    decode_moments<format>(t.distance_words, texel[k] + width, m01, s01);
-    decode_moments<format>(t.distance_words, texel[k] + width + 1, m11, s11);
-    const float gx = 1.0f - fx[k], gy = 1.0f - fy[k];
-    const float mean = (m00 * gx + m10 * fx[k]) * gy + (m01 * gx + m11 * fx[k]) * fy[k];
-    const float square = (s00 * gx + s10 * fx[k]) * gy + (s01 * gx + s11 * fx[k]) * fy[k];
-    const float variance = std::fabs(square - mean * mean);
-    const float beyond = dist[k] - mean;
-    const float bound = variance / (variance + beyond * beyond + 1e-20f);
-    visibility[k] = beyond <= 0.0f ? 1.0f : bound;
+    __builtin_prefetch(t.distance_words + words_per_texel * fetch.texel[k]);
+    __builtin_prefetch(t.distance_words + words_per_texel * (fetch.texel[k] + width));
   }
 }
 
+/// Second half: interpolate the moments, bound the visibility and weigh the corners.
 template <DistanceFormat format>
-LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const FieldQuery& query,
-                                        CornerWeights& result) {
-  const ProbeCell cell = probe_cell(t.grid, query.position_ws);
-  const vec3 low = probe_position(t.grid, cell.base);
-  const vec3 biased =
-      biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, t.spacing_min);
-  result.base = probe_index(t.grid, cell.base);
-
-  float px[kCorners], py[kCorners], pz[kCorners], trilinear[kCorners];
-  for (int k = 0; k < kCorners; ++k) {
-    px[k] = low.x + ((k & 1) != 0 ? t.grid.spacing.x : 0.0f);
-    py[k] = low.y + ((k & 2) != 0 ? t.grid.spacing.y : 0.0f);
-    pz[k] = low.z + ((k & 4) != 0 ? t.grid.spacing.z : 0.0f);
-    trilinear[k] = ((k & 1) != 0 ? cell.fraction.x : 1.0f - cell.fraction.x) *
-                   ((k & 2) != 0 ? cell.fraction.y : 1.0f - cell.fraction.y) *
-                   ((k & 4) != 0 ? cell.fraction.z : 1.0f - cell.fraction.z);
-  }
-
-  float visibility[kCorners];
-  corner_visibilities<format>(t, result.base, px, py, pz, biased, visibility);
-
-  // Weigh each probe by visibility, by its side of the surface and by nearness
+LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetch,
+                                        CornerWeights& __restrict result) {
+  const int width = t.distance_texels + 2;
   float weight[kCorners];
   for (int k = 0; k < kCorners; ++k) {
-    const float x = px[k] - query.position_ws.x;
-    const float y = py[k] - query.position_ws.y;
-    const float z = pz[k] - query.position_ws.z;
-    const float length_squared = x * x + y * y + z * z;
-    const float along = x * query.normal_ws.x + y * query.normal_ws.y + z * query.normal_ws.z;
-    const float cosine = along / std::sqrt(length_squared > 1e-12f ? length_squared : 1e-12f);
-    const float wrap = 0.5f * (cosine + 1.0f);
-    const float raw = (wrap * wrap + kWrapFloor) * visibility[k];
+    float m00, m10, m01, m11, s00, s10, s01, s11;
+    decode_moments<format>(t.distance_words, fetch.texel[k], m00, s00);
+    decode_moments<format>(t.distance_words, fetch.texel[k] + 1, m10, s10);
+    decode_moments<format>(t.distance_words, fetch.texel[k] + width, m01, s01);
+    decode_moments<format>(t.distance_words, fetch.texel[k] + width + 1, m11, s11);
+    const float fx = fetch.fraction_x[k], fy = fetch.fraction_y[k];
+    const float gx = 1.0f - fx, gy = 1.0f - fy;
+    const float mean = (m00 * gx + m10 * fx) * gy + (m01 * gx + m11 * fx) * fy;
+    const float square = (s00 * gx + s10 * fx) * gy + (s01 * gx + s11 * fx) * fy;
+    const float variance = std::fabs(square - mean * mean);
+    const float beyond = fetch.dist[k] - mean;
+    const float bound = variance / (variance + beyond * beyond + 1e-20f);
+    const float visibility = beyond <= 0.0f ? 1.0f : bound;
+
+    const float raw = fetch.wrap[k] * visibility;
     const float crushed = raw * raw * raw * (1.0f / (kCrushThreshold * kCrushThreshold));
     const float chosen = raw < kCrushThreshold ? crushed : raw;
-    weight[k] = (chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight) * trilinear[k];
+    weight[k] =
+        (chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight) * fetch.trilinear[k];
   }
   float sum = 0.0f;
   for (int k = 0; k < kCorners; ++k) sum += weight[k];
   const float normalisation = 1.0f / sum;
+  result.base = fetch.base;
   for (int k = 0; k < kCorners; ++k) result.weight[k] = weight[k] * normalisation;
+}
+
+/// Both halves for a few queries at a time, so that the reads of one overlap with the work of
+/// others.
+template <DistanceFormat format>
+LAMBENT_FORCE_INLINE void weigh_all(const Tables& t, const FieldQuery* queries,
+                                    CornerWeights* result, std::size_t count) {
+  constexpr std::size_t kAhead = 16;
+  constexpr int kWords = format == DistanceFormat::rg16f ? 1 : 2;
+  CornerFetch fetches[kAhead];
+  for (std::size_t first = 0; first < count; first += kAhead) {
+    const std::size_t batch = std::min(kAhead, count - first);
+    for (std::size_t i = 0; i < batch; ++i) {
+      locate_corners<kWords>(t, queries[first + i], fetches[i]);
+    }
+    for (std::size_t i = 0; i < batch; ++i) weigh_corners<format>(t, fetches[i], result[first + i]);
+  }
 }
 
 LAMBENT_SIMD_CLONES void weigh_all_rg16f(const Tables& t, const FieldQuery* queries,
                                          CornerWeights* result, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    weigh_corners<DistanceFormat::rg16f>(t, queries[i], result[i]);
-  }
+  weigh_all<DistanceFormat::rg16f>(t, queries, result, count);
 }
 
 LAMBENT_SIMD_CLONES void weigh_all_rg32f(const Tables& t, const FieldQuery* queries,
                                          CornerWeights* result, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    weigh_corners<DistanceFormat::rg32f>(t, queries[i], result[i]);
-  }
+  weigh_all<DistanceFormat::rg32f>(t, queries, result, count);
 }
 
 template <IrradianceFormat format>
-LAMBENT_FORCE_INLINE vec3 decode_irradiance(const uint* words, int texel) {
+LAMBENT_FORCE_INLINE void decode_irradiance(const uint* word, float& r, float& g, float& b) {
   if constexpr (format == IrradianceFormat::rgb9e5) {
-    const uint word = words[texel];
-    // 2^(exponent - 24), built from its bits: the exponent field is never small enough to be
-    // denormal
-    const float scale = uintBitsToFloat(((word >> 27u) + (127u - kRgb9e5BiasAndBits)) << 23u);
-    return vec3(static_cast<float>(word & 511u), static_cast<float>((word >> 9u) & 511u),
-                static_cast<float>((word >> 18u) & 511u)) *
-           scale;
+    const float scale = power_of_two(static_cast<int>(*word >> 27u) - kRgb9e5BiasAndBits);
+    r = static_cast<float>(static_cast<int>(*word & 511u)) * scale;
+    g = static_cast<float>(static_cast<int>((*word >> 9u) & 511u)) * scale;
+    b = static_cast<float>(static_cast<int>((*word >> 18u) & 511u)) * scale;
   } else if constexpr (format == IrradianceFormat::r11g11b10f) {
-    return decode_r11g11b10f(words[texel]);
+    r = linear_from_perceptual(decode_small_float(*word & 0x7FFu, 6));
+    g = linear_from_perceptual(decode_small_float((*word >> 11u) & 0x7FFu, 6));
+    b = linear_from_perceptual(decode_small_float(*word >> 22u, 5));
   } else {
-    return {uintBitsToFloat(words[3 * texel]), uintBitsToFloat(words[3 * texel + 1]),
-            uintBitsToFloat(words[3 * texel + 2])};
+    r = uintBitsToFloat(word[0]);
+    g = uintBitsToFloat(word[1]);
+    b = uintBitsToFloat(word[2]);
   }
 }
 
 /// Weighted irradiance of a cell's probes along the surface normal: all eight are read at the same
 /// place of their tile.
 template <IrradianceFormat format>
-void gather_irradiance(const Tables& t, const FieldQuery* queries, const CornerWeights* weights,
-                       vec3* result, std::size_t count) {
+LAMBENT_FORCE_INLINE void gather_irradiance(const Tables& t, const FieldQuery* queries,
+                                            const CornerWeights* weights, vec3* result,
+                                            std::size_t count) {
+  constexpr int kWords = format == IrradianceFormat::float32 ? 3 : 1;
   const int width = t.irradiance_texels + 2;
+  int tile_offset[kCorners];
+  for (int k = 0; k < kCorners; ++k) tile_offset[k] = kWords * t.offsets.probe[k] * width * width;
+
   for (std::size_t i = 0; i < count; ++i) {
     const TileFetch fetch = tile_fetch(queries[i].normal_ws, t.irradiance_texels);
     const vec2 f = fetch.fraction;
     const float shares[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
                              f.x * f.y};
-    const int first = fetch.corner.y * width + fetch.corner.x;
+    const uint* first = t.irradiance_words + kWords * (weights[i].base * width * width +
+                                                       fetch.corner.y * width + fetch.corner.x);
+    const int steps[4] = {0, kWords, kWords * width, kWords * (width + 1)};
+
+    // Read the four texels of each corner's tile
+    float red[kCorners] = {}, green[kCorners] = {}, blue[kCorners] = {};
+    for (int tap = 0; tap < 4; ++tap) {
+      const float share = shares[tap];
+      for (int k = 0; k < kCorners; ++k) {
+        float r, g, b;
+        decode_irradiance<format>(first + steps[tap] + tile_offset[k], r, g, b);
+        red[k] += share * r;
+        green[k] += share * g;
+        blue[k] += share * b;
+      }
+    }
+
+    // Weigh the corners
     vec3 sum(0.0f);
     for (int k = 0; k < kCorners; ++k) {
-      const int tile = (weights[i].base + t.offsets.probe[k]) * (width * width) + first;
-      vec3 value = decode_irradiance<format>(t.irradiance_words, tile) * shares[0];
-      value += decode_irradiance<format>(t.irradiance_words, tile + 1) * shares[1];
-      value += decode_irradiance<format>(t.irradiance_words, tile + width) * shares[2];
-      value += decode_irradiance<format>(t.irradiance_words, tile + width + 1) * shares[3];
-      sum += value * weights[i].weight[k];
+      sum += vec3(red[k], green[k], blue[k]) * weights[i].weight[k];
     }
     result[i] = sum;
   }
+}
+
+LAMBENT_SIMD_CLONES void gather_rgb9e5(const Tables& t, const FieldQuery* queries,
+                                       const CornerWeights* weights, vec3* result,
+                                       std::size_t count) {
+  gather_irradiance<IrradianceFormat::rgb9e5>(t, queries, weights, result, count);
+}
+
+LAMBENT_SIMD_CLONES void gather_r11g11b10f(const Tables& t, const FieldQuery* queries,
+                                           const CornerWeights* weights, vec3* result,
+                                           std::size_t count) {
+  gather_irradiance<IrradianceFormat::r11g11b10f>(t, queries, weights, result, count);
+}
+
+LAMBENT_SIMD_CLONES void gather_float32(const Tables& t, const FieldQuery* queries,
+                                        const CornerWeights* weights, vec3* result,
+                                        std::size_t count) {
+  gather_irradiance<IrradianceFormat::float32>(t, queries, weights, result, count);
 }
 
 }  // namespace
@@ -233,14 +289,13 @@ void lookup_irradiance(const ProbeStore& store, std::span<const FieldQuery> quer
     corner_weights(store, {batch, count}, {weights, count});
     switch (store.irradiance_format()) {
       case IrradianceFormat::rgb9e5:
-        gather_irradiance<IrradianceFormat::rgb9e5>(tables, batch, weights, &result[first], count);
+        gather_rgb9e5(tables, batch, weights, &result[first], count);
         break;
       case IrradianceFormat::r11g11b10f:
-        gather_irradiance<IrradianceFormat::r11g11b10f>(tables, batch, weights, &result[first],
-                                                        count);
+        gather_r11g11b10f(tables, batch, weights, &result[first], count);
         break;
       case IrradianceFormat::float32:
-        gather_irradiance<IrradianceFormat::float32>(tables, batch, weights, &result[first], count);
+        gather_float32(tables, batch, weights, &result[first], count);
         break;
     }
   }

@@ -34,8 +34,8 @@ void fill_gutter(uint* tile, int texels, int words) {
   }
 }
 
-/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square). Each texel's dither is a hash of
-/// `first_index` and its place in the row.
+/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square). Each texel's
+/// dither is a hash of `first_index` and its place in the row.
 LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count, float share,
                                          uint first_index) {
   for (int i = 0; i < count; ++i) {

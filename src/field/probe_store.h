@@ -2,6 +2,8 @@
 // What probes hold between updates: encoded octahedral tiles with gutters.
 #pragma once
 
+#include <tbb/cache_aligned_allocator.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -58,8 +60,9 @@ class ProbeStore {
   int distance_texels_;
   IrradianceFormat irradiance_format_;
   DistanceFormat distance_format_;
-  std::vector<uint> irradiance_;
-  std::vector<uint> distance_;
+  // Aligned so that a row of a distance tile is one line of the cache.
+  std::vector<uint, tbb::cache_aligned_allocator<uint>> irradiance_;
+  std::vector<uint, tbb::cache_aligned_allocator<uint>> distance_;
 };
 
 }  // namespace lambent

@@ -132,6 +132,13 @@ void TransportOperator::gather_probe_radiance(const WorkingIrradiance& field, st
       continue;
     }
 
+    // What reflects nothing shows the sky, or is black
+    out[3] = 1.0f;
+    if (surfels_.albedo_over_pi[s] == vec3(0.0f)) {
+      for (int c = 0; c < 3; ++c) out[c] = surfels_.sky_radiance[s][c];
+      continue;
+    }
+
     // Look the field up at the surfel
     const SurfelLookup& lookup = surfels_.lookups[s];
     const std::array<std::uint16_t, 4>& taps = taps_[lookup.tile_corner];
@@ -148,12 +155,9 @@ void TransportOperator::gather_probe_radiance(const WorkingIrradiance& field, st
     }
 
     // Send back what it reflects
-    const vec3 lit = surfels_.direct_irradiance[s] + vec3(irradiance);
-    const vec3 sent = surfels_.albedo_over_pi[s] * lit + surfels_.sky_radiance[s];
-    out[0] = sent.x;
-    out[1] = sent.y;
-    out[2] = sent.z;
-    out[3] = 1.0f;
+    const vec3 sent =
+        surfels_.albedo_over_pi[s] * (surfels_.direct_irradiance[s] + vec3(irradiance));
+    for (int c = 0; c < 3; ++c) out[c] = sent[c];
   }
 }
 

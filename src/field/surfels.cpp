@@ -143,20 +143,21 @@ void find_surfel_lookups(const ProbeStore& store, std::span<const vec3> directio
   const std::size_t rays = directions.size();
   const int texels = store.irradiance_texels();
   parallel_chunks(surfels.size() / rays, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<FieldQuery> queries(rays);
-    std::vector<CornerWeights> weights(rays);
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      const std::size_t first = probe * rays;
-      for (std::size_t i = 0; i < rays; ++i) {
-        queries[i] = {surfels.position_ws[first + i], surfels.normal_ws[first + i], -directions[i]};
-      }
-      corner_weights(store, queries, weights);
-      for (std::size_t i = 0; i < rays; ++i) {
-        const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
-        surfels.lookups[first + i] = {
-            weights[i], static_cast<std::uint16_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
-            0, fetch.fraction.x, fetch.fraction.y};
-      }
+    std::vector<FieldQuery> queries;
+    std::vector<std::size_t> reflecting;
+    for (std::size_t s = begin * rays; s < end * rays; ++s) {
+      // What reflects nothing does not ask what lights it
+      if (surfels.albedo_over_pi[s] == vec3(0.0f)) continue;
+      reflecting.push_back(s);
+      queries.push_back({surfels.position_ws[s], surfels.normal_ws[s], -directions[s % rays]});
+    }
+    std::vector<CornerWeights> weights(queries.size());
+    corner_weights(store, queries, weights);
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
+      surfels.lookups[reflecting[i]] = {
+          weights[i], static_cast<std::uint32_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
+          fetch.fraction.x, fetch.fraction.y};
     }
   });
 }

@@ -21,8 +21,7 @@ class World;
 /// with gutter).
 struct SurfelLookup {
   CornerWeights corners;
-  std::uint16_t tile_corner;  ///< x + (texels + 1) * y of the fetch's first texel.
-  std::uint16_t unused;
+  std::uint32_t tile_corner;  ///< x + (texels + 1) * y of the fetch's first texel.
   float fraction_x, fraction_y;
 };
 
@@ -37,7 +36,7 @@ struct Surfels {
   std::vector<vec3> direct_irradiance;  ///< From lights and emissive surfaces [W/m^2].
   std::vector<vec3> sky_radiance;       ///< Of rays that left the scene [W/(m^2 sr)], else 0.
   std::vector<std::uint8_t> counts;     ///< 0: the ray met the back of a single-sided surface.
-  std::vector<SurfelLookup> lookups;
+  std::vector<SurfelLookup> lookups;    ///< Undefined where albedo is 0.
 
   std::size_t size() const { return counts.size(); }
   std::size_t bytes() const;
