@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands. Each add_* declares its options on `app` and, when chosen, leaves in `run` what to do.
+// The subcommands. Each add_* declares its options on `app` and, when chosen, leaves in `run` what
+// to do.
 #pragma once
 
 #include <functional>

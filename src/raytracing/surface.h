@@ -21,8 +21,8 @@ struct Surface {
   bool double_sided = false;
 };
 
-/// The surface at a hit (not a miss) of `ray`. `footprint` is the width that the ray's cone has there [m] and picks the
-/// textures' nearest MIP level, read bilinearly; 0 reads full resolution.
+/// The surface at a hit (not a miss) of `ray`. `footprint` is the width that the ray's cone has
+/// there [m] and picks the textures' nearest MIP level, read bilinearly; 0 reads full resolution.
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint = 0.0f);
 
 /// Coverage (alpha) at a hit, 0 to 1: what decides AlphaMode::mask and AlphaMode::blend.
