@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The subcommands. Each add_* declares its options on `app` and, when chosen, leaves in `run` what to do.
+// The subcommands. Each add_* declares its options on `app` and, when chosen, leaves in `run` what
+// to do.
 #pragma once
 
 #include <functional>
@@ -18,6 +19,7 @@ using Run = std::function<Expected<void>()>;
 void add_compare(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_make_scene(CLI::App& app, Run& run);
+void add_picture(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 
 }  // namespace lambent::cli

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is rendered, from where and in which light: the options that every rendering subcommand shares.
+// What is rendered, from where and in which light: the options that every rendering subcommand
+// shares.
 #pragma once
 
 #include <string>
@@ -30,12 +31,12 @@ struct StageOptions {
 
 void add_stage_options(CLI::App& command, StageOptions& options);
 
-/// The scene with the lights that the options ask for. Tells on stderr of the loader's warnings, and where a scene
-/// without any light was given some.
+/// The scene with the lights that the options ask for. Tells on stderr of the loader's warnings,
+/// and where a scene without any light was given some.
 Expected<Scene> open_stage(const StageOptions& options);
 
-/// The camera that the options ask for, else the scene's first, else one that shows the scene: from inside where the
-/// scene is a room, from outside where it is an object.
+/// The camera that the options ask for, else the scene's first, else one that shows the scene: from
+/// inside where the scene is a room, from outside where it is an object.
 Expected<Camera> choose_camera(const StageOptions& options, const World& world);
 
 }  // namespace lambent::cli

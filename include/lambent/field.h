@@ -105,9 +105,10 @@ struct UpdateStatistics {
 /// A point to look the field up at. All numbers must be finite.
 struct FieldQuery {
   glm::vec3 position_ws{0.0f};  ///< [m]
-  glm::vec3 normal_ws{0.0f};    ///< Unit; irradiance is that of a surface with this normal.
+  glm::vec3 normal_ws{0.0f, 1.0f,
+                      0.0f};  ///< Unit; irradiance is that of a surface with this normal.
   glm::vec3 to_viewer_ws{
-      0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
+      0.0f, 1.0f, 0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
 };
 
 /// A grid of irradiance probes with visibility, and the light that bounces between them.

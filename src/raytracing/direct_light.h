@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that sources send straight to a point: one candidate a light, and some points of the emissive triangles.
+// Light that sources send straight to a point: one candidate a light, and some points of the
+// emissive triangles.
 #pragma once
 
 #include "lambent/world.h"
@@ -12,12 +13,13 @@ namespace lambent {
 
 /// Light from one direction, if nothing is in the way.
 struct LightCandidate {
-  glm::vec3 to_light;               ///< Unit.
-  float distance;                   ///< To the source [m]; infinite for directional lights.
+  glm::vec3 to_light;                  ///< Unit.
+  float distance;                      ///< To the source [m]; infinite for directional lights.
   glm::vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
 };
 
-/// Shadow rays to points on surfaces end this share short of them, so that the source does not shadow itself.
+/// Shadow rays to points on surfaces end this share short of them, so that the source does not
+/// shadow itself.
 inline constexpr float kShadowRayShortening = 1e-4f;
 
 /// The ray that asks whether a candidate reaches a point; the geometric normal is on the lit side.
@@ -27,8 +29,9 @@ inline Ray shadow_ray(const glm::vec3& position_ws, const glm::vec3& geometric_n
           light.distance * (1.0f - kShadowRayShortening)};
 }
 
-/// Calls visit(LightCandidate) for every directional, point and spot light that reaches the point unoccluded, and for
-/// `emissive_samples` points drawn from the emissive triangles, whose expected sum is what these send.
+/// Calls visit(LightCandidate) for every directional, point and spot light that reaches the point
+/// unoccluded, and for `emissive_samples` points drawn from the emissive triangles, whose expected
+/// sum is what these send.
 template <class Visit>
 void for_each_light(const World& world, const glm::vec3& position_ws, int emissive_samples,
                     RandomStream& random, Visit visit) {

@@ -23,24 +23,25 @@ struct Ray {
 
 /// Where a ray met the scene.
 struct Hit {
-  float distance = kInfiniteDistance;  ///< [m]; infinite: nothing was hit and the rest is undefined.
-  std::uint32_t instance = 0;          ///< Index into Scene::instances.
-  std::uint32_t triangle = 0;          ///< Index into the mesh's triangles.
-  glm::vec2 barycentrics{0.0f};        ///< Weights of the triangle's second and third vertex.
+  float distance =
+      kInfiniteDistance;         ///< [m]; infinite: nothing was hit and the rest is undefined.
+  std::uint32_t instance = 0;    ///< Index into Scene::instances.
+  std::uint32_t triangle = 0;    ///< Index into the mesh's triangles.
+  glm::vec2 barycentrics{0.0f};  ///< Weights of the triangle's second and third vertex.
   bool front_face = true;  ///< The ray met the side from which the vertices run counter-clockwise.
 
   bool missed() const { return distance == kInfiniteDistance; }
 };
 
 struct AccelerationStatistics {
-  double build_ms = 0.0;        ///< Wall-clock time of the last build.
-  std::size_t bytes = 0;        ///< Memory held by the acceleration structures.
-  std::size_t triangles = 0;    ///< Over all instances.
+  double build_ms = 0.0;      ///< Wall-clock time of the last build.
+  std::size_t bytes = 0;      ///< Memory held by the acceleration structures.
+  std::size_t triangles = 0;  ///< Over all instances.
   std::size_t instances = 0;
 };
 
-/// Finds what rays meet. Queries are const, single-threaded and safe to call from many threads at once.
-/// Triangles of AlphaMode::mask let rays through where coverage is below the cutoff; those of
+/// Finds what rays meet. Queries are const, single-threaded and safe to call from many threads at
+/// once. Triangles of AlphaMode::mask let rays through where coverage is below the cutoff; those of
 /// AlphaMode::blend let a ray through with probability 1 - coverage, decided by a hash of the hit.
 class RayTracer {
  public:
@@ -66,8 +67,8 @@ class RayTracer {
   }
 };
 
-/// A ray tracer on Embree, built over the scene as it is now. The scene must outlive it and keep its geometry.
-/// Throws std::runtime_error where Embree cannot start or runs out of memory.
+/// A ray tracer on Embree, built over the scene as it is now. The scene must outlive it and keep
+/// its geometry. Throws std::runtime_error where Embree cannot start or runs out of memory.
 std::unique_ptr<RayTracer> make_embree_raytracer(const Scene& scene);
 
 }  // namespace lambent

@@ -15,7 +15,11 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-double World::build_ms() const { return tracer_->statistics().build_ms; }
-std::size_t World::bytes() const { return tracer_->statistics().bytes; }
+double World::build_ms() const {
+  return tracer_->statistics().build_ms;
+}
+std::size_t World::bytes() const {
+  return tracer_->statistics().bytes;
+}
 
 }  // namespace lambent

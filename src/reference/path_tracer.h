@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "lambent/progress.h"
 #include "lambent/image.h"
+#include "lambent/progress.h"
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
 #include "reference/strategy.h"
