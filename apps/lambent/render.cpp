@@ -32,7 +32,8 @@ struct Options {
   std::string method = "field";
   std::string backend = "cpu";
   std::string size = "1280x720";
-  int samples = 0;   // 0: the method's own default
+  int samples = 0;  // 0: the method's own default
+  int gather_rays = 0;
   int bounces = -1;  // -1: all
   std::uint32_t seed = 1;
   int threads = 0;  // 0: all
@@ -173,6 +174,7 @@ Expected<LayeredImage> render_by_field(const Options& options, const World& worl
   frame.width = size.x;
   frame.height = size.y;
   frame.samples = options.samples > 0 ? options.samples : kFieldSamples;
+  frame.gather_rays = options.gather_rays;
   frame.seed = options.seed;
 
   std::optional<IrradianceField> field;
@@ -242,6 +244,9 @@ Expected<void> check_numbers(const Options& options) {
   if (options.method != "field" && options.converge) {
     return fail("--converge", "", "goes with --method field alone");
   }
+  if (options.method != "field" && options.gather_rays > 0) {
+    return fail("--gather", "", "goes with --method field alone");
+  }
   if (options.method == "direct" && options.bounces > 0) {
     return fail("--bounces", "", "--method direct has none");
   }
@@ -286,6 +291,11 @@ Expected<void> render(const Options& options) {
 }
 
 void add_field_options(CLI::App& command, Options& o) {
+  command
+      .add_option("--gather", o.gather_rays,
+                  "Rays a sample gathers indirect light with (0: look the field up)")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
   command.add_option("--probes", o.probes, "Probes along each axis, XxYxZ");
   command.add_option("--probe-spacing", o.field.probe_spacing, "Distance between probes [m]")
       ->check(CLI::PositiveNumber);

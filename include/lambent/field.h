@@ -56,8 +56,8 @@ struct FieldSettings {
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
   DistanceFormat distance_format = DistanceFormat::rg16f;
 
-  /// Relighting stops when the estimated error of the multi-bounce solution falls below this share
-  /// of it, > 0.
+  /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
+  /// share of it, > 0.
   float relight_tolerance = 0.002f;
   /// ... or after so many iterations, >= 1. Each costs a fraction of tracing.
   int max_relights = 32;

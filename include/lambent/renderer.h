@@ -22,6 +22,10 @@ struct FrameSettings {
   int samples = 1;
   /// Points drawn on emissive triangles for a sample's direct light, >= 1. Each costs a shadow ray.
   int emissive_samples = 4;
+  /// Rays a sample sends out to gather its indirect light (final gathering), >= 0; 0 looks the
+  /// field up instead. Finds light and shade finer than the probes' spacing, at the price of noise
+  /// and of two rays for each.
+  int gather_rays = 0;
   std::uint32_t seed = 1;
 };
 

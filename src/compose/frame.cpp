@@ -155,9 +155,14 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
       timer.finish("direct");
 
       if (field != nullptr) {
-        look_up(
-            *field, gbuffer, [&](std::size_t i) { return gbuffer.surfaces[i].normal_ws; },
-            light.irradiance);
+        if (settings.gather_rays > 0) {
+          frame.rays +=
+              gather_irradiance(world, *field, gbuffer, settings, band, sample, light.irradiance);
+        } else {
+          look_up(
+              *field, gbuffer, [&](std::size_t i) { return gbuffer.surfaces[i].normal_ws; },
+              light.irradiance);
+        }
         timer.finish("indirect");
         look_up(
             *field, gbuffer,

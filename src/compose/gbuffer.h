@@ -43,4 +43,10 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                            const FrameSettings& settings, const Band& band, int sample,
                            ReflectedLight& light);
 
+/// Indirect irradiance on each surface from settings.gather_rays (>= 1) rays of its own into the
+/// scene. Returns the rays traced, shadow rays included.
+std::uint64_t gather_irradiance(const World& world, const IrradianceField& field,
+                                const GBuffer& gbuffer, const FrameSettings& settings,
+                                const Band& band, int sample, std::vector<glm::vec3>& irradiance);
+
 }  // namespace lambent

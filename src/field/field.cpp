@@ -157,7 +157,8 @@ UpdateStatistics IrradianceField::update(const World& world) {
   const RelightResult solved =
       settings.max_bounces >= 0
           ? relight_bounces(transport, history, settings.max_bounces, solution)
-          : relight(transport, history, {share, settings.relight_tolerance, settings.max_relights},
+          : relight(transport, history,
+                    {share, settings.max_albedo, settings.relight_tolerance, settings.max_relights},
                     solution);
   statistics.relights = solved.iterations;
   statistics.residual = solved.error;

@@ -39,7 +39,8 @@ struct ProbeCell {
 /// nearest to it.
 LAMBENT_FN ProbeCell probe_cell(ProbeGrid grid, vec3 position_ws) {
   vec3 cells = vec3(grid.count - ivec3(1));
-  vec3 p = clamp((position_ws - grid.origin_ws) / grid.spacing, vec3(0.0f), cells);
+  // In this order of arguments a NaN becomes 0
+  vec3 p = min(max(vec3(0.0f), (position_ws - grid.origin_ws) / grid.spacing), cells);
   vec3 base = min(floor(p), cells - vec3(1.0f));
   ProbeCell cell = {ivec3(base), p - base};
   return cell;

@@ -22,9 +22,8 @@ constexpr int kAndersonDepth = 3;
 // Keeps its small system solvable when steps are almost parallel; relative to the largest squared
 // step.
 constexpr double kAndersonRidge = 1e-10;
-// The error estimate never assumes faster convergence than this, nor slower than the next.
+// The error estimate never assumes faster convergence than this, whatever two steps seem to say.
 constexpr double kMinContraction = 0.1;
-constexpr double kMaxContraction = 0.98;
 
 double dot(const WorkingIrradiance& a, const WorkingIrradiance& b) {
   return parallel_sum(a.size(), kTexelsPerTask, [&](std::size_t begin, std::size_t end) {
@@ -243,7 +242,9 @@ RelightResult relight(const TransportOperator& transport, const WorkingIrradianc
   AndersonMemory memory;
   RelightResult result;
   double previous_norm = 0.0;
-  double contraction = kMinContraction;
+  const double bound = static_cast<double>(settings.blend) * settings.max_albedo;
+  double observed = 0.0;
+  double contraction = bound;
 
   while (true) {
     // Send the light round once
@@ -256,17 +257,18 @@ RelightResult relight(const TransportOperator& transport, const WorkingIrradianc
     ++result.iterations;
     add_scaled(image, -1.0f, solution, residual);
 
-    // Estimate the error: a contraction by q leaves q / (1 - q) of the last step to go
+    // Estimate the error: a contraction by q leaves q / (1 - q) of the last step to go. One step
+    // knows only that nothing reflects more than the largest albedo; later ones have seen how fast
+    // steps shrink
     const double norm = std::sqrt(dot(residual, residual));
     const double image_norm = std::sqrt(dot(image, image));
     if (result.iterations > 1 && previous_norm > 0.0) {
-      contraction =
-          std::clamp(std::max(contraction, norm / previous_norm), kMinContraction, kMaxContraction);
+      observed = std::max(observed, norm / previous_norm);
+      contraction = std::min(bound, std::max(observed, kMinContraction));
     }
-    result.error = image_norm > 0.0 ? norm / image_norm * contraction / (1.0 - contraction) : 0.0;
-    const bool first = result.iterations == 1 && norm > 0.0;
-    if ((!first && result.error <= settings.tolerance) ||
-        result.iterations >= settings.max_iterations) {
+    const double remaining = contraction / (1.0 - contraction);
+    result.error = image_norm > 0.0 ? settings.blend * remaining * norm / image_norm : 0.0;
+    if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {
       solution.swap(image);
       return result;
     }

@@ -55,13 +55,14 @@ class TransportOperator {
 
 struct RelightSettings {
   float blend = 1.0f;        ///< Share of the new solution in the field that surfels read.
-  float tolerance = 0.002f;  ///< Estimated relative error to stop at.
+  float max_albedo = 0.95f;  ///< No surfel reflects more, 0 to 0.99.
+  float tolerance = 0.002f;  ///< Estimated relative error to stop at, of the field as it is stored.
   int max_iterations = 32;
 };
 
 struct RelightResult {
   int iterations = 0;
-  double error = 0.0;  ///< Estimated relative error of the solution.
+  double error = 0.0;  ///< Estimated relative error of the field that the solution is blended into.
 };
 
 /// The light of exactly so many bounces, without acceleration.

@@ -5,9 +5,6 @@
 #include <cassert>
 
 #include "core/parallel.h"
-#include "raytracing/direct_light.h"
-#include "raytracing/surface.h"
-#include "scene/environment_sampling.h"
 #include "shared/packing.h"
 
 namespace lambent {
@@ -15,27 +12,20 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 8;
 
-/// A shadow ray's stake: what the surfel gains if it arrives.
-struct PendingLight {
-  std::size_t surfel;
-  vec3 irradiance;
-};
-
-/// The share of light that a surface sends back, as if it did so evenly: its Lambert base and its
-/// coat's directional albedo, so that metals pass light on, too.
-vec3 effective_albedo(const Reflectance& reflectance, float n_dot_v, float max_albedo) {
-  vec3 albedo = reflectance.diffuse;
-  if (reflectance.f90 > 0.0f) {
-    const vec3 specular = specular_albedo(reflectance, n_dot_v);
-    albedo = albedo * (vec3(1.0f) - reflectance.f0) + specular;
-  }
-  return min(albedo, vec3(max_albedo));
-}
-
 }  // namespace
 
 std::size_t Surfels::bytes() const {
   return size() * (5 * sizeof(vec3) + sizeof(uint) + 1 + sizeof(SurfelLookup));
+}
+
+void Surfels::set(std::size_t surfel, const ShadedHit& hit) {
+  position_ws[surfel] = hit.position_ws;
+  normal_ws[surfel] = hit.normal_ws;
+  albedo_over_pi[surfel] = hit.albedo_over_pi;
+  emission[surfel] = encode_rgb9e5(hit.emission, vec3(0.5f));
+  direct_irradiance[surfel] = hit.direct_irradiance;
+  sky_radiance[surfel] = hit.sky_radiance;
+  counts[surfel] = hit.counts ? 1 : 0;
 }
 
 void Surfels::resize(std::size_t probes, int rays) {
@@ -72,68 +62,29 @@ std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
   const std::size_t rays = directions.size();
   const std::size_t probes = hits.size() / rays;
   surfels.resize(probes, static_cast<int>(rays));
-  const Scene& scene = world.scene();
   std::atomic<std::uint64_t> shadow_rays = 0;
 
+  ShadeHitsSettings shading;
   // Width of the cone that stands for one ray, per metre: that of its share of the sphere.
-  const float cone_width =
+  shading.cone_width =
       2.0f * sqrt(4.0f / static_cast<float>(rays)) * exp2(settings.texture_lod_bias);
+  shading.max_albedo = settings.max_albedo;
+  shading.emissive_samples = settings.emissive_samples;
+  shading.salt = update;
+  shading.seed = settings.seed;
 
   parallel_chunks(probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<Ray> shadows;
-    std::vector<PendingLight> pending;
+    std::vector<Ray> batch(rays);
+    std::vector<ShadedHit> shaded(rays);
+    ShadeHitsScratch scratch;
     for (std::size_t probe = begin; probe < end; ++probe) {
       const vec3 origin = probe_position(grid, probe_coords(grid, static_cast<int>(probe)));
-      for (std::size_t i = 0; i < rays; ++i) {
-        const std::size_t s = probe * rays + i;
-        surfels.emission[s] = 0u;
-        surfels.albedo_over_pi[s] = vec3(0.0f);
-        surfels.direct_irradiance[s] = vec3(0.0f);
-        surfels.sky_radiance[s] = vec3(0.0f);
-        surfels.counts[s] = 1;
-        surfels.normal_ws[s] = -directions[i];
-        if (hits[s].missed()) {
-          surfels.position_ws[s] = origin;
-          surfels.sky_radiance[s] = sky_radiance(scene.environment, directions[i]);
-          continue;
-        }
-
-        // Record the surface
-        const Ray ray{origin, 0.0f, directions[i]};
-        const Surface surface = surface_at(scene, ray, hits[s], cone_width * hits[s].distance);
-        surfels.position_ws[s] = surface.position_ws;
-        surfels.normal_ws[s] = surface.normal_ws;
-        if (!surface.front_face && !surface.double_sided) {
-          surfels.counts[s] = 0;
-          continue;
-        }
-        surfels.emission[s] = encode_rgb9e5(surface.emission, vec3(0.5f));
-        const vec3 albedo = effective_albedo(
-            surface.reflectance, -dot(surface.normal_ws, directions[i]), settings.max_albedo);
-        surfels.albedo_over_pi[s] = albedo * kInvPi;
-        if (albedo == vec3(0.0f)) continue;
-
-        // Ask for the light that may reach it
-        RandomStream random = make_random_stream(static_cast<uint>(s), update, settings.seed);
-        for_each_light(world, surface.position_ws, settings.emissive_samples, random,
-                       [&](const LightCandidate& light) {
-                         const float cosine = dot(surface.normal_ws, light.to_light);
-                         const float side = dot(surface.geometric_normal_ws, light.to_light);
-                         if (cosine <= 0.0f || side <= 0.0f) return;
-                         pending.push_back({s, light.perpendicular_irradiance * cosine});
-                         shadows.push_back(
-                             shadow_ray(surface.position_ws, surface.geometric_normal_ws, light));
-                       });
-      }
+      const std::size_t first = probe * rays;
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
+      shadow_rays +=
+          shade_hits(world, batch, hits.subspan(first, rays), shading, first, scratch, shaded);
+      for (std::size_t i = 0; i < rays; ++i) surfels.set(first + i, shaded[i]);
     }
-
-    // Add the light that does reach
-    std::vector<std::uint8_t> occluded(shadows.size());
-    world.tracer().occlusions(shadows, occluded);
-    for (std::size_t i = 0; i < pending.size(); ++i) {
-      if (occluded[i] == 0) surfels.direct_irradiance[pending[i].surfel] += pending[i].irradiance;
-    }
-    shadow_rays += shadows.size();
   });
   return shadow_rays;
 }

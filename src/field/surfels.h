@@ -10,11 +10,9 @@
 #include "field/lookup_cpu.h"
 #include "field/probe_store.h"
 #include "lambent/field.h"
-#include "raytracing/raytracer.h"
+#include "raytracing/shade_hits.h"
 
 namespace lambent {
-
-class World;
 
 /// How a surfel reads the field: the shares of the eight probes around it, and, within each of
 /// their tiles, the four texels around its normal (a place in the tile's interior grid, counted
@@ -41,6 +39,8 @@ struct Surfels {
   std::size_t size() const { return counts.size(); }
   std::size_t bytes() const;
   void resize(std::size_t probes, int rays);
+  /// Sets all of a surfel but its lookup.
+  void set(std::size_t surfel, const ShadedHit& hit);
 };
 
 /// Traces every probe's rays. `hits` has probes x directions entries, probe after probe.

@@ -25,7 +25,8 @@ struct TileFetch {
 LAMBENT_FN TileFetch tile_fetch(vec3 direction, int texels) {
   vec2 p = octahedral_encode(direction);
   vec2 t = (p + vec2(1.0f)) * (0.5f * float(texels)) + vec2(0.5f);
-  vec2 corner = clamp(floor(t), vec2(0.0f), vec2(float(texels)));
+  // In this order of arguments a NaN, from a direction without length, becomes 0
+  vec2 corner = min(max(vec2(0.0f), floor(t)), vec2(float(texels)));
   TileFetch fetch = {ivec2(corner), t - corner};
   return fetch;
 }

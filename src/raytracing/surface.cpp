@@ -147,6 +147,25 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float foo
   return surface;
 }
 
+void prefetch_surfaces(const Scene& scene, std::span<const Hit> hits) {
+  const auto mesh_of = [&](const Hit& hit) -> const Mesh& {
+    return scene.meshes[scene.instances[hit.instance].mesh];
+  };
+  for (const Hit& hit : hits) {
+    if (!hit.missed()) __builtin_prefetch(&mesh_of(hit).triangles[hit.triangle]);
+  }
+  for (const Hit& hit : hits) {
+    if (hit.missed()) continue;
+    const Mesh& mesh = mesh_of(hit);
+    const glm::uvec3& vertices = mesh.triangles[hit.triangle];
+    for (int i = 0; i < 3; ++i) {
+      __builtin_prefetch(&mesh.positions[vertices[i]]);
+      __builtin_prefetch(&mesh.normals[vertices[i]]);
+      if (!mesh.uvs[0].empty()) __builtin_prefetch(&mesh.uvs[0][vertices[i]]);
+    }
+  }
+}
+
 float coverage_at(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
                   glm::vec2 barycentrics) {
   const Mesh& mesh = scene.meshes[scene.instances[instance].mesh];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <span>
 
 #include "lambent/scene.h"
 #include "raytracing/raytracer.h"
@@ -24,6 +25,10 @@ struct Surface {
 /// The surface at a hit (not a miss) of `ray`. `footprint` is the width that the ray's cone has
 /// there [m] and picks the textures' nearest MIP level, read bilinearly; 0 reads full resolution.
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint = 0.0f);
+
+/// Has the mesh data of surfaces that will be asked for under way to the caches. Calling it for a
+/// batch of hits before surface_at hides most of the wait for memory.
+void prefetch_surfaces(const Scene& scene, std::span<const Hit> hits);
 
 /// Coverage (alpha) at a hit, 0 to 1: what decides AlphaMode::mask and AlphaMode::blend.
 float coverage_at(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,

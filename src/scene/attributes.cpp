@@ -12,9 +12,8 @@ namespace {
 // The MIP level at which the cone covers about one texel: half the logarithm of the texels it
 // covers. After Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray
 // Tracing", Ray Tracing Gems, 2019, Eq. 2.
-float mip_level(const Scene& scene, const std::vector<glm::vec2>& uvs, const TextureView& view,
-                const TrianglePoint& point, TextureFootprint footprint) {
-  if (footprint.share_of_triangle <= 0.0f) return 0.0f;
+int mip_level(const Scene& scene, const std::vector<glm::vec2>& uvs, const TextureView& view,
+              const TrianglePoint& point, TextureFootprint footprint) {
   const glm::vec2 uv0 = uvs[point.vertices.x];
   const glm::vec2 edge1 = uvs[point.vertices.y] - uv0;
   const glm::vec2 edge2 = uvs[point.vertices.z] - uv0;
@@ -24,7 +23,7 @@ float mip_level(const Scene& scene, const std::vector<glm::vec2>& uvs, const Tex
       static_cast<float>(base.width) * static_cast<float>(base.height);
   const float cone_texels = triangle_texels * footprint.share_of_triangle;
   // round(log2(t) / 2) = floor(log2(2 t) / 2)
-  return cone_texels > 1.0f ? static_cast<float>(std::ilogb(2.0f * cone_texels) / 2) : 0.0f;
+  return cone_texels > 1.0f ? std::ilogb(2.0f * cone_texels) / 2 : 0;
 }
 
 }  // namespace
@@ -34,8 +33,9 @@ glm::vec4 texture_at(const Scene& scene, const Mesh& mesh, const TextureView& vi
   if (view.texture < 0) return glm::vec4(1.0f);
   const std::vector<glm::vec2>& uvs = mesh.uvs[view.uv_set];
   if (uvs.empty()) return sample_texture(scene, view, glm::vec2(0.0f));
-  return sample_texture(scene, view, interpolate(uvs, point),
-                        mip_level(scene, uvs, view, point, footprint));
+  const glm::vec2 uv = interpolate(uvs, point);
+  if (footprint.share_of_triangle <= 0.0f) return sample_texture(scene, view, uv);
+  return nearest_texel(scene, view, uv, mip_level(scene, uvs, view, point, footprint));
 }
 
 glm::vec4 base_color_at(const Scene& scene, const Mesh& mesh, const Material& material,

@@ -151,14 +151,29 @@ struct Decoder {
   }
 };
 
+Decoder decoder_of(const Texture& texture) {
+  const float* const linear = linear_decode_table().data();
+  return {texture.srgb ? srgb_decode_table().data() : linear, linear};
+}
+
+glm::vec2 wrap_uv(const TextureView& view, glm::vec2 uv) {
+  const glm::vec2 transformed = transform_uv(view, uv);
+  return {wrap_coordinate(transformed.x, view.wrap_u), wrap_coordinate(transformed.y, view.wrap_v)};
+}
+
+glm::vec4 sample_nearest(const TextureLevel& level, const Decoder& decode, const TextureView& view,
+                         glm::vec2 wrapped_uv) {
+  const auto x = static_cast<int>(wrapped_uv.x * static_cast<float>(level.width));
+  const auto y = static_cast<int>(wrapped_uv.y * static_cast<float>(level.height));
+  return decode(level, wrap_index(x, level.width, view.wrap_u),
+                wrap_index(y, level.height, view.wrap_v));
+}
+
 glm::vec4 sample_level(const TextureLevel& level, const Decoder& decode, const TextureView& view,
                        glm::vec2 wrapped_uv) {
+  if (view.nearest) return sample_nearest(level, decode, view, wrapped_uv);
   const float x = wrapped_uv.x * static_cast<float>(level.width);
   const float y = wrapped_uv.y * static_cast<float>(level.height);
-  if (view.nearest) {
-    return decode(level, wrap_index(static_cast<int>(x), level.width, view.wrap_u),
-                  wrap_index(static_cast<int>(y), level.height, view.wrap_v));
-  }
 
   // Blend the four texels whose centres surround the point
   const float left = fast_floor(x - 0.5f);
@@ -199,11 +214,8 @@ glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv) {
 glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod) {
   assert(view.texture >= 0 && view.texture < static_cast<int>(scene.textures.size()));
   const Texture& texture = scene.textures[view.texture];
-  const glm::vec2 transformed = transform_uv(view, uv);
-  const glm::vec2 wrapped(wrap_coordinate(transformed.x, view.wrap_u),
-                          wrap_coordinate(transformed.y, view.wrap_v));
-  const float* const linear = linear_decode_table().data();
-  const Decoder decode = {texture.srgb ? srgb_decode_table().data() : linear, linear};
+  const glm::vec2 wrapped = wrap_uv(view, uv);
+  const Decoder decode = decoder_of(texture);
   const float last = static_cast<float>(texture.levels.size() - 1);
   const float level = lod > 0.0f ? std::min(lod, last) : 0.0f;
   const auto finer = static_cast<std::size_t>(level);
@@ -211,6 +223,14 @@ glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 
   const glm::vec4 fine = sample_level(texture.levels[finer], decode, view, wrapped);
   if (blend <= 0.0f) return fine;
   return glm::mix(fine, sample_level(texture.levels[finer + 1], decode, view, wrapped), blend);
+}
+
+glm::vec4 nearest_texel(const Scene& scene, const TextureView& view, glm::vec2 uv, int level) {
+  assert(view.texture >= 0 && view.texture < static_cast<int>(scene.textures.size()));
+  const Texture& texture = scene.textures[view.texture];
+  const int last = static_cast<int>(texture.levels.size()) - 1;
+  return sample_nearest(texture.levels[std::clamp(level, 0, last)], decoder_of(texture), view,
+                        wrap_uv(view, uv));
 }
 
 }  // namespace lambent

@@ -107,6 +107,13 @@ LAMBENT_FN vec3 specular_albedo(Reflectance surface, float n_dot_v) {
   return surface.f0 * scale + vec3(surface.f90 * bias);
 }
 
+/// The share of light that a surface sends back, as if it did so evenly: its Lambert base under the
+/// coat, and the coat's own directional albedo, so that metals pass light on, too.
+LAMBENT_FN vec3 effective_albedo(Reflectance surface, float n_dot_v) {
+  if (surface.f90 <= 0.0f) return surface.diffuse;
+  return surface.diffuse * (vec3(1.0f) - surface.f0) + specular_albedo(surface, n_dot_v);
+}
+
 /// Probability with which importance sampling should pick the specular lobe.
 LAMBENT_FN float specular_probability(Reflectance surface, float n_dot_v) {
   if (surface.f90 <= 0.0f) return 0.0f;

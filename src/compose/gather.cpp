@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Final gathering: indirect light of a pixel from rays of its own, whose hits the irradiance field
+// lights.
+//
+// A lookup interpolates between probes, so light and shade finer than their spacing is lost: what
+// is close to a surface but not to a probe does not darken it. A gather replaces the last bounce of
+// the lookup by rays and leaves the others to the field. Ward, Rubinstein and Clear, "A Ray Tracing
+// Solution for Diffuse Interreflection", SIGGRAPH 1988; Jensen, "Global Illumination using Photon
+// Maps", 1996, sec. 5 (the field in place of the photon map).
+#include <atomic>
+
+#include "compose/gbuffer.h"
+#include "core/parallel.h"
+#include "lambent/field.h"
+#include "raytracing/shade_hits.h"
+#include "shared/random.h"
+#include "shared/rays.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPixelsPerTask = 256;
+
+// Rays' cones are this wide per metre over the square root of their number: together they cover the
+// hemisphere.
+constexpr float kHemisphereConeWidth = 2.0f;
+
+// Increments of the plastic-number sequence: Roberts, "The Unreasonable Effectiveness of
+// Quasirandom Sequences", 2018.
+constexpr float kR2X = 0.7548776662f;
+constexpr float kR2Y = 0.5698402910f;
+
+/// Rays of one pixel, spread evenly over the cosine-weighted hemisphere; no two pixels alike.
+void gather_rays(const Surface& surface, int count, RandomStream random, std::vector<Ray>& rays) {
+  const Frame frame = make_frame(surface.normal_ws);
+  const vec3 origin = offset_ray_origin(surface.position_ws, surface.geometric_normal_ws);
+  const vec2 shift = next_uniform2(random);
+  for (int i = 0; i < count; ++i) {
+    const vec2 u = fract(shift + static_cast<float>(i) * vec2(kR2X, kR2Y));
+    rays.push_back({origin, 0.0f, to_world(frame, sample_cosine_hemisphere(u))});
+  }
+}
+
+}  // namespace
+
+std::uint64_t gather_irradiance(const World& world, const IrradianceField& field,
+                                const GBuffer& gbuffer, const FrameSettings& settings,
+                                const Band& band, int sample, std::vector<glm::vec3>& irradiance) {
+  irradiance.assign(gbuffer.size(), vec3(0.0f));
+  const std::size_t first_pixel = static_cast<std::size_t>(band.first_row) * settings.width;
+  const auto rays_per_pixel = static_cast<std::size_t>(settings.gather_rays);
+  std::atomic<std::uint64_t> traced = 0;
+
+  ShadeHitsSettings shading;
+  shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(rays_per_pixel));
+  shading.max_albedo = field.settings().max_albedo;
+  shading.back_faces_count = true;
+  shading.salt = static_cast<uint>(sample);
+  shading.seed = settings.seed;
+
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    // Trace the rays of the pixels that show a surface, and light what they meet directly
+    std::vector<std::size_t> pixels;
+    std::vector<Ray> rays;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (gbuffer.hit[i] == 0) continue;
+      pixels.push_back(i);
+      gather_rays(gbuffer.surfaces[i], settings.gather_rays,
+                  make_random_stream(static_cast<uint>(first_pixel + i), static_cast<uint>(sample),
+                                     ~settings.seed),
+                  rays);
+    }
+    std::vector<Hit> hits(rays.size());
+    std::vector<ShadedHit> shaded(rays.size());
+    ShadeHitsScratch scratch;
+    world.tracer().closest_hits(rays, hits);
+    traced += rays.size() + shade_hits(world, rays, hits, shading,
+                                       (first_pixel + begin) * rays_per_pixel, scratch, shaded);
+
+    // Light it by the field
+    std::vector<FieldQuery> queries(rays.size());
+    std::vector<vec3> from_field(rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      queries[i] = {shaded[i].position_ws, shaded[i].normal_ws, -rays[i].direction};
+    }
+    field.irradiance(queries, from_field);
+
+    // Rays are drawn in proportion to the cosine: irradiance is pi times their mean radiance
+    const float weight = kPi / static_cast<float>(rays_per_pixel);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const ShadedHit& hit = shaded[i];
+      const vec3 radiance =
+          hit.albedo_over_pi * (hit.direct_irradiance + from_field[i]) + hit.sky_radiance;
+      irradiance[pixels[i / rays_per_pixel]] += weight * radiance;
+    }
+  });
+  return traced;
+}
+
+}  // namespace lambent

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/shade_hits.h"
+
+#include <cassert>
+
+#include "raytracing/direct_light.h"
+#include "raytracing/surface.h"
+
+namespace lambent {
+namespace {
+
+/// Draws the candidates of direct light at a surface and queues their shadow rays.
+void queue_direct_light(const World& world, const Surface& surface, std::size_t hit,
+                        int emissive_samples, RandomStream random, ShadeHitsScratch& scratch) {
+  for_each_light(world, surface.position_ws, emissive_samples, random,
+                 [&](const LightCandidate& light) {
+                   const float cosine = glm::dot(surface.normal_ws, light.to_light);
+                   const float side = glm::dot(surface.geometric_normal_ws, light.to_light);
+                   if (cosine <= 0.0f || side <= 0.0f) return;
+                   scratch.pending.push_back({hit, light.perpendicular_irradiance * cosine});
+                   scratch.shadow_rays.push_back(
+                       shadow_ray(surface.position_ws, surface.geometric_normal_ws, light));
+                 });
+}
+
+}  // namespace
+
+std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                       const ShadeHitsSettings& settings, std::size_t first_index,
+                       ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
+  assert(rays.size() == hits.size() && rays.size() == shaded.size());
+  const Scene& scene = world.scene();
+  scratch.shadow_rays.clear();
+  scratch.pending.clear();
+  prefetch_surfaces(scene, hits);
+
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    ShadedHit& result = shaded[i];
+    result = {};
+    result.normal_ws = -rays[i].direction;
+    result.position_ws = rays[i].origin;
+    if (hits[i].missed()) {
+      result.sky_radiance = sky_radiance(scene.environment, rays[i].direction);
+      continue;
+    }
+
+    // Record the surface
+    const Surface surface =
+        surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
+    result.position_ws = surface.position_ws;
+    result.normal_ws = surface.normal_ws;
+    if (!surface.front_face && !surface.double_sided && !settings.back_faces_count) {
+      result.counts = false;
+      continue;
+    }
+    result.emission = surface.emission;
+    const float n_dot_v = -glm::dot(surface.normal_ws, rays[i].direction);
+    const glm::vec3 albedo =
+        glm::min(effective_albedo(surface.reflectance, n_dot_v), glm::vec3(settings.max_albedo));
+    result.albedo_over_pi = albedo * kInvPi;
+
+    // Ask for the light that may reach it
+    if (albedo == glm::vec3(0.0f)) continue;
+    queue_direct_light(world, surface, i, settings.emissive_samples,
+                       make_random_stream(static_cast<std::uint32_t>(first_index + i),
+                                          settings.salt, settings.seed),
+                       scratch);
+  }
+
+  // Add the light that does reach
+  scratch.occluded.resize(scratch.shadow_rays.size());
+  world.tracer().occlusions(scratch.shadow_rays, scratch.occluded);
+  for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
+    const ShadeHitsScratch::PendingLight& light = scratch.pending[i];
+    if (scratch.occluded[i] == 0) shaded[light.hit].direct_irradiance += light.irradiance;
+  }
+  return scratch.shadow_rays.size();
+}
+
+}  // namespace lambent

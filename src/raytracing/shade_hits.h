@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rays bring back, but for the light that only the irradiance field knows.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lambent/world.h"
+#include "raytracing/raytracer.h"
+
+namespace lambent {
+
+/// A point that a ray met, lit directly. Where the ray left the scene: no surface, and the sky.
+struct ShadedHit {
+  glm::vec3 position_ws{0.0f};
+  glm::vec3 normal_ws{0.0f};       ///< Unit, towards the ray's origin.
+  glm::vec3 albedo_over_pi{0.0f};  ///< Diffuse and specular together [1/sr]; 0: reflects nothing.
+  glm::vec3 direct_irradiance{0.0f};  ///< From lights and emissive surfaces [W/m^2].
+  glm::vec3 sky_radiance{0.0f};       ///< Of a ray that left the scene [W/(m^2 sr)], else 0.
+  glm::vec3 emission{0.0f};           ///< Radiance of the surface itself [W/(m^2 sr)].
+  bool counts = true;                 ///< false: the back of a single-sided surface.
+};
+
+struct ShadeHitsSettings {
+  float cone_width =
+      0.0f;  ///< Width of a ray's cone per metre, which picks MIP levels; 0: full resolution.
+  float max_albedo = 1.0f;   ///< Albedo is clamped to this, 0 to 1.
+  int emissive_samples = 1;  ///< Points drawn on emissive triangles a hit, >= 1.
+  bool back_faces_count =
+      false;  ///< Single-sided surfaces are lit from behind, too, as the camera sees them.
+  std::uint32_t salt = 0;  ///< Of the random numbers; with a hit's index it makes them its own.
+  std::uint32_t seed = 1;
+};
+
+/// Shadow rays and their stakes; kept between calls to save allocations.
+struct ShadeHitsScratch {
+  struct PendingLight {
+    std::size_t hit;
+    glm::vec3 irradiance;
+  };
+  std::vector<Ray> shadow_rays;
+  std::vector<PendingLight> pending;
+  std::vector<std::uint8_t> occluded;
+};
+
+/// Shades the hits of rays; all spans have the same length. `first_index` is the index of the first
+/// ray among all. Single-threaded. Returns the shadow rays traced.
+std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
+                       const ShadeHitsSettings& settings, std::size_t first_index,
+                       ShadeHitsScratch& scratch, std::span<ShadedHit> shaded);
+
+}  // namespace lambent
