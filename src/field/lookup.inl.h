@@ -24,15 +24,16 @@ LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_
     // Ask the probe how far it sees along the direction to the biased point
     vec3 from_probe = biased_ws - probe_ws;
     float dist = max(length(from_probe), 1e-6f);
-    float visibility = chebyshev_visibility(fetch_moments(probe, from_probe / dist), dist);
+    vec2 moments = fetch_moments(probe, from_probe / dist);
 
     // Weigh it by visibility, by its side of the surface and by nearness
     vec3 to_probe = probe_ws - position_ws;
     float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), 1e-6f);
-    float weight = probe_weight(cos_probe, visibility) * trilinear_weight(cell.fraction, offset);
+    float weight =
+        probe_weight(cos_probe, moments, dist) * trilinear_weight(cell.fraction, offset);
 
     sum += fetch_irradiance(probe, normal_ws) * weight;
     weight_sum += weight;
   }
-  return sum / weight_sum;
+  return weight_sum > 0.0f ? sum / weight_sum : vec3(0.0f);
 }

@@ -144,12 +144,12 @@ LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetc
     const float raw = fetch.wrap[k] * visibility;
     const float crushed = raw * raw * raw * (1.0f / (kCrushThreshold * kCrushThreshold));
     const float chosen = raw < kCrushThreshold ? crushed : raw;
-    weight[k] =
-        (chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight) * fetch.trilinear[k];
+    const float floored = chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight;
+    weight[k] = mean > 0.0f ? floored * fetch.trilinear[k] : 0.0f;
   }
   float sum = 0.0f;
   for (int k = 0; k < kCorners; ++k) sum += weight[k];
-  const float normalisation = 1.0f / sum;
+  const float normalisation = sum > 0.0f ? 1.0f / sum : 0.0f;
   result.base = fetch.base;
   for (int k = 0; k < kCorners; ++k) result.weight[k] = weight[k] * normalisation;
 }
