@@ -166,6 +166,8 @@ TEST(IrradianceField, LightOnlyGrowsWithBounces) {
   for (const int bounces : {0, 1, 2, 3, 6, 12, -1}) {
     FieldSettings settings = few_probes();
     settings.max_bounces = bounces;
+    settings.relight_tolerance = 1e-5f;
+    settings.max_relights = 200;
     const std::vector<glm::vec3> light = look_up(make_field(rooms(), settings), queries);
     double sum = 0.0;
     for (std::size_t i = 0; i < light.size(); ++i) {
