@@ -22,7 +22,7 @@ struct Stage {
   Stage(const Stage&) = delete;
   Stage& operator=(const Stage&) = delete;
 
-  Bounds bounds() const { return world_bounds(scene); }
+  Bounds bounds() const { return open_bounds(world); }
 
   const Scene scene;
   const World world;
