@@ -88,6 +88,16 @@ Expected<void> check_outputs(const Options& options) {
   return {};
 }
 
+/// Stops, or nothing for "auto".
+Expected<std::optional<float>> parse_exposure(const std::string& text) {
+  float stops = 0.0f;
+  if (text == "auto") return std::optional<float>();
+  if (!CLI::detail::lexical_cast(text, stops) || !std::isfinite(stops)) {
+    return fail("--exposure", "", "'" + text + "' is neither auto nor a number of stops");
+  }
+  return std::optional<float>(stops);
+}
+
 Expected<void> write_output(const Options& options, const LayeredImage& image) {
   const Image& picture = *image.find("");
   if (has_ending(options.output, ".exr")) {
@@ -95,13 +105,8 @@ Expected<void> write_output(const Options& options, const LayeredImage& image) {
     LayeredImage whole{image.width, image.height, {{"", picture}}};
     return write_exr(options.output, whole);
   }
-  float stops = 0.0f;
-  if (options.exposure == "auto") {
-    stops = static_cast<float>(std::log2(auto_exposure(picture)));
-  } else if (!CLI::detail::lexical_cast(options.exposure, stops) || !std::isfinite(stops)) {
-    return fail("--exposure", "",
-                "'" + options.exposure + "' is neither auto nor a number of stops");
-  }
+  const std::optional<float> chosen = *parse_exposure(options.exposure);
+  const float stops = chosen ? *chosen : static_cast<float>(std::log2(auto_exposure(picture)));
   return write_png(options.output,
                    display_image(picture, *tone_map_from_name(options.tone_map), stops));
 }
@@ -232,6 +237,10 @@ Expected<void> verify(const Options& options, const World& world, const Camera& 
         compare_images(*ours, *truth, {.block = kVerifyBlock, .perceptual = false});
     if (!metrics) return tl::unexpected(metrics.error());
     const std::string label = *name == '\0' ? "all" : name;
+    if (metrics->mean_b == 0.0) {
+      std::printf("  %-11s black in truth, mean %g here\n", label.c_str(), metrics->mean_a);
+      continue;
+    }
     std::printf("  %-11s mean ratio %.4f, relative RMSE of 8x8 blocks %.4f\n", label.c_str(),
                 metrics->mean_ratio, metrics->relative_rmse);
     stats["verify_" + label + "_mean_ratio"] = metrics->mean_ratio;
@@ -241,6 +250,9 @@ Expected<void> verify(const Options& options, const World& world, const Camera& 
 }
 
 Expected<void> check_numbers(const Options& options) {
+  if (const auto exposure = parse_exposure(options.exposure); !exposure) {
+    return tl::unexpected(exposure.error());
+  }
   if (options.method != "field" && options.converge) {
     return fail("--converge", "", "goes with --method field alone");
   }
@@ -298,7 +310,11 @@ void add_field_options(CLI::App& command, Options& o) {
       ->capture_default_str();
   command.add_option("--probes", o.probes, "Probes along each axis, XxYxZ");
   command.add_option("--probe-spacing", o.field.probe_spacing, "Distance between probes [m]")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        float spacing = 0.0f;
+        const bool fine = CLI::detail::lexical_cast(text, spacing) && spacing > 0.0f;
+        return fine ? std::string() : "'" + text + "' is not a number above 0";
+      });
   command.add_option("--volume", o.volume, "Box of the probes, x0,y0,z0,x1,y1,z1 [m]");
   command.add_option("--rays", o.field.rays_per_probe, "Rays a probe and update")
       ->check(CLI::Range(16, 4096))

@@ -127,7 +127,9 @@ void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uin
       for (int c = 0; c < 3; ++c) word[c] = floatBitsToUint(value[c]);
       continue;
     }
-    const vec3 u = dither3_from_bits(hash_pcg(static_cast<uint>(index) + salt));
+    // Coarser dither than this would pull R11G11B10F, whose steps are wide, off by some per mille
+    const uvec3 bits = hash_pcg3d(uvec3(static_cast<uint>(index), salt, 0u));
+    const vec3 u(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
     *word = irradiance_format_ == IrradianceFormat::rgb9e5 ? encode_rgb9e5(value, u)
                                                            : encode_r11g11b10f(value, u);
   }

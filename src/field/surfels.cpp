@@ -96,11 +96,16 @@ void find_surfel_lookups(const ProbeStore& store, std::span<const vec3> directio
   parallel_chunks(surfels.size() / rays, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<FieldQuery> queries;
     std::vector<std::size_t> reflecting;
-    for (std::size_t s = begin * rays; s < end * rays; ++s) {
-      // What reflects nothing does not ask what lights it
-      if (surfels.albedo_over_pi[s] == vec3(0.0f)) continue;
-      reflecting.push_back(s);
-      queries.push_back({surfels.position_ws[s], surfels.normal_ws[s], -directions[s % rays]});
+    // Neighbouring probes' rays of one direction tend to end in the same cell: asked one after the
+    // other, they find its probes in the cache
+    for (std::size_t ray = 0; ray < rays; ++ray) {
+      for (std::size_t probe = begin; probe < end; ++probe) {
+        const std::size_t s = probe * rays + ray;
+        // What reflects nothing does not ask what lights it
+        if (surfels.albedo_over_pi[s] == vec3(0.0f)) continue;
+        reflecting.push_back(s);
+        queries.push_back({surfels.position_ws[s], surfels.normal_ws[s], -directions[ray]});
+      }
     }
     std::vector<CornerWeights> weights(queries.size());
     corner_weights(store, queries, weights);

@@ -11,6 +11,10 @@ namespace {
 
 constexpr int kHarmonics = 9;  // degrees 0 to 2
 
+// Where a tile has too few texels to tell harmonics apart, the constant explains them first: its
+// share counts for so much less in what the pseudo-inverse keeps small.
+constexpr double kConstantFirst = 1e4;
+
 // Directions of the quadrature over the sphere: many for each of the at most 256 texels.
 constexpr int kQuadratureDirections = 16384;
 
@@ -56,9 +60,12 @@ std::vector<float> tile_fit_matrix(int edge) {
   }
   const Eigen::MatrixXd best = gram.ldlt().solve(projection);
 
-  const Eigen::MatrixXd fit =
-      Eigen::MatrixXd::Identity(texels, texels) +
-      (best - centres) * centres.completeOrthogonalDecomposition().pseudoInverse();
+  Eigen::VectorXd scale = Eigen::VectorXd::Ones(kHarmonics);
+  scale(0) = kConstantFirst;
+  const Eigen::MatrixXd scaled = centres * scale.asDiagonal();
+  const Eigen::MatrixXd fit = Eigen::MatrixXd::Identity(texels, texels) +
+                              (best - centres) * scale.asDiagonal() *
+                                  scaled.completeOrthogonalDecomposition().pseudoInverse();
   const Eigen::MatrixXf rounded = fit.cast<float>();
   return {rounded.data(), rounded.data() + rounded.size()};
 }

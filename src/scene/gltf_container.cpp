@@ -117,7 +117,38 @@ std::vector<std::string> strings_of(const json& root, const char* key) {
   return strings;
 }
 
-// "extras" mean nothing to us and may hold anything.
+// The constant sky that our own writer leaves in a scene's extras; glTF has no word for it.
+Expected<glm::vec3> read_sky(const json& sky) {
+  constexpr double kAnyRadiance = 3.0e38;  // Fits a 32-bit float
+  if (!sky.is_array() || sky.size() != 3) return fail("", "", "is not a list of three numbers");
+  glm::vec3 radiance(0.0f);
+  for (int c = 0; c < 3; ++c) {
+    if (!sky[c].is_number()) return fail("", "", "is not a list of three numbers");
+    const double value = sky[c].get<double>();
+    if (!(value >= 0.0 && value <= kAnyRadiance)) return fail("", "", "is out of range");
+    radiance[c] = static_cast<float>(value);
+  }
+  return radiance;
+}
+
+// Extras may hold anything, so that one which is not what we write is a warning, not an error.
+void read_skies(Document& document, const json& root) {
+  const json scenes = root.value("scenes", json::array());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    document.scene_skies.emplace_back(0.0f);
+    const json::json_pointer pointer("/extras/lambent_sky_radiance");
+    if (!scenes[i].contains(pointer)) continue;
+    const Expected<glm::vec3> sky = read_sky(scenes[i][pointer]);
+    if (sky) {
+      document.scene_skies.back() = *sky;
+    } else {
+      document.warn(entry("scenes", i) + ".extras.lambent_sky_radiance " + sky.error().cause +
+                    "; the sky stays black.");
+    }
+  }
+}
+
+// Other "extras" mean nothing to us and may hold anything.
 void remove_extras(json& value) {
   if (value.is_object()) value.erase("extras");
   if (!value.is_structured()) return;
@@ -246,6 +277,7 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   }
 
   if (root.contains("buffers")) LAMBENT_CHECK(read_buffers(document, root["buffers"], chunks));
+  read_skies(document, root);
   remove_extras(root);
   take_out(document, root);
   LAMBENT_CHECK(parse_model(document, root));

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -39,6 +40,7 @@ struct Document {
   bool file_access = true;  ///< false: URIs other than data URIs are errors.
   tinygltf::Model model;    ///< Without buffers, images and extras.
   std::vector<Bytes> buffers;
+  std::vector<glm::vec3> scene_skies;  ///< Constant sky radiance of each scene; black: none.
   std::vector<ImageSource> images;
   std::vector<std::vector<int>>
       primitive_indices;                  ///< Accessor of each mesh's primitives' indices; or -1.

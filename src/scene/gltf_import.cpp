@@ -40,6 +40,7 @@ class Importer {
     scene_.materials = std::move(materials);
     LAMBENT_TRY(tree, build_node_tree(document_, options_.scene));
     for (const int node : tree.visible) LAMBENT_CHECK(import_node(tree, node));
+    if (tree.scene >= 0) scene_.environment.radiance = document_.scene_skies[tree.scene];
     drop_unused_default_material();
     LAMBENT_TRY(decoded, textures.decode());
     scene_.textures = std::move(decoded);

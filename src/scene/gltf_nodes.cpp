@@ -68,8 +68,7 @@ void append_subtree(const Document& document, int root, std::vector<bool>& seen,
   }
 }
 
-Expected<std::vector<int>> roots_of(Document& document, int scene,
-                                    const std::vector<int>& parents) {
+Expected<int> chosen_scene(const Document& document, int scene) {
   const tinygltf::Model& model = document.model;
   if (scene >= static_cast<int>(model.scenes.size())) {
     return document.fail_at(entry("scenes", scene),
@@ -77,7 +76,11 @@ Expected<std::vector<int>> roots_of(Document& document, int scene,
   }
   if (scene < 0) scene = model.defaultScene;
   if (scene < 0 && !model.scenes.empty()) scene = 0;
-  if (scene >= 0) return model.scenes[scene].nodes;
+  return scene;
+}
+
+std::vector<int> roots_of(Document& document, int scene, const std::vector<int>& parents) {
+  if (scene >= 0) return document.model.scenes[scene].nodes;
   document.warn("The file has no scene; all of its nodes are shown.");
   std::vector<int> roots;
   for (std::size_t i = 0; i < parents.size(); ++i) {
@@ -136,9 +139,11 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
     }
   }
 
-  LAMBENT_TRY(roots, roots_of(document, scene, parents));
+  LAMBENT_TRY(chosen, chosen_scene(document, scene));
+  tree.scene = chosen;
   seen.assign(count, false);
-  for (const int root : roots) append_subtree(document, root, seen, tree.visible);
+  for (const int root : roots_of(document, chosen, parents))
+    append_subtree(document, root, seen, tree.visible);
   return tree;
 }
 

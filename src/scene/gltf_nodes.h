@@ -10,6 +10,7 @@ namespace lambent::gltf {
 
 struct NodeTree {
   std::vector<glm::mat4> world_from_node;  ///< One a node of the file; finite and affine.
+  int scene = -1;                          ///< The chosen scene; -1: the file has none.
   std::vector<int> visible;  ///< Nodes of the chosen scene, parents before children, in file order.
 };
 

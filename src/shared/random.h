@@ -33,17 +33,6 @@ LAMBENT_FN float uniform_from_bits(uint bits) {
   return float(bits >> 8u) * (1.0f / 16777216.0f);
 }
 
-/// Two numbers in [0, 1) from one word, 16 bits each: coarse, but enough to dither with.
-LAMBENT_FN vec2 dither2_from_bits(uint bits) {
-  return vec2(float(bits & 0xFFFFu), float(bits >> 16u)) * (1.0f / 65536.0f);
-}
-
-/// Three, of 10 bits each.
-LAMBENT_FN vec3 dither3_from_bits(uint bits) {
-  return vec3(float(bits & 1023u), float((bits >> 10u) & 1023u), float((bits >> 20u) & 1023u)) *
-         (1.0f / 1024.0f);
-}
-
 /// A stream of random numbers; its whole state.
 struct RandomStream {
   uint state;

@@ -67,6 +67,7 @@ TEST_P(EveryGlb, ComesBackAsItWas) {
   const Scene& a = made.scene;
   const Scene b = round_trip(made, GetParam());
   EXPECT_TRUE(world_triangles(a) == world_triangles(b));
+  EXPECT_EQ(a.environment.radiance, b.environment.radiance);
   EXPECT_EQ(b.source.animations, static_cast<int>(made.animations.size()));
 
   ASSERT_EQ(a.lights.size(), b.lights.size());

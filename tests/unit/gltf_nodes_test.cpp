@@ -203,6 +203,36 @@ TEST(GltfCameras, OrthographicOnesHaveAnExtent) {
   EXPECT_EQ(scene->cameras[0].aspect, 2.0f);
 }
 
+TEST(GltfSky, IsReadFromTheExtrasOfTheChosenScene) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.root["scenes"][0]["extras"]["lambent_sky_radiance"] = {0.25, 0.5, 2};
+  builder.append("scenes", {{"nodes", {0}}, {"extras", "of somebody else's"}});
+  const Expected<Scene> first = builder.load();
+  ASSERT_TRUE(first) << error_of(first);
+  EXPECT_EQ(first->environment.radiance, glm::vec3(0.25f, 0.5f, 2.0f));
+  EXPECT_THAT(first->source.warnings, SizeIs(0));
+
+  LoadOptions options;
+  options.scene = 1;
+  const Expected<Scene> second = builder.load(options);
+  ASSERT_TRUE(second) << error_of(second);
+  EXPECT_EQ(second->environment.radiance, glm::vec3(0.0f));
+}
+
+TEST(GltfSky, WhatIsNoRadianceStaysBlackAndIsTold) {
+  for (const char* sky : {"1", "[1, 2]", "[1, 2, \"3\"]", "[1, 2, -3]", "[1, 2, 1e200]", "null",
+                          "[1, 2, null]", "{}"}) {
+    GltfBuilder builder;
+    builder.show(builder.triangle());
+    builder.root["scenes"][0]["extras"]["lambent_sky_radiance"] = Json::parse(sky);
+    const Expected<Scene> scene = builder.load();
+    ASSERT_TRUE(scene) << error_of(scene);
+    EXPECT_EQ(scene->environment.radiance, glm::vec3(0.0f)) << sky;
+    EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("lambent_sky_radiance"))) << sky;
+  }
+}
+
 TEST(LookAt, LooksAtItsTargetWithPositiveYUp) {
   const Camera camera = look_at({1, 2, 3}, {1, 2, -7}, 1.0f);
   expect_near(-glm::vec3(camera.world_from_view[2]), {0, 0, -1});
