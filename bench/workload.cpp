@@ -9,6 +9,7 @@
 #include "field/blend.h"
 #include "field/probe_grid.h"
 #include "field/probe_store.h"
+#include "field/surfels.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/surface.h"
@@ -81,11 +82,7 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const ProbeGrid& grid = work.field.store().grid();
   const std::vector<vec3> directions =
       probe_ray_directions(settings.rays_per_probe, static_cast<uint>(update), settings.seed);
-  ShadeHitsSettings shading;
-  shading.max_albedo = settings.max_albedo;
-  shading.emissive_samples = settings.emissive_samples;
-  shading.salt = static_cast<uint>(update);
-  shading.seed = settings.seed;
+  const ShadeHitsSettings shading = surfel_shading(settings, static_cast<uint>(update));
 
   // Shade each probe's hits for the sake of the shadow rays
   const std::size_t rays = directions.size();
