@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -49,6 +48,7 @@ struct Options {
   bool converge = false;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
+  std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
 };
 
 // Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, keeps
@@ -67,12 +67,6 @@ const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", Distan
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
 using Json = nlohmann::ordered_json;
-
-bool has_ending(const std::string& path, const char* ending) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ending;
-}
 
 /// Fails early on outputs that could not be written after minutes of work.
 Expected<void> check_outputs(const Options& options) {
@@ -253,11 +247,9 @@ Expected<void> check_numbers(const Options& options) {
   if (const auto exposure = parse_exposure(options.exposure); !exposure) {
     return tl::unexpected(exposure.error());
   }
-  if (options.method != "field" && options.converge) {
-    return fail("--converge", "", "goes with --method field alone");
-  }
-  if (options.method != "field" && options.gather_rays > 0) {
-    return fail("--gather", "", "goes with --method field alone");
+  for (const CLI::Option* option : options.of_the_field) {
+    if (options.method == "field" || option->count() == 0) continue;
+    return fail(option->get_name(), "", "goes with --method field alone");
   }
   if (options.method == "direct" && options.bounces > 0) {
     return fail("--bounces", "", "--method direct has none");
@@ -303,6 +295,7 @@ Expected<void> render(const Options& options) {
 }
 
 void add_field_options(CLI::App& command, Options& o) {
+  const std::size_t others = command.get_options().size();
   command
       .add_option("--gather", o.gather_rays,
                   "Rays a sample gathers indirect light with (0: look the field up)")
@@ -339,6 +332,8 @@ void add_field_options(CLI::App& command, Options& o) {
   command.add_option("--distance-texels", o.field.distance_texels, "Of a tile's edge")
       ->check(CLI::Range(4, 32))
       ->capture_default_str();
+  const std::vector<CLI::Option*> all = command.get_options();
+  o.of_the_field.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
 }
 
 }  // namespace

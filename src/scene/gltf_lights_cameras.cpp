@@ -62,7 +62,8 @@ Expected<Camera> import_camera(const Document& document, int node,
   if (source.type == "perspective" && source.perspective.yfov > 0.0) {
     camera.vertical_fov = static_cast<float>(source.perspective.yfov);
     camera.aspect = static_cast<float>(source.perspective.aspectRatio);
-  } else if (source.type == "orthographic" && source.orthographic.ymag != 0.0) {
+  } else if (source.type == "orthographic" && source.orthographic.xmag != 0.0 &&
+             source.orthographic.ymag != 0.0) {
     const double xmag = std::abs(source.orthographic.xmag);
     const double ymag = std::abs(source.orthographic.ymag);
     camera.orthographic = true;
