@@ -97,6 +97,7 @@ bool nested_too_deeply(ByteSpan text) {
 }
 
 Expected<json> parse_json(ByteSpan text, const std::string& file) {
+  if (text.empty()) return fail(file, "", "the file is empty");
   if (text.size() > kMaxJsonBytes) return fail(file, "JSON", "the JSON is absurdly large");
   if (nested_too_deeply(text)) return fail(file, "JSON", "the JSON is nested too deeply");
   try {

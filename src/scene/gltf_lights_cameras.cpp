@@ -45,9 +45,11 @@ Expected<Light> import_light(Document& document, int index, int node,
   light.range = static_cast<float>(source.range);
   if (light.type == Light::Type::spot) {
     const auto outer = static_cast<float>(source.spot.outerConeAngle);
+    const auto inner = static_cast<float>(source.spot.innerConeAngle);
     light.outer_cone_angle = std::min(outer, 0.5f * kPi);
-    light.inner_cone_angle =
-        std::min(static_cast<float>(source.spot.innerConeAngle), light.outer_cone_angle);
+    light.inner_cone_angle = std::min(inner, light.outer_cone_angle);
+    document.repaired("spot lights' inner cones were cut to their outer ones", inner > outer,
+                      place);
   }
   return light;
 }
