@@ -77,6 +77,7 @@ TEST(AtomicFile, FullDiskIsAFailureNotBadInput) {
 
 TEST(ReadFile, RefusesWhatIsMissingTooLargeOrADirectory) {
   const testing::TemporaryDirectory directory;
+  EXPECT_EQ(read_file("").error().cause, "the name of the file to read is empty");
   EXPECT_EQ(read_file(directory.file("none")).error().cause, "no such file");
   EXPECT_EQ(read_file(directory.path().string()).error().cause, "is a directory, not a file");
   ASSERT_TRUE(write_file_atomically(directory.file("a"), "four"));
