@@ -62,6 +62,12 @@ constexpr int kVerifyBlock = 8;
 constexpr int kFieldSamples = 4;
 constexpr int kReferenceSamples = 64;
 
+// Typing errors are caught before they cost days: more samples leave no noise to see, and after so
+// many bounces no surface that we accept has light left to send on.
+constexpr int kMaxSamples = 1 << 20;
+constexpr int kMaxBounces = 1000;
+constexpr int kMaxThreads = 1024;
+
 const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
     {"rgb9e5", IrradianceFormat::rgb9e5},
     {"r11g11b10f", IrradianceFormat::r11g11b10f},
@@ -357,11 +363,11 @@ void add_render(CLI::App& app, Run& run) {
   command
       ->add_option("--samples", o->samples,
                    "Rays or paths a pixel (field and direct: 4, reference: 64)")
-      ->check(CLI::Range(1, 1 << 20));
+      ->check(CLI::Range(1, kMaxSamples));
   command->add_option("--bounces", o->bounces, "Bounces of indirect light (all of them)")
-      ->check(CLI::Range(0, 1000));
+      ->check(CLI::Range(0, kMaxBounces));
   command->add_option("--seed", o->seed, "Of all random numbers")->capture_default_str();
-  command->add_option("--threads", o->threads, "Threads to use (all)")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", o->threads, "Threads to use (all)")->check(CLI::Range(1, kMaxThreads));
   command->add_flag("--layers", o->layers, "Write every layer of the frame, .exr only");
   command->add_option("--stats", o->stats, "Write times and counts to this .json file");
   command->add_option("--exposure", o->exposure, "Of a .png, in stops, or auto")
@@ -372,7 +378,7 @@ void add_render(CLI::App& app, Run& run) {
   command
       ->add_option("--verify", o->verify_samples,
                    "Also path-trace so many samples a pixel and print the error")
-      ->check(CLI::Range(2, 1 << 20));
+      ->check(CLI::Range(2, kMaxSamples));
   add_field_options(*command, *o);
   command->callback([o, &run] { run = [o] { return render(*o); }; });
 }
