@@ -367,7 +367,8 @@ void add_render(CLI::App& app, Run& run) {
   command->add_option("--bounces", o->bounces, "Bounces of indirect light (all of them)")
       ->check(CLI::Range(0, kMaxBounces));
   command->add_option("--seed", o->seed, "Of all random numbers")->capture_default_str();
-  command->add_option("--threads", o->threads, "Threads to use (all)")->check(CLI::Range(1, kMaxThreads));
+  command->add_option("--threads", o->threads, "Threads to use (all)")
+      ->check(CLI::Range(1, kMaxThreads));
   command->add_flag("--layers", o->layers, "Write every layer of the frame, .exr only");
   command->add_option("--stats", o->stats, "Write times and counts to this .json file");
   command->add_option("--exposure", o->exposure, "Of a .png, in stops, or auto")
