@@ -169,7 +169,8 @@ const char* flaw_of(const Camera& camera) {
   if (!unit(glm::vec3(m[0])) || !unit(glm::vec3(m[1])) || !unit(glm::vec3(m[2]))) {
     return "has a transform with scale";
   }
-  if (!finite(camera.aspect) || camera.aspect < 0.0f) return "has a negative aspect ratio";
+  if (!finite(camera.aspect) || camera.aspect < 0.0f)
+    return "has an aspect ratio that is negative or not finite";
   if (camera.orthographic) {
     return finite(camera.vertical_extent) && camera.vertical_extent > 0.0f
                ? nullptr
