@@ -186,7 +186,7 @@ Expected<LayeredImage> render_by_field(const Options& options, const World& worl
   if (options.method == "field") {
     const auto settings = field_settings(options);
     if (!settings) return tl::unexpected(settings.error());
-    Expected<IrradianceField> made = IrradianceField::make(*settings, world_bounds(world.scene()));
+    Expected<IrradianceField> made = IrradianceField::make(*settings, open_bounds(world));
     if (!made) return tl::unexpected(made.error());
     field.emplace(std::move(*made));
     update_field(options, world, *field, progress, stats);

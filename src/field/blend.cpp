@@ -20,7 +20,7 @@ typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));
 
 // Smaller weights count for nothing in a float sum, but their products with values are denormal and
 // a hundred times slower to compute.
-constexpr float kMinWeight = 1e-9f;
+constexpr float kMinWeight = 1e-30f;
 
 /// One block of texels: sums[t][c] = sum over rays of values[ray][c] * weights[ray][t].
 template <int channels>

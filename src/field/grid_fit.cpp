@@ -66,6 +66,9 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
   if (!finite(bounds.min) || !finite(bounds.max)) {
     return bad_setting("volume", "the corners must be finite numbers");
   }
+  if (glm::any(glm::greaterThan(bounds.min, bounds.max)) || !finite(bounds.max - bounds.min)) {
+    return bad_setting("volume", "the second corner must be beyond the first, and not too far");
+  }
   const bool counted = settings.probe_count != glm::ivec3(0);
   if (counted && glm::any(glm::lessThan(settings.probe_count, glm::ivec3(kMinProbesPerAxis)))) {
     return bad_setting("probes", "a field needs at least 2 probes along each axis");
