@@ -29,8 +29,7 @@ LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_
     // Weigh it by visibility, by its side of the surface and by nearness
     vec3 to_probe = probe_ws - position_ws;
     float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), 1e-6f);
-    float weight =
-        probe_weight(cos_probe, moments, dist) * trilinear_weight(cell.fraction, offset);
+    float weight = probe_weight(cos_probe, moments, dist) * trilinear_weight(cell.fraction, offset);
 
     sum += fetch_irradiance(probe, normal_ws) * weight;
     weight_sum += weight;
