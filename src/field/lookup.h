@@ -26,6 +26,10 @@ const float kCrushThreshold = 0.2f;
 // Where every probe seems hidden, trilinear interpolation decides among them.
 const float kMinVisibilityWeight = 1e-6f;
 
+// Where a point is at a probe's own place, no direction leads from the one to the other: directions
+// are divided by no less than this [m].
+const float kMinProbeDistance = 1e-6f;
+
 /// The point at which visibility is asked.
 LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                 float spacing_min) {
@@ -45,11 +49,12 @@ LAMBENT_FN float chebyshev_visibility(vec2 moments, float dist) {
 
 /// Weight of a probe before trilinear interpolation. `cos_probe` is the cosine between the surface
 /// normal and the direction from the surface to the probe. A probe inside solid matter holds a mean
-/// distance of 0: it knows nothing of light and counts for nothing, even where the others are hidden.
+/// distance of 0: it knows nothing of light and counts for nothing, even where the others are
+/// hidden.
 LAMBENT_FN float probe_weight(float cos_probe, vec2 moments, float dist) {
   // Probes behind the surface count less, smoothly. The published weight adds a floor of 0.2, which
-  // lets light through sheets and costs accuracy: without it the relative RMSE of cornell falls from
-  // 0.075 to 0.068.
+  // lets light through sheets and costs accuracy: without it the relative RMSE of cornell falls
+  // from 0.075 to 0.068.
   float wrap = 0.5f * (cos_probe + 1.0f);
   float weight = wrap * wrap * chebyshev_visibility(moments, dist);
   if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
