@@ -14,7 +14,8 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lambent DESTINATION ${CMAKE_INST
 install(EXPORT lambent NAMESPACE lambent:: FILE lambent-targets.cmake
   DESTINATION ${LAMBENT_INSTALL_CMAKE_DIR} COMPONENT library)
 
-# Who links a static library links what it is made of, and must find that; a shared one brings it along.
+# Who links a static library links what it is made of, and must find that; a shared one brings it
+# along.
 get_target_property(lambent_type lambent TYPE)
 if(lambent_type STREQUAL "STATIC_LIBRARY")
   set(LAMBENT_IS_STATIC TRUE)

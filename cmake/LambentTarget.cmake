@@ -5,7 +5,8 @@ function(lambent_compile_options target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   # The same bits from every compiler and machine: no silent fusing of products and sums.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wshadow -Wnon-virtual-dtor -ffp-contract=off)
   if(LAMBENT_WERROR)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

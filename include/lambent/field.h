@@ -48,18 +48,20 @@ struct FieldSettings {
   /// 0.999. Higher is smoother and slower to follow change.
   float hysteresis = 0.97f;
 
-  /// Texels of a probe's irradiance tile along an edge, without gutter, 2 to 16. Bytes grow with
-  /// the square.
+  /// Texels of a probe's irradiance tile along an edge, without gutter, even, 2 to 16. Bytes
+  /// and the cost of blending grow with the square.
   int irradiance_texels = 4;
-  /// The same of its distance tile, 4 to 32.
+  /// The same of its distance tile, 4 to 32. More tell finer occluders apart.
   int distance_texels = 14;
+  /// How irradiance is stored; bytes a texel beside each format.
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
+  /// How distances are stored, likewise.
   DistanceFormat distance_format = DistanceFormat::rg16f;
 
   /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
-  /// share of it, > 0.
+  /// share of it, 1e-7 to 1. Ten times less costs a few iterations more.
   float relight_tolerance = 0.002f;
-  /// ... or after so many iterations, >= 1. Each costs a fraction of tracing.
+  /// ... or after so many iterations, 1 to 1000. Each costs a fraction of tracing.
   int max_relights = 32;
   /// Bounces of indirect light to carry, >= 0; -1: all. 0 is the sky's light alone. A limit is
   /// exact but not accelerated: each bounce costs a relight.
@@ -67,13 +69,14 @@ struct FieldSettings {
   /// Albedo is clamped to this at surfels, so that light always dies out, 0 to 0.99.
   float max_albedo = 0.95f;
 
-  /// Points drawn on emissive triangles for a surfel's direct light, >= 1. Each costs a shadow ray
-  /// a surfel.
+  /// Points drawn on emissive triangles for a surfel's direct light, 1 to 64. Each costs a shadow
+  /// ray a surfel.
   int emissive_samples = 1;
-  /// Added to the MIP level that a probe ray's footprint asks for [levels]. Lower is sharper and
-  /// slower.
+  /// Added to the MIP level that a probe ray's footprint asks for [levels], finite. Lower is
+  /// sharper and slower.
   float texture_lod_bias = 0.0f;
 
+  /// Of all random numbers. Fields of different seeds have independent noise.
   std::uint32_t seed = 1;
 };
 
@@ -81,7 +84,8 @@ struct FieldSettings {
 struct FieldGrid {
   glm::vec3 origin{0.0f};   ///< Of probe (0, 0, 0) [m].
   glm::vec3 spacing{1.0f};  ///< Along each axis [m].
-  glm::ivec3 count{2};      ///< Along each axis.
+  glm::ivec3 count{2};      ///< Along each axis, each >= 2.
+  /// All of them.
   int probes() const { return count.x * count.y * count.z; }
 };
 
@@ -91,15 +95,15 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
 
 /// What an update did. Times are wall-clock [ms].
 struct UpdateStatistics {
-  double trace_ms = 0.0;    ///< Closest hits of the probe rays.
-  double shade_ms = 0.0;    ///< Surfaces, direct light with shadow rays, and lookup weights.
-  double relight_ms = 0.0;  ///< Multi-bounce solve.
-  double blend_ms = 0.0;    ///< Distances and irradiance into the store.
-  std::uint64_t probe_rays = 0;
-  std::uint64_t shadow_rays = 0;
-  int relights = 0;       ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;  ///< Estimated relative error it stopped at.
-  double change = 0.0;    ///< Of the stored light, root mean square over root mean square.
+  double trace_ms = 0.0;          ///< Closest hits of the probe rays.
+  double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
+  double relight_ms = 0.0;        ///< Multi-bounce solve.
+  double blend_ms = 0.0;          ///< Distances and irradiance into the store.
+  std::uint64_t probe_rays = 0;   ///< Traced from probes.
+  std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
+  int relights = 0;               ///< Iterations of the multi-bounce solve.
+  double residual = 0.0;          ///< Estimated relative error it stopped at.
+  double change = 0.0;            ///< Of the stored light, root mean square over root mean square.
 };
 
 /// A point to look the field up at. All numbers must be finite.
@@ -114,15 +118,17 @@ struct FieldQuery {
 /// A grid of irradiance probes with visibility, and the light that bounces between them.
 class IrradianceField {
  public:
-  /// A field that holds no light yet. `World` may be a different object in each update, but of the
-  /// same place.
+  /// A field that holds no light yet, for a place of these bounds [m]. Fails on settings out of
+  /// range and as fit_grid does.
   static Expected<IrradianceField> make(const FieldSettings& settings, const Bounds& scene_bounds);
   ~IrradianceField();
   IrradianceField(IrradianceField&&) noexcept;
   IrradianceField& operator=(IrradianceField&&) noexcept;
 
-  /// Traces every probe once, solves for all bounces and blends the result into the store. The same
-  /// calls with the same seed give the same bits on any number of threads.
+  /// Traces every probe's rays, solves for all bounces and blends the result into the store. The
+  /// world may be a different object in each update, but of the same place; it is not kept. Not to
+  /// be called while the field is read. The same calls with the same seed give the same bits on any
+  /// number of threads. Throws std::bad_alloc where memory runs out.
   UpdateStatistics update(const World& world);
 
   /// Forgets all light; the next update starts anew.

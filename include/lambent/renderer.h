@@ -26,25 +26,26 @@ struct FrameSettings {
   /// field up instead. Finds light and shade finer than the probes' spacing, at the price of noise
   /// and of two rays for each.
   int gather_rays = 0;
-  std::uint32_t seed = 1;
+  std::uint32_t seed = 1;  ///< Of all random numbers. Frames of different seeds differ in noise.
 };
 
 /// Wall-clock time of one pass of the frame.
 struct PassTime {
   std::string name;  ///< The pass's name wherever it appears: "gbuffer", "direct", "indirect", ...
-  double ms = 0.0;
+  double ms = 0.0;   ///< Summed over the frame's samples.
 };
 
 struct RenderedFrame {
   /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect,
   /// irradiance, glossy, emission, albedo, normal, position, depth.
   LayeredImage image;
-  std::vector<PassTime> passes;
-  std::uint64_t rays = 0;  ///< Primary and shadow rays.
+  std::vector<PassTime> passes;  ///< In the order of the frame.
+  std::uint64_t rays = 0;        ///< Traced: primary, gathered and shadow rays.
 };
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the field.
-/// A null field gives direct light and emission alone.
+/// A null field gives direct light and emission alone. Settings must be in range. Runs on all
+/// cores; the same bits on any number of threads.
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress = {});
 

@@ -23,6 +23,8 @@ class World {
   World& operator=(World&&) noexcept;
 
   const Scene& scene() const { return *scene_; }
+  /// What finds hits and occlusion, and what draws points on emissive surfaces: for passes, not
+  /// part of the public interface. Both live as long as the world.
   const RayTracer& tracer() const { return *tracer_; }
   const EmissiveTriangles& emissive() const { return *emissive_; }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of a frame, written once.
+#include <algorithm>
 #include <cassert>
 
 #include "compose/gbuffer.h"

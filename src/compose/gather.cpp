@@ -15,6 +15,7 @@
 #include "raytracing/shade_hits.h"
 #include "shared/random.h"
 #include "shared/rays.h"
+#include "shared/sampling.h"
 
 namespace lambent {
 namespace {
@@ -25,18 +26,13 @@ constexpr std::size_t kPixelsPerTask = 256;
 // hemisphere.
 constexpr float kHemisphereConeWidth = 2.0f;
 
-// Increments of the plastic-number sequence: Roberts, "The Unreasonable Effectiveness of
-// Quasirandom Sequences", 2018.
-constexpr float kR2X = 0.7548776662f;
-constexpr float kR2Y = 0.5698402910f;
-
 /// Rays of one pixel, spread evenly over the cosine-weighted hemisphere; no two pixels alike.
 void gather_rays(const Surface& surface, int count, RandomStream random, std::vector<Ray>& rays) {
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 origin = offset_ray_origin(surface.position_ws, surface.geometric_normal_ws);
   const vec2 shift = next_uniform2(random);
   for (int i = 0; i < count; ++i) {
-    const vec2 u = fract(shift + static_cast<float>(i) * vec2(kR2X, kR2Y));
+    const vec2 u = fract(shift + plastic_sequence(static_cast<uint>(i)));
     rays.push_back({origin, 0.0f, to_world(frame, sample_cosine_hemisphere(u))});
   }
 }
@@ -88,10 +84,14 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
     // Rays are drawn in proportion to the cosine: irradiance is pi times their mean radiance
     const float weight = kPi / static_cast<float>(rays_per_pixel);
     for (std::size_t i = 0; i < rays.size(); ++i) {
+      // A bent normal's hemisphere reaches below the surface, where no light comes from
+      const std::size_t pixel = pixels[i / rays_per_pixel];
+      const vec3 geometric_normal_ws = gbuffer.surfaces[pixel].geometric_normal_ws;
+      if (dot(geometric_normal_ws, rays[i].direction) <= 0.0f) continue;
       const ShadedHit& hit = shaded[i];
       const vec3 radiance =
           hit.albedo_over_pi * (hit.direct_irradiance + from_field[i]) + hit.sky_radiance;
-      irradiance[pixels[i / rays_per_pixel]] += weight * radiance;
+      irradiance[pixel] += weight * radiance;
     }
   });
   return traced;

@@ -4,22 +4,20 @@
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
 #include "shared/random.h"
+#include "shared/sampling.h"
 
 namespace lambent {
 namespace {
 
-// Plastic-number sequence: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences",
-// 2018.
-constexpr float kR2X = 0.7548776662f;
-constexpr float kR2Y = 0.5698402910f;
+// Keeps the random numbers of pixels' positions apart from those of other passes.
+constexpr uint kSubpixelSalt = 0x50495845u;
 
 /// Where in the pixel a sample lies, each coordinate 0 to 1.
 vec2 subpixel_position(int pixel, int sample, const FrameSettings& settings) {
   if (settings.samples == 1) return vec2(0.5f);
-  RandomStream random = make_random_stream(static_cast<uint>(pixel), 0x50495845u, settings.seed);
+  RandomStream random = make_random_stream(static_cast<uint>(pixel), kSubpixelSalt, settings.seed);
   const vec2 shift = next_uniform2(random);
-  const auto n = static_cast<float>(sample);
-  return fract(shift + n * vec2(kR2X, kR2Y));
+  return fract(shift + plastic_sequence(static_cast<uint>(sample)));
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ namespace {
 constexpr int kBlock = 16;
 typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));
 
+// Keeps the random numbers of rotations apart from those of other passes.
+constexpr uint kRotationSalt = 0x52415953u;
+
 // Smaller weights count for nothing in a float sum, but their products with values are denormal and
 // a hundred times slower to compute.
 constexpr float kMinWeight = 1e-30f;
@@ -65,7 +68,7 @@ void apply(const std::vector<float>& weights, int padded, int texels, int rays, 
 }  // namespace
 
 std::vector<vec3> probe_ray_directions(int count, uint update, uint seed) {
-  RandomStream stream = make_random_stream(update, 0x52415953u, seed);
+  RandomStream stream = make_random_stream(update, kRotationSalt, seed);
   const float u = next_uniform(stream);
   const float v = next_uniform(stream);
   const mat3 rotation = sample_uniform_rotation({u, v, next_uniform(stream)});

@@ -11,6 +11,7 @@
 // Fields", JCGT 8(2), 2019.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 

@@ -12,11 +12,6 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-// Distances are only compared with those to points of the cells around a probe, at most a cell's
-// diagonal away; longer ones are cut to this many diagonals, so that far surfaces do not swamp the
-// variance of near ones.
-constexpr float kMaxDistanceDiagonals = 1.5f;
-
 // A ray that meets the back of a single-sided surface counts as shortened to this share, so that a
 // probe inside something trusts its surroundings little. JCGT 10(2) 2021, sec. 4.
 constexpr float kBackFaceDistanceShare = 0.2f;
@@ -36,7 +31,7 @@ void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<con
                      float share, uint salt, ProbeStore& store) {
   const int rays = blend.rays();
   const int texels = blend.texels();
-  const float farthest = kMaxDistanceDiagonals * length(store.grid().spacing);
+  const float farthest = max_probe_distance(store.grid());
 
   // Compute what all rays together weigh in each texel: the same for every probe
   std::vector<float> ones(2 * static_cast<std::size_t>(rays), 1.0f);

@@ -23,6 +23,9 @@ namespace {
 constexpr std::size_t kQueriesPerTask = 4096;
 constexpr std::size_t kProbesPerTask = 64;
 
+// Keeps the random numbers of the store's dither apart from those of other passes.
+constexpr uint kStoreSalt = 0x53544F52u;
+
 int square(int x) {
   return x * x;
 }
@@ -128,7 +131,7 @@ UpdateStatistics IrradianceField::update(const World& world) {
       probe_ray_directions(settings.rays_per_probe, update, settings.seed);
   const BlendMatrix irradiance_blend(settings.irradiance_texels, 1.0f, directions);
   const BlendMatrix distance_blend(settings.distance_texels, kDistanceExponent, directions);
-  const uint salt = hash_pcg3d(uvec3(update, settings.seed, 0x53544F52u)).x;
+  const uint salt = hash_pcg3d(uvec3(update, settings.seed, kStoreSalt)).x;
 
   // The mean of all updates so far, until it has become an exponential moving average
   const float share = max(1.0f / static_cast<float>(s.updates + 1), 1.0f - settings.hysteresis);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the probes of a field stand.
+#include <algorithm>
 #include <cmath>
 
 #include "lambent/field.h"
@@ -13,6 +14,13 @@ namespace {
 constexpr float kBoundaryMargin = 0.07f;
 
 constexpr int kMinProbesPerAxis = 2;
+// The coarsest grid, of one cell.
+constexpr int kMinProbes = kMinProbesPerAxis * kMinProbesPerAxis * kMinProbesPerAxis;
+// Extents are this share of a cell longer than whole cells before they get another one: room for
+// rounding in the quotient.
+constexpr float kCellRounding = 1e-4f;
+// More cells along an axis than any budget allows, and few enough to count in an int.
+constexpr float kUncountableCells = 1e6f;
 // Above this a grid is a typing error: it would take 1.2 GB for the store alone.
 constexpr double kMaxProbes = 1 << 20;
 // Flat scenes still get a volume: no side is thinner than this share of the longest.
@@ -30,7 +38,7 @@ tl::unexpected<Error> bad_setting(const char* setting, std::string cause) {
 
 /// Probes along each axis for a spacing, at least.
 glm::ivec3 count_for_spacing(const glm::vec3& extent, float spacing) {
-  const glm::vec3 cells = glm::ceil(extent / spacing - 1e-4f);
+  const glm::vec3 cells = glm::ceil(extent / spacing - kCellRounding);
   return glm::max(glm::ivec3(cells) + 1, glm::ivec3(kMinProbesPerAxis));
 }
 
@@ -45,9 +53,7 @@ glm::ivec3 count_for_budget(const glm::vec3& extent, int budget) {
   constexpr int kBisections = 40;
   for (int i = 0; i < kBisections; ++i) {
     const float spacing = 0.5f * (too_small + fits);
-    // Guard the conversion to integers: this is far beyond any budget
-    const bool countable =
-        extent.x / spacing < 1e6f && extent.y / spacing < 1e6f && extent.z / spacing < 1e6f;
+    const bool countable = glm::all(glm::lessThan(extent / spacing, glm::vec3(kUncountableCells)));
     if (countable && product(count_for_spacing(extent, spacing)) <= budget) {
       fits = spacing;
     } else {
@@ -66,8 +72,10 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
   if (!finite(bounds.min) || !finite(bounds.max)) {
     return bad_setting("volume", "the corners must be finite numbers");
   }
-  if (glm::any(glm::greaterThan(bounds.min, bounds.max)) || !finite(bounds.max - bounds.min)) {
-    return bad_setting("volume", "the second corner must be beyond the first, and not too far");
+  const glm::vec3 size = bounds.max - bounds.min;
+  if (!finite(size)) return bad_setting("volume", "is too large for its size to be a number");
+  if (glm::any(glm::lessThan(size, glm::vec3(0.0f)))) {
+    return bad_setting("volume", "its upper corner lies below its lower corner");
   }
   const bool counted = settings.probe_count != glm::ivec3(0);
   if (counted && glm::any(glm::lessThan(settings.probe_count, glm::ivec3(kMinProbesPerAxis)))) {
@@ -76,10 +84,9 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
   if (!std::isfinite(settings.probe_spacing) || settings.probe_spacing < 0.0f) {
     return bad_setting("probe spacing", "must be a finite number of metres above 0");
   }
-  if (settings.probe_budget < 8) return bad_setting("probe budget", "must be at least 8");
+  if (settings.probe_budget < kMinProbes) return bad_setting("probe budget", "must be at least 8");
 
   // Give flat and empty boxes some thickness
-  const glm::vec3 size = bounds.max - bounds.min;
   const float longest = std::max({size.x, size.y, size.z, kSmallestScene});
   const glm::vec3 extent = glm::max(size, glm::vec3(kMinThickness * longest));
   const glm::vec3 low = bounds.min - 0.5f * (extent - size);

@@ -26,6 +26,10 @@ const float kCrushThreshold = 0.2f;
 // Where every probe seems hidden, trilinear interpolation decides among them.
 const float kMinVisibilityWeight = 1e-6f;
 
+// Where a point is at a probe's own place, no direction leads from the one to the other: directions
+// are divided by no less than this [m].
+const float kMinProbeDistance = 1e-6f;
+
 /// The point at which visibility is asked.
 LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                 float spacing_min) {

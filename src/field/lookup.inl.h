@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
-//   vec2 fetch_moments(int probe, vec3 direction)     mean distance [m] and mean squared distance
-//   [m^2], bilinear vec3 fetch_irradiance(int probe, vec3 direction)  linear irradiance [W/m^2],
-//   bilinear
+//   vec2 fetch_moments(int probe, vec3 direction)
+//       mean distance [m] and mean squared distance [m^2], bilinear
+//   vec3 fetch_irradiance(int probe, vec3 direction)
+//       linear irradiance [W/m^2], bilinear
 // In C++ it is included in the body of a struct that has these as members.
 
 /// Irradiance at a point with a normal, seen from `to_viewer_ws`. Averages linear light, so that
@@ -23,12 +24,12 @@ LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_
 
     // Ask the probe how far it sees along the direction to the biased point
     vec3 from_probe = biased_ws - probe_ws;
-    float dist = max(length(from_probe), 1e-6f);
+    float dist = max(length(from_probe), kMinProbeDistance);
     vec2 moments = fetch_moments(probe, from_probe / dist);
 
     // Weigh it by visibility, by its side of the surface and by nearness
     vec3 to_probe = probe_ws - position_ws;
-    float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), 1e-6f);
+    float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
     float weight = probe_weight(cos_probe, moments, dist) * trilinear_weight(cell.fraction, offset);
 
     sum += fetch_irradiance(probe, normal_ws) * weight;

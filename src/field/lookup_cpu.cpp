@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/lookup_cpu.h"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <cstddef>
 
 #include "core/simd.h"
 #include "field/irradiance_encoding.h"
@@ -16,11 +19,18 @@ namespace {
 
 constexpr int kCorners = 8;
 
+// Keep divisions by what may be 0 finite: at a probe's own place [m^2 and m], and where distances
+// have no variance [distance_unit^2]; far below what the results resolve.
+const float kMinLengthSquared = kMinProbeDistance * kMinProbeDistance;
+constexpr float kTiniestLength = 1e-12f;
+constexpr float kTiniestSquare = 1e-20f;
+
 /// What a batch of lookups shares.
 struct Tables {
   explicit Tables(const ProbeStore& store)
       : grid(store.grid()),
         offsets(corner_offsets(grid)),
+        distances_per_metre(1.0f / distance_unit(grid)),
         spacing_min(min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z))),
         distance_words(store.distance_words().data()),
         distance_texels(store.distance_texels()),
@@ -29,6 +39,7 @@ struct Tables {
 
   ProbeGrid grid;
   CornerOffsets offsets;
+  float distances_per_metre;  // units of the stored distances in a metre
   float spacing_min;
   const uint* distance_words;
   int distance_texels;
@@ -49,8 +60,9 @@ LAMBENT_FORCE_INLINE void decode_moments(const uint* words, int texel, float& me
     mean = decode_half(word & 0x7FFFu);
     square = decode_half((word >> 16u) & 0x7FFFu);
   } else {
-    mean = uintBitsToFloat(words[2 * texel]);
-    square = uintBitsToFloat(words[2 * texel + 1]);
+    const uint* pair = words + 2 * static_cast<std::ptrdiff_t>(texel);
+    mean = uintBitsToFloat(pair[0]);
+    square = uintBitsToFloat(pair[1]);
   }
 }
 
@@ -60,13 +72,13 @@ struct CornerFetch {
   int base;
   int texel[kCorners];  // first of the four in the store, in texels
   float fraction_x[kCorners], fraction_y[kCorners];
-  float dist[kCorners];  // from the probe to the biased point [m]
+  float dist[kCorners];  // from the probe to the biased point [distance_unit]
   float trilinear[kCorners];
   float wrap[kCorners];  // weight by the probe's side of the surface
 };
 
 /// First half: where to look, for each corner.
-template <int words_per_texel>
+template <std::ptrdiff_t words_per_texel>
 LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& query,
                                          CornerFetch& __restrict fetch) {
   const ProbeCell cell = probe_cell(t.grid, query.position_ws);
@@ -91,15 +103,15 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
     const float tx = px - position.x, ty = py - position.y, tz = pz - position.z;
     const float length_squared = tx * tx + ty * ty + tz * tz;
     const float along = tx * normal.x + ty * normal.y + tz * normal.z;
-    const float cosine = along / std::sqrt(length_squared > 1e-12f ? length_squared : 1e-12f);
+    const float cosine = along / std::sqrt(std::max(kMinLengthSquared, length_squared));
     const float wrap = 0.5f * (cosine + 1.0f);
     fetch.wrap[k] = wrap * wrap;
 
     // Find the texel, and the share of its neighbours, of the direction from the probe
     const float x = biased.x - px, y = biased.y - py, z = biased.z - pz;
-    fetch.dist[k] = std::sqrt(x * x + y * y + z * z);
+    fetch.dist[k] = std::sqrt(x * x + y * y + z * z) * t.distances_per_metre;
     const float l1 = std::fabs(x) + std::fabs(y) + std::fabs(z);
-    const float inverse = 1.0f / (l1 > 1e-12f ? l1 : 1e-12f);
+    const float inverse = 1.0f / std::max(kTiniestLength, l1);
     const float ox = x * inverse, oy = y * inverse;
     const float folded_x = (1.0f - std::fabs(oy)) * (ox >= 0.0f ? 1.0f : -1.0f);
     const float folded_y = (1.0f - std::fabs(ox)) * (oy >= 0.0f ? 1.0f : -1.0f);
@@ -138,7 +150,7 @@ LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetc
     const float square = (s00 * gx + s10 * fx) * gy + (s01 * gx + s11 * fx) * fy;
     const float variance = std::fabs(square - mean * mean);
     const float beyond = fetch.dist[k] - mean;
-    const float bound = variance / (variance + beyond * beyond + 1e-20f);
+    const float bound = variance / (variance + beyond * beyond + kTiniestSquare);
     const float visibility = beyond <= 0.0f ? 1.0f : bound * bound * bound;
 
     const float raw = fetch.wrap[k] * visibility;
@@ -160,7 +172,7 @@ template <DistanceFormat format>
 LAMBENT_FORCE_INLINE void weigh_all(const Tables& t, const FieldQuery* queries,
                                     CornerWeights* result, std::size_t count) {
   constexpr std::size_t kAhead = 16;
-  constexpr int kWords = format == DistanceFormat::rg16f ? 1 : 2;
+  constexpr std::ptrdiff_t kWords = format == DistanceFormat::rg16f ? 1 : 2;
   CornerFetch fetches[kAhead];
   for (std::size_t first = 0; first < count; first += kAhead) {
     const std::size_t batch = std::min(kAhead, count - first);

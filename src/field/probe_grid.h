@@ -3,9 +3,13 @@
 #ifndef LAMBENT_FIELD_PROBE_GRID_H
 #define LAMBENT_FIELD_PROBE_GRID_H
 
-#include "shared/lang.h"
+#include "shared/packing.h"
 
 LAMBENT_BEGIN
+
+// The longest distance counts between 2^6 and 2^7 units: squares reach almost to the largest half,
+// so that those of short distances stay above the smallest.
+const int kDistanceUnitBits = 6;
 
 /// A regular grid of probes: probe c stands at origin_ws + c * spacing. Index = x + count.x * (y +
 /// count.y * z).
@@ -49,6 +53,24 @@ LAMBENT_FN ProbeCell probe_cell(ProbeGrid grid, vec3 position_ws) {
 /// Corner 0..7 of a cell as an offset: bit 0 is x, bit 1 is y, bit 2 is z.
 LAMBENT_FN ivec3 cell_corner(int corner) {
   return ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
+}
+
+// Distances are only compared with those to points of the cells around a probe, at most a cell's
+// diagonal away; longer ones are cut to this many diagonals, so that far surfaces do not swamp the
+// variance of near ones.
+const float kMaxDistanceDiagonals = 1.5f;
+
+/// The longest distance that a probe holds [m].
+LAMBENT_FN float max_probe_distance(ProbeGrid grid) {
+  return kMaxDistanceDiagonals * length(grid.spacing);
+}
+
+/// The unit in which tiles hold distances and, squared, their squares [m]: of its own for each
+/// grid, so that scenes of millimetres and of kilometres fit the range of halves alike (squares
+/// stay below 2^14); a power of two, so that changing units rounds nothing.
+LAMBENT_FN float distance_unit(ProbeGrid grid) {
+  int exponent = int(floatBitsToUint(max_probe_distance(grid)) >> 23u) - kFloatBias;
+  return power_of_two(exponent - kDistanceUnitBits);
 }
 
 /// Trilinear weight of a corner.

@@ -34,16 +34,17 @@ void fill_gutter(uint* tile, int texels, int words) {
   }
 }
 
-/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square). Each texel's
-/// dither is a hash of `first_index` and its place in the row.
+/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square, in metres; a
+/// metre is `scale` units of the store). Each texel's dither is a hash of `first_index` and its
+/// place in the row.
 LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count, float share,
-                                         uint first_index) {
+                                         float scale, uint first_index) {
   for (int i = 0; i < count; ++i) {
     const uint word = words[i];
     const float old_mean = decode_small_float(word & 0x7FFFu, 10);
     const float old_square = decode_small_float((word >> 16u) & 0x7FFFu, 10);
-    const float mean = old_mean + share * (now[2 * i] - old_mean);
-    const float square = old_square + share * (now[2 * i + 1] - old_square);
+    const float mean = old_mean + share * (scale * now[2 * i] - old_mean);
+    const float square = old_square + share * (scale * scale * now[2 * i + 1] - old_square);
     const uint bits = hash_pcg(first_index + static_cast<uint>(i));
     const float u = static_cast<float>(bits & 0xFFFFu) * (1.0f / 65536.0f);
     const float v = static_cast<float>(bits >> 16u) * (1.0f / 65536.0f);
@@ -52,10 +53,13 @@ LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int coun
 }
 
 LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int count, float share,
-                                         uint /*first_index*/) {
-  for (int i = 0; i < 2 * count; ++i) {
-    const float old = uintBitsToFloat(words[i]);
-    words[i] = floatBitsToUint(old + share * (now[i] - old));
+                                         float scale, uint /*first_index*/) {
+  for (int i = 0; i < count; ++i) {
+    const float old_mean = uintBitsToFloat(words[2 * i]);
+    const float old_square = uintBitsToFloat(words[2 * i + 1]);
+    words[2 * i] = floatBitsToUint(old_mean + share * (scale * now[2 * i] - old_mean));
+    words[2 * i + 1] =
+        floatBitsToUint(old_square + share * (scale * scale * now[2 * i + 1] - old_square));
   }
 }
 
@@ -101,8 +105,12 @@ vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {
 
 vec2 ProbeStore::moments_texel(int probe, ivec2 with_gutter) const {
   const std::size_t index = texel_index(probe, with_gutter, distance_texels_);
-  if (distance_format_ == DistanceFormat::rg16f) return decode_half2(distance_[index]);
-  return {uintBitsToFloat(distance_[2 * index]), uintBitsToFloat(distance_[2 * index + 1])};
+  const vec2 moments =
+      distance_format_ == DistanceFormat::rg16f
+          ? decode_half2(distance_[index])
+          : vec2(uintBitsToFloat(distance_[2 * index]), uintBitsToFloat(distance_[2 * index + 1]));
+  const float unit = distance_unit(grid_);
+  return moments * vec2(unit, unit * unit);
 }
 
 vec3 ProbeStore::irradiance(int probe, const vec3& direction) const {
@@ -141,12 +149,13 @@ void ProbeStore::blend_moments(int probe, std::span<const vec2> interior, float 
   assert(interior.size() == static_cast<std::size_t>(n) * n);
   const int words = words_per_distance_texel();
   const std::size_t tile = texel_index(probe, {0, 0}, n);
+  const float scale = 1.0f / distance_unit(grid_);
   for (int row = 0; row < n; ++row) {
     const std::size_t first = tile + static_cast<std::size_t>(row + 1) * (n + 2) + 1;
     const auto blend =
         distance_format_ == DistanceFormat::rg16f ? blend_row_rg16f : blend_row_rg32f;
     blend(&distance_[first * words], &interior[static_cast<std::size_t>(row) * n].x, n, share,
-          static_cast<uint>(first) + salt);
+          scale, static_cast<uint>(first) + salt);
   }
   fill_gutter(&distance_[tile * words], n, words);
 }

@@ -43,7 +43,8 @@ class ProbeStore {
   /// Moves a probe's moments a share of the way to new ones, 0 to 1, likewise.
   void blend_moments(int probe, std::span<const vec2> interior, float share, uint salt);
 
-  /// The encoded words, for kernels; `words_per_*_texel` of them a texel.
+  /// The encoded words, for kernels; `words_per_*_texel` of them a texel. Distances are in units of
+  /// distance_unit(grid()).
   std::span<const uint> irradiance_words() const { return irradiance_; }
   std::span<const uint> distance_words() const { return distance_; }
   int words_per_irradiance_texel() const {
@@ -51,6 +52,7 @@ class ProbeStore {
   }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 
+  /// Forgets everything: no light, and distances of 0.
   void clear();
 
  private:

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/relight.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "field/tile.h"
@@ -16,6 +18,8 @@ constexpr std::size_t kTexelsPerTask = 16384;
 
 // Texels whose rays count for less than this share of all are too few to tell anything.
 constexpr float kMinBlendWeight = 1e-4f;
+// Keeps the division by the weights of a texel for which no ray counts finite.
+constexpr float kTiniestWeight = 1e-20f;
 
 // Steps that Anderson acceleration looks back on: more gain little and cost memory.
 constexpr int kAndersonDepth = 3;
@@ -198,7 +202,7 @@ void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback
       bool known = true;
       for (int t = 0; t < texels_; ++t) {
         known = known && sums[t].w > kMinBlendWeight * static_cast<float>(rays);
-        at_centres[t] = vec4(vec3(sums[t]) * (kPi / max(sums[t].w, 1e-20f)), 0.0f);
+        at_centres[t] = vec4(vec3(sums[t]) * (kPi / max(sums[t].w, kTiniestWeight)), 0.0f);
       }
       vec4* out = &received[probe * texels_];
       if (known) {

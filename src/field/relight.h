@@ -12,7 +12,8 @@
 // Numer. Anal. 49(4), 2011; for a linear operator it is equivalent to GMRES.
 #pragma once
 
-#include <span>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "field/blend.h"

@@ -2,7 +2,6 @@
 #include "field/surfels.h"
 
 #include <atomic>
-#include <cassert>
 
 #include "core/parallel.h"
 #include "shared/packing.h"

@@ -3,6 +3,8 @@
 // emissive triangles.
 #pragma once
 
+#include <cmath>
+
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
 #include "scene/light_sampling.h"
@@ -18,10 +20,6 @@ struct LightCandidate {
   float distance;                      ///< To the source [m]; infinite for directional lights.
   glm::vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
 };
-
-/// Shadow rays to points on surfaces end this share short of them, so that the source does not
-/// shadow itself.
-inline constexpr float kShadowRayShortening = 1e-4f;
 
 /// The ray that asks whether a candidate reaches a point; the geometric normal is on the lit side.
 inline Ray shadow_ray(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,

@@ -2,6 +2,7 @@
 // What every pass asks of a ray tracer.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <limits>

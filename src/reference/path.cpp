@@ -6,6 +6,7 @@
 
 #include "scene/light_sampling.h"
 #include "shared/brdf.h"
+#include "shared/constants.h"
 #include "shared/rays.h"
 
 namespace lambent::reference {
@@ -18,8 +19,6 @@ constexpr float kMaxFirstSpecularShare = 0.75f;
 constexpr int kBouncesBeforeRoulette = 2;
 // The roulette's highest chance of survival: paths end even where nothing is absorbed.
 constexpr float kMaxSurvival = 0.95f;
-// Shadow rays to a point of an emissive surface stop this share of the distance short of it.
-constexpr float kShadowShortening = 1e-4f;
 
 float max_component(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
@@ -164,7 +163,7 @@ void PathIntegrator::add_emissive(const Vertex& vertex, const glm::vec3& u,
   const float cosine = std::abs(glm::dot(light.normal_ws, to_light));
   if (cosine <= 0.0f || !vertex.is_lit_from(to_light) || light.radiance == glm::vec3(0.0f)) return;
   const float light_pdf = light.pdf_area * squared_distance / cosine;
-  lighting.add({to_light, distance * (1.0f - kShadowShortening),
+  lighting.add({to_light, distance * (1.0f - kShadowRayShortening),
                 light.radiance * (drawn_weight(light_pdf, vertex.pdf(to_light)) / light_pdf),
                 false});
 }

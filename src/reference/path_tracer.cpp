@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "reference/path_tracer.h"
 
-#include <tbb/blocked_range2d.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -12,6 +10,7 @@
 #include <mutex>
 #include <string>
 
+#include "core/parallel.h"
 #include "raytracing/camera_rays.h"
 #include "reference/path.h"
 #include "reference/statistics.h"
@@ -111,25 +110,26 @@ void Renderer::render(const ProgressFn& progress) {
   const double pixels_in_all =
       static_cast<double>(pixels_.size()) * reference::pass_count(settings_.samples);
   passes_ = reference::pass_count(settings_.samples);
+  const int tile_columns = (settings_.width + kTile - 1) / kTile;
+  const int tile_rows = (settings_.height + kTile - 1) / kTile;
   for (int pass = 0; pass < passes_; ++pass) {
     const int samples = reference::samples_of_pass(settings_.samples, pass);
-    const tbb::blocked_range2d<int> whole(0, settings_.height, kTile, 0, settings_.width, kTile);
-    tbb::parallel_for(
-        whole,
-        [&](const tbb::blocked_range2d<int>& tile) {
-          std::uint64_t rays = 0;
-          for (int y = tile.rows().begin(); y < tile.rows().end(); ++y) {
-            for (int x = tile.cols().begin(); x < tile.cols().end(); ++x) {
-              rays += sample_pixel(x, y, pass, samples);
-            }
-          }
-          rays_ += rays;
-          if (!progress) return;
-          const std::lock_guard lock(progress_mutex);
-          pixels_done += static_cast<std::size_t>(tile.rows().size()) * tile.cols().size();
-          progress(kStage, static_cast<double>(pixels_done) / pixels_in_all);
-        },
-        tbb::simple_partitioner());
+    const auto render_tile = [&](std::size_t tile, std::size_t) {
+      const int left = static_cast<int>(tile % tile_columns) * kTile;
+      const int top = static_cast<int>(tile / tile_columns) * kTile;
+      const int right = std::min(left + kTile, settings_.width);
+      const int bottom = std::min(top + kTile, settings_.height);
+      std::uint64_t rays = 0;
+      for (int y = top; y < bottom; ++y) {
+        for (int x = left; x < right; ++x) rays += sample_pixel(x, y, pass, samples);
+      }
+      rays_ += rays;
+      if (!progress) return;
+      const std::lock_guard lock(progress_mutex);
+      pixels_done += static_cast<std::size_t>(bottom - top) * (right - left);
+      progress(kStage, static_cast<double>(pixels_done) / pixels_in_all);
+    };
+    parallel_chunks(static_cast<std::size_t>(tile_columns) * tile_rows, 1, render_tile);
   }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tbb/parallel_for.h>
-
 #include <cassert>
 
+#include "core/parallel.h"
 #include "reference/path.h"
 #include "reference/path_tracer.h"
 #include "reference/statistics.h"
@@ -42,7 +41,7 @@ std::vector<Estimate> reference_irradiance(const World& world, std::span<const S
                                            reference::Strategy strategy, int max_bounces) {
   const reference::PathIntegrator integrator(world, max_bounces, strategy);
   std::vector<Estimate> estimates(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t i) {
+  parallel_chunks(points.size(), 1, [&](std::size_t i, std::size_t) {
     estimates[i] =
         estimate(static_cast<std::uint32_t>(i), samples, seed, [&](SobolSampler& random) {
           std::uint64_t rays = 0;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <glm/glm.hpp>
+#include <limits>
 
 namespace lambent::reference {
 
@@ -25,6 +26,7 @@ inline int samples_of_pass(int samples, int pass) {
 /// passes of (sum of pass)^2 / (samples of pass). Infinite for a single pass.
 inline glm::dvec3 variance_of_mean(const glm::dvec3& sum, const glm::dvec3& sum_of_squares,
                                    int samples, int passes) {
+  if (passes < 2) return glm::dvec3(std::numeric_limits<double>::infinity());
   const double n = samples;
   return glm::max(sum_of_squares - sum * sum / n, glm::dvec3(0.0)) / ((passes - 1.0) * n);
 }

@@ -16,9 +16,11 @@ LAMBENT_BEGIN
 const float kSmallFloatMin = 6.103515625e-05f;
 const uint kSmallFloatBiasShift = 112u;  // 127 - 15, between the exponent biases
 
+const int kFloatBias = 127;  // of a float's exponent, which starts at bit 23
+
 /// 2 to an integer power, -126 to 127, exactly.
 LAMBENT_FN float power_of_two(int exponent) {
-  return uintBitsToFloat(uint(exponent + 127) << 23u);
+  return uintBitsToFloat(uint(exponent + kFloatBias) << 23u);
 }
 
 /// Largest finite value with that many mantissa bits.
@@ -81,7 +83,7 @@ LAMBENT_FN uint encode_rgb9e5(vec3 value, vec3 u) {
   float largest = max(v.x, max(v.y, v.z));
   // The exponent of the largest channel, read off its bits; one more where rounding up would
   // overflow 9 bits.
-  int exponent = max(int(floatBitsToUint(largest) >> 23u) - 127, -16) + 16;
+  int exponent = max(int(floatBitsToUint(largest) >> 23u) - kFloatBias, -16) + 16;
   if (largest > kRgb9e5MantissaMax * power_of_two(exponent - kRgb9e5BiasAndBits)) exponent += 1;
   exponent = min(exponent, 31);
   float per_step = power_of_two(kRgb9e5BiasAndBits - exponent);

@@ -6,21 +6,26 @@
 
 LAMBENT_BEGIN
 
+/// Shadow rays to points on surfaces end this share of their length short of them, so that the
+/// source does not shadow itself.
+const float kShadowRayShortening = 1e-4f;
+
 /// Coordinates smaller than this [m] are offset by a constant, larger ones by units in the last
-/// place.
+/// place: by this many metres, or by this many units, along the normal.
 const float kRayOffsetOrigin = 1.0f / 32.0f;
 const float kRayOffsetFloatScale = 1.0f / 65536.0f;
 const float kRayOffsetIntScale = 256.0f;
 
-/// `p` moved off a surface, to the side its geometric normal points to, by just more than float
-/// error. Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
-/// Tracing Gems, 2019.
+/// One coordinate of offset_ray_origin.
 LAMBENT_FN float offset_ray_component(float p, float n) {
   int units = int(kRayOffsetIntScale * n);
   float far = intBitsToFloat(floatBitsToInt(p) + (p < 0.0f ? -units : units));
   return abs(p) < kRayOffsetOrigin ? p + kRayOffsetFloatScale * n : far;
 }
 
+/// `p` moved off a surface, to the side its geometric normal points to, by just more than float
+/// error. Waechter and Binder, "A Fast and Robust Method for Avoiding Self-Intersection", Ray
+/// Tracing Gems, 2019.
 LAMBENT_FN vec3 offset_ray_origin(vec3 p, vec3 n) {
   return vec3(offset_ray_component(p.x, n.x), offset_ray_component(p.y, n.y),
               offset_ray_component(p.z, n.z));

@@ -78,6 +78,17 @@ LAMBENT_FN vec3 spherical_fibonacci(uint index, uint count) {
   return vec3(radius * cos(kTwoPi * turn), radius * sin(kTwoPi * turn), z);
 }
 
+// Inverse powers of the plastic number, by which the sequence below steps.
+const float kPlasticStepX = 0.7548776662f;
+const float kPlasticStepY = 0.5698402910f;
+
+/// Point `index` of an endless sequence that covers the unit square evenly, once shifted (at
+/// random, say) and reduced by fract(). Roberts, "The Unreasonable Effectiveness of Quasirandom
+/// Sequences", 2018.
+LAMBENT_FN vec2 plastic_sequence(uint index) {
+  return float(index) * vec2(kPlasticStepX, kPlasticStepY);
+}
+
 /// A rotation uniform over SO(3), from a uniform point of the unit cube.
 /// Arvo, "Fast Random Rotation Matrices", Graphics Gems III, 1992.
 LAMBENT_FN mat3 sample_uniform_rotation(vec3 u) {

@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(EveryFormat, StoredLight, testing::ValuesIn(kIrradiance
 class StoredDistances : public testing::TestWithParam<DistanceFormat> {};
 
 TEST_P(StoredDistances, NeitherStallNorDriftUnderARunningMean) {
-  for (const float level : {0.0123f, 0.377f, 3.33f, 97.0f}) {
+  for (const float level : {0.0123f, 0.377f, 1.11f, 2.5f}) {
     ProbeStore store = make_store(IrradianceFormat::rgb9e5, GetParam());
     const int n = store.distance_texels();
     const std::vector<vec2> moments(n * n, vec2(level, 1.1f * level * level));

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <atomic>
 #include <cassert>
 #include <chrono>
-#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "raytracing/embree/api.h"
 #include "raytracing/raytracer.h"
