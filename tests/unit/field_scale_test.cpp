@@ -40,8 +40,9 @@ std::vector<CornerWeights> weights_at_scale(float scale, DistanceFormat format) 
 class FieldScale : public testing::TestWithParam<DistanceFormat> {};
 
 TEST_P(FieldScale, DoesNotChangeWhatIsVisible) {
-  // Halves dither differently where the scale is no power of two: by a unit in their last place
-  constexpr float kTolerance = 0.02f;
+  // Halves dither differently where the scale is no power of two: by a unit in their last place,
+  // which the cube of the visibility bound triples
+  constexpr float kTolerance = 0.05f;
   const std::vector<CornerWeights> metres = weights_at_scale(1.0f, GetParam());
   for (const float scale : {1e-3f, 0.01f, 30.0f, 1000.0f}) {
     const std::vector<CornerWeights> scaled = weights_at_scale(scale, GetParam());
