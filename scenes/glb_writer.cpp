@@ -61,8 +61,6 @@ class Document {
     return object["extensions"][extension];
   }
 
-  // --- attributes
-
   int add_positions(const std::vector<glm::vec3>& positions) {
     const int index = glb_.add_vectors(positions, "VEC3", kArrayBuffer);
     Bounds bounds;
@@ -87,8 +85,6 @@ class Document {
     }
     return glb_.add_accessor(accessor, narrow.data(), count * 2, kElementArrayBuffer);
   }
-
-  // --- textures and materials
 
   void write_textures() {
     std::vector<std::future<std::string>> encoding;
@@ -192,8 +188,6 @@ class Document {
     write_texture(specular, "specularColorTexture", m.specular_color_texture);
   }
 
-  // --- geometry and nodes
-
   void write_mesh(const Mesh& mesh) {
     json primitive = {{"material", mesh.material}};
     json& attributes = primitive["attributes"];
@@ -214,7 +208,7 @@ class Document {
     root_["meshes"].push_back({{"name", mesh.name}, {"primitives", {primitive}}});
   }
 
-  /// True where the node of an instance or light moves; such a node must be written as TRS.
+  /// How an instance or light moves, or null. What moves must be written as TRS.
   const Track* track_of(Track::Target target, std::size_t index) const {
     for (const Animation& animation : animations_) {
       for (const Track& track : animation.tracks) {
@@ -304,8 +298,6 @@ class Document {
           glm::quat_cast(glm::mat3(camera.world_from_view)));
     add_node(std::move(node));
   }
-
-  // --- motion
 
   void write_animation(const Animation& animation) {
     json out = {{"name", animation.name}};

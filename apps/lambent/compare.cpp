@@ -13,6 +13,7 @@
 #include "core/metrics.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
+#include "lambent/parse.h"
 
 namespace lambent::cli {
 namespace {
@@ -48,11 +49,7 @@ std::string shown_name(const std::string& layer) {
 
 /// Files of 8 bits hold what a display shows, all others linear radiance.
 bool is_display_file(const std::string& path) {
-  const std::size_t dot = path.rfind('.');
-  std::string ending = dot == std::string::npos ? "" : path.substr(dot + 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending == "png" || ending == "jpg" || ending == "jpeg";
+  return has_ending(path, ".png") || has_ending(path, ".jpg") || has_ending(path, ".jpeg");
 }
 
 /// The layer, or an Error that lists those there are.
@@ -219,6 +216,9 @@ Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& 
 }
 
 Expected<void> compare(const CompareOptions& options) {
+  if (!options.heat_map_path.empty()) {
+    if (const auto fine = check_output(options.heat_map_path, ".png"); !fine) return fine;
+  }
   const Expected<LayeredImage> a = read_image(options.path_a), b = read_image(options.path_b);
   if (!a) return tl::unexpected(a.error());
   if (!b) return tl::unexpected(b.error());

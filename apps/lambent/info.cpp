@@ -11,6 +11,7 @@
 
 #include "lambent/commands.h"
 #include "lambent/scene.h"
+#include "scene/attributes.h"
 #include "scenes/builtin.h"
 
 namespace lambent::cli {
@@ -25,10 +26,6 @@ struct Totals {
   std::size_t emissive_triangles = 0;
   std::size_t texture_bytes = 0;
 };
-
-bool emits(const Material& material) {
-  return glm::any(glm::greaterThan(material.emission, glm::vec3(0.0f)));
-}
 
 std::size_t bytes_of(const Texture& texture) {
   std::size_t bytes = 0;
@@ -45,7 +42,8 @@ Totals total(const Scene& scene) {
   totals.triangles = triangle_count(scene);
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    if (emits(scene.materials[mesh.material])) totals.emissive_triangles += mesh.triangles.size();
+    if (may_emit(scene.materials[mesh.material]))
+      totals.emissive_triangles += mesh.triangles.size();
   }
   for (const Texture& texture : scene.textures) totals.texture_bytes += bytes_of(texture);
   return totals;
@@ -109,7 +107,7 @@ std::vector<std::string> features_of(const Material& m) {
   add(m.emission_texture.texture >= 0, "emission map");
   add(m.specular_texture.texture >= 0, "specular map");
   add(m.specular_color_texture.texture >= 0, "specular color map");
-  add(emits(m), "emissive");
+  add(may_emit(m) && !m.unlit, "emissive");
   add(m.alpha_mode == AlphaMode::mask, "alpha mask");
   add(m.alpha_mode == AlphaMode::blend, "alpha blend");
   add(m.double_sided, "double-sided");
@@ -119,12 +117,19 @@ std::vector<std::string> features_of(const Material& m) {
 }
 
 void print_materials(const Scene& scene) {
+  const Material plain;  // What it shares with this is not worth a word
   row("materials", "%zu", scene.materials.size());
   for (std::size_t i = 0; i < scene.materials.size(); ++i) {
     const Material& m = scene.materials[i];
     std::printf("  %3zu  %-24s color %s, metallic %.3g, roughness %.3g", i,
                 printable(m.name).c_str(), text_of(m.base_color).c_str(), m.metallic, m.roughness);
-    if (emits(m)) std::printf(", emission %s W/(m2 sr)", text_of(m.emission).c_str());
+    if (m.emission != glm::vec3(0.0f)) {
+      std::printf(", emission %s W/(m2 sr)", text_of(m.emission).c_str());
+    }
+    if (m.ior != plain.ior) std::printf(", ior %.4g", m.ior);
+    if (m.specular != plain.specular || m.specular_color != plain.specular_color) {
+      std::printf(", specular %.3g times %s", m.specular, text_of(m.specular_color).c_str());
+    }
     const auto features = features_of(m);
     if (!features.empty()) std::printf("; %s", join(features).c_str());
     std::printf("\n");

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lambent/commands.h"
+#include "lambent/parse.h"
 #include "scenes/builtin.h"
 #include "scenes/glb_writer.h"
 
@@ -22,6 +23,7 @@ Expected<void> make_scene(const Options& options) {
   if (options.sealed && !scenes::is_name(name)) {
     return fail("--sealed", "", "goes with two-rooms alone");
   }
+  if (const Expected<void> fine = check_output(options.output, ".glb"); !fine) return fine;
   const Expected<scenes::AnimatedScene> made = scenes::make_animated(name);
   if (!made) return tl::unexpected(made.error());
   const Expected<std::size_t> bytes =

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/parse.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <string_view>
 #include <vector>
+
+#include "core/atomic_file.h"
 
 namespace lambent::cli {
 namespace {
@@ -53,6 +58,19 @@ Expected<std::vector<int>> parse_ints(const std::string& option, const std::stri
 }
 
 }  // namespace
+
+bool has_ending(const std::string& path, const char* ending) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ending;
+}
+
+Expected<void> check_output(const std::string& path, const char* ending) {
+  if (!has_ending(path, ending)) {
+    return fail(path, "", std::string("the output must end in ") + ending);
+  }
+  return check_writable(path);
+}
 
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text) {
   const auto n = parse_floats(option, text, 3, "three numbers x,y,z");

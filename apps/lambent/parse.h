@@ -10,6 +10,13 @@
 
 namespace lambent::cli {
 
+/// Whether a path ends in `ending` (".png"), in capitals or not.
+bool has_ending(const std::string& path, const char* ending);
+
+/// Fails where a file cannot be written, or its name does not end as its content asks for: before
+/// any work is done for it.
+Expected<void> check_output(const std::string& path, const char* ending);
+
 /// "x,y,z", finite numbers. `option` names the culprit in the error.
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text);
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <string>
 
-#include "core/atomic_file.h"
 #include "core/metrics.h"
 #include "core/tone_map.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
+#include "lambent/parse.h"
 
 namespace lambent::cli {
 namespace {
@@ -23,7 +23,7 @@ struct Options {
 };
 
 Expected<void> picture(const Options& options) {
-  if (const Expected<void> fine = check_writable(options.output); !fine) return fine;
+  if (const Expected<void> fine = check_output(options.output, ".png"); !fine) return fine;
   const Expected<LayeredImage> file = read_image(options.input);
   if (!file) return tl::unexpected(file.error());
   const Image* layer = file->find(options.layer);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "core/atomic_file.h"
 #include "core/metrics.h"
@@ -49,6 +51,7 @@ struct Options {
   bool converge = false;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
+  std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
 };
 
 // Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, keeps
@@ -59,6 +62,12 @@ constexpr int kVerifyBlock = 8;
 constexpr int kFieldSamples = 4;
 constexpr int kReferenceSamples = 64;
 
+// Typing errors are caught before they cost days: more samples leave no noise to see, and after so
+// many bounces no surface that we accept has light left to send on.
+constexpr int kMaxSamples = 1 << 20;
+constexpr int kMaxBounces = 1000;
+constexpr int kMaxThreads = 1024;
+
 const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
     {"rgb9e5", IrradianceFormat::rgb9e5},
     {"r11g11b10f", IrradianceFormat::r11g11b10f},
@@ -67,12 +76,6 @@ const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", Distan
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
 using Json = nlohmann::ordered_json;
-
-bool has_ending(const std::string& path, const char* ending) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ending;
-}
 
 /// Fails early on outputs that could not be written after minutes of work.
 Expected<void> check_outputs(const Options& options) {
@@ -186,7 +189,7 @@ Expected<LayeredImage> render_by_field(const Options& options, const World& worl
   if (options.method == "field") {
     const auto settings = field_settings(options);
     if (!settings) return tl::unexpected(settings.error());
-    Expected<IrradianceField> made = IrradianceField::make(*settings, world_bounds(world.scene()));
+    Expected<IrradianceField> made = IrradianceField::make(*settings, open_bounds(world));
     if (!made) return tl::unexpected(made.error());
     field.emplace(std::move(*made));
     update_field(options, world, *field, progress, stats);
@@ -253,11 +256,9 @@ Expected<void> check_numbers(const Options& options) {
   if (const auto exposure = parse_exposure(options.exposure); !exposure) {
     return tl::unexpected(exposure.error());
   }
-  if (options.method != "field" && options.converge) {
-    return fail("--converge", "", "goes with --method field alone");
-  }
-  if (options.method != "field" && options.gather_rays > 0) {
-    return fail("--gather", "", "goes with --method field alone");
+  for (const CLI::Option* option : options.of_the_field) {
+    if (options.method == "field" || option->count() == 0) continue;
+    return fail(option->get_name(), "", "goes with --method field alone");
   }
   if (options.method == "direct" && options.bounces > 0) {
     return fail("--bounces", "", "--method direct has none");
@@ -303,6 +304,7 @@ Expected<void> render(const Options& options) {
 }
 
 void add_field_options(CLI::App& command, Options& o) {
+  const std::size_t others = command.get_options().size();
   command
       .add_option("--gather", o.gather_rays,
                   "Rays a sample gathers indirect light with (0: look the field up)")
@@ -339,6 +341,8 @@ void add_field_options(CLI::App& command, Options& o) {
   command.add_option("--distance-texels", o.field.distance_texels, "Of a tile's edge")
       ->check(CLI::Range(4, 32))
       ->capture_default_str();
+  const std::vector<CLI::Option*> all = command.get_options();
+  o.of_the_field.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
 }
 
 }  // namespace
@@ -359,11 +363,12 @@ void add_render(CLI::App& app, Run& run) {
   command
       ->add_option("--samples", o->samples,
                    "Rays or paths a pixel (field and direct: 4, reference: 64)")
-      ->check(CLI::Range(1, 1 << 20));
+      ->check(CLI::Range(1, kMaxSamples));
   command->add_option("--bounces", o->bounces, "Bounces of indirect light (all of them)")
-      ->check(CLI::Range(0, 1000));
+      ->check(CLI::Range(0, kMaxBounces));
   command->add_option("--seed", o->seed, "Of all random numbers")->capture_default_str();
-  command->add_option("--threads", o->threads, "Threads to use (all)")->check(CLI::Range(1, 1024));
+  command->add_option("--threads", o->threads, "Threads to use (all)")
+      ->check(CLI::Range(1, kMaxThreads));
   command->add_flag("--layers", o->layers, "Write every layer of the frame, .exr only");
   command->add_option("--stats", o->stats, "Write times and counts to this .json file");
   command->add_option("--exposure", o->exposure, "Of a .png, in stops, or auto")
@@ -374,7 +379,7 @@ void add_render(CLI::App& app, Run& run) {
   command
       ->add_option("--verify", o->verify_samples,
                    "Also path-trace so many samples a pixel and print the error")
-      ->check(CLI::Range(2, 1 << 20));
+      ->check(CLI::Range(2, kMaxSamples));
   add_field_options(*command, *o);
   command->callback([o, &run] { run = [o] { return render(*o); }; });
 }

@@ -10,6 +10,7 @@
 #include "lambent/parse.h"
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "scene/attributes.h"
 #include "scenes/builtin.h"
 
 namespace lambent::cli {
@@ -20,15 +21,15 @@ namespace {
 constexpr glm::vec3 kDefaultSunDirection{-0.5f, -1.0f, -0.35f};
 constexpr glm::vec3 kDefaultSunIrradiance{20.0f, 18.0f, 15.0f};
 constexpr glm::vec3 kDefaultSky{1.5f, 2.0f, 2.6f};
+constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
 
-bool emits(const Material& material) {
-  return material.unlit || material.emission != glm::vec3(0.0f);
-}
+// Length of --sun below which its direction would drown in rounding.
+constexpr float kMinDirection = 1e-6f;
 
 bool has_light(const Scene& scene) {
   if (!scene.lights.empty() || scene.environment.radiance != glm::vec3(0.0f)) return true;
   for (const Instance& instance : scene.instances) {
-    if (emits(scene.materials[scene.meshes[instance.mesh].material])) return true;
+    if (may_emit(scene.materials[scene.meshes[instance.mesh].material])) return true;
   }
   return false;
 }
@@ -49,7 +50,8 @@ Expected<void> add_sun(const StageOptions& options, Scene& scene) {
   }
   const auto direction = parse_vec3("--sun", options.sun);
   if (!direction) return tl::unexpected(direction.error());
-  if (glm::length(*direction) < 1e-6f) return fail("--sun", "", "the direction has no length");
+  if (glm::length(*direction) < kMinDirection)
+    return fail("--sun", "", "the direction has no length");
   glm::vec3 irradiance = kDefaultSunIrradiance;
   if (!options.sun_irradiance.empty()) {
     const auto given = parse_vec3("--sun-irradiance", options.sun_irradiance);
@@ -83,10 +85,11 @@ Expected<void> set_sky(const StageOptions& options, Scene& scene) {
 /// Shows the whole scene from a little above, three quarters on.
 Camera outside_camera(const Bounds& bounds, float vertical_fov) {
   const glm::vec3 center = 0.5f * (bounds.min + bounds.max);
-  const float radius = std::max(0.5f * glm::length(bounds.max - bounds.min), 1e-3f);
+  constexpr float kMinRadius = 1e-3f;                // of a scene of one point [m]
+  const glm::vec3 three_quarters(0.6f, 0.4f, 1.0f);  // right, up and front of the object
+  const float radius = std::max(0.5f * glm::length(bounds.max - bounds.min), kMinRadius);
   const float distance = radius / std::sin(0.5f * vertical_fov);
-  return look_at(center + distance * glm::normalize(glm::vec3(0.6f, 0.4f, 1.0f)), center,
-                 vertical_fov);
+  return look_at(center + distance * glm::normalize(three_quarters), center, vertical_fov);
 }
 
 /// Stands near one end of a room, at eye height, and looks along its length.
@@ -147,9 +150,9 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
   command.add_option("--camera", o.camera, "Camera of the scene, by index or name");
   command.add_option("--eye", o.eye, "Look from here, x,y,z [m]; needs --target");
   command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
-  command.add_option("--fov", o.fov_degrees, "Vertical field of view with --eye [degrees]")
-      ->check(CLI::Range(1.0f, 170.0f))
-      ->capture_default_str();
+  command
+      .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
+      ->check(CLI::Range(1.0f, 170.0f));
   command.add_option("--sun", o.sun, "Add a sun whose light travels along x,y,z");
   command.add_option("--sun-irradiance", o.sun_irradiance, "Of the sun, r,g,b [W/m^2]");
   command.add_option("--sky", o.sky, "Constant sky, r,g,b [W/(m^2 sr)]");
@@ -186,7 +189,7 @@ Expected<Scene> open_stage(const StageOptions& options) {
 
 Expected<Camera> choose_camera(const StageOptions& options, const World& world) {
   const Scene& scene = world.scene();
-  const float vertical_fov = glm::radians(options.fov_degrees);
+  const float vertical_fov = glm::radians(options.fov_degrees.value_or(kDefaultFov));
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
   }
@@ -199,8 +202,13 @@ Expected<Camera> choose_camera(const StageOptions& options, const World& world) 
     if (*eye == *target) return fail("--target", "", "is where --eye is");
     return look_at(*eye, *target, vertical_fov);
   }
-  if (!options.camera.empty()) return named_camera(options.camera, scene);
-  return scene.cameras.empty() ? fitted_camera(world, vertical_fov) : scene.cameras.front();
+  if (options.camera.empty() && scene.cameras.empty()) return fitted_camera(world, vertical_fov);
+  Expected<Camera> camera = options.camera.empty() ? Expected<Camera>(scene.cameras.front())
+                                                   : named_camera(options.camera, scene);
+  if (!camera || !options.fov_degrees) return camera;
+  if (camera->orthographic) return fail("--fov", "", "an orthographic camera has none");
+  camera->vertical_fov = vertical_fov;
+  return camera;
 }
 
 }  // namespace lambent::cli

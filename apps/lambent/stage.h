@@ -3,6 +3,7 @@
 // shares.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "lambent/error.h"
@@ -22,7 +23,7 @@ struct StageOptions {
   std::string scene;
   std::string camera;
   std::string eye, target;
-  float fov_degrees = 45.0f;
+  std::optional<float> fov_degrees;  // none: the camera's own
   std::string sun, sun_irradiance;
   std::string sky, environment;
   std::string materials = "gltf";

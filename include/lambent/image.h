@@ -31,6 +31,7 @@ struct Image {
   const float* at(int x, int y) const {
     return pixels.data() + (static_cast<std::size_t>(y) * width + x) * channels;
   }
+  /// True where there are no pixels.
   bool empty() const { return pixels.empty(); }
 };
 
@@ -43,11 +44,11 @@ struct Layer {
 
 /// Layers of one size, in the order in which they are written.
 struct LayeredImage {
-  int width = 0;
-  int height = 0;
-  std::vector<Layer> layers;
+  int width = 0;              ///< Of every layer [pixels].
+  int height = 0;             ///< Of every layer [pixels].
+  std::vector<Layer> layers;  ///< Their names differ.
 
-  /// The layer of that name, or null.
+  /// The layer of that name, or null. The pointer lives until a layer is added.
   const Image* find(const std::string& name) const;
   Image* find(const std::string& name);
   /// The layer of that name, made (all zero, with that many channels) where it is missing.

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -14,14 +16,14 @@ namespace lambent {
 
 /// One MIP level of a texture: 8-bit RGBA, rows from the top.
 struct TextureLevel {
-  int width = 0;
-  int height = 0;
+  int width = 0;                   ///< Texels, >= 1.
+  int height = 0;                  ///< Texels, >= 1.
   std::vector<std::uint8_t> rgba;  ///< width * height * 4 bytes.
 };
 
 /// An 8-bit RGBA texture with a full MIP chain. Alpha is always linear.
 struct Texture {
-  std::string name;
+  std::string name;   ///< For people; need not be unique, may be empty. So are all names here.
   bool srgb = false;  ///< Red, green and blue are sRGB-encoded (colour), not linear (data).
   std::vector<TextureLevel> levels;  ///< Full size first, then halves down to 1x1. Never empty.
 };
@@ -29,20 +31,23 @@ struct Texture {
 /// Fills `texture.levels` below the first by box-filtering in linear light.
 void build_mips(Texture& texture);
 
+/// What a texture shows beyond its edges.
 enum class Wrap : std::uint8_t { repeat, mirrored_repeat, clamp_to_edge };
 
 /// How a material reads a texture.
 struct TextureView {
-  int texture = -1;  ///< Index into Scene::textures; -1: none, the factor alone counts.
-  int uv_set = 0;    ///< Which texture coordinates of the mesh: 0 or 1.
-  Wrap wrap_u = Wrap::repeat;
-  Wrap wrap_v = Wrap::repeat;
-  bool nearest = false;       ///< Point sampling in place of bilinear.
-  glm::vec2 uv_offset{0.0f};  ///< KHR_texture_transform.
-  float uv_rotation = 0.0f;   ///< Counter-clockwise about the origin [rad].
-  glm::vec2 uv_scale{1.0f};
+  int texture = -1;            ///< Index into Scene::textures; -1: none, the factor alone counts.
+  int uv_set = 0;              ///< Which texture coordinates of the mesh: 0 or 1.
+  Wrap wrap_u = Wrap::repeat;  ///< Left and right of the texture.
+  Wrap wrap_v = Wrap::repeat;  ///< Above and below it.
+  bool nearest = false;        ///< Point sampling in place of bilinear.
+  glm::vec2 uv_offset{0.0f};   ///< Added last (KHR_texture_transform) [textures].
+  float uv_rotation = 0.0f;    ///< Counter-clockwise about the origin [rad].
+  glm::vec2 uv_scale{1.0f};    ///< Multiplies texture coordinates first.
 };
 
+/// What coverage does to rays: nothing, a yes or no at Material::alpha_cutoff, or stopping that
+/// share of them. The two latter cost a texture lookup at every surface a ray passes.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 
 /// A glTF metallic-roughness material. Factors multiply what the textures say.
@@ -52,14 +57,14 @@ struct Material {
   float metallic = 1.0f;       ///< 0 (dielectric) to 1 (metal).
   float roughness = 1.0f;      ///< Perceptual roughness, 0 to 1; GGX alpha is its square.
   glm::vec3 emission{0.0f};    ///< Radiance emitted by both sides [W/(m^2 sr)], >= 0.
-  float normal_scale = 1.0f;   ///< Strength of the normal map.
+  float normal_scale = 1.0f;   ///< Factor on the tilt that the normal map tells; finite.
   float ior = 1.5f;            ///< Index of refraction, >= 1 (KHR_materials_ior).
   float specular = 1.0f;  ///< Strength of dielectric reflection, 0 to 1 (KHR_materials_specular).
-  glm::vec3 specular_color{1.0f};  ///< Tint of dielectric F0, >= 0.
-  AlphaMode alpha_mode = AlphaMode::opaque;
+  glm::vec3 specular_color{1.0f};            ///< Tint of dielectric F0, >= 0.
+  AlphaMode alpha_mode = AlphaMode::opaque;  ///< What base_color.a does.
   float alpha_cutoff = 0.5f;  ///< Coverage below which AlphaMode::mask lets rays through.
-  bool double_sided =
-      false;  ///< A probe ray that meets the back of a single-sided surface brings no light.
+  /// A probe ray that meets the back of a single-sided surface brings no light.
+  bool double_sided = false;
   bool unlit = false;    ///< base_color is shown as emitted radiance; reflects nothing.
   bool lambert = false;  ///< Exact Lambert of albedo base_color * (1 - metallic); nothing specular.
 
@@ -76,8 +81,8 @@ struct Mesh {
   std::string name;
   std::vector<glm::vec3> positions;  ///< [m], finite.
   std::vector<glm::vec3> normals;    ///< Unit length; never empty after loading.
-  std::vector<glm::vec4>
-      tangents;  ///< xyz unit, w = +1 or -1 (bitangent = w * cross(n, t)); may be empty.
+  /// xyz unit, w = +1 or -1 (bitangent = w * cross(n, t)); may be empty.
+  std::vector<glm::vec4> tangents;
   std::array<std::vector<glm::vec2>, 2> uvs;  ///< Texture coordinate sets; each may be empty.
   std::vector<glm::vec4> colors;              ///< Linear, multiplied with base_color; may be empty.
   std::vector<glm::uvec3> triangles;          ///< Vertex indices, each < positions.size().
@@ -95,28 +100,32 @@ struct Instance {
 struct Light {
   enum class Type : std::uint8_t { directional, point, spot };
   std::string name;
-  Type type = Type::point;
-  glm::vec3 intensity{1.0f};  ///< Directional: irradiance on a perpendicular surface [W/m^2]. Else
-                              ///< radiant intensity [W/sr].
+  Type type = Type::point;  ///< Each light costs a shadow ray at every shaded point.
+  /// Directional: irradiance on a perpendicular surface [W/m^2]. Else radiant intensity [W/sr].
+  /// >= 0.
+  glm::vec3 intensity{1.0f};
   glm::vec3 position_ws{0.0f};  ///< Point and spot [m].
-  glm::vec3 direction_ws{0.0f, 0.0f,
-                         -1.0f};  ///< The way the light travels; unit. Directional and spot.
-  float range =
-      0.0f;  ///< Distance at which KHR_lights_punctual's window reaches 0 [m]; 0: infinite.
-  float inner_cone_angle = 0.0f;          ///< Full intensity within [rad, from the axis].
-  float outer_cone_angle = 0.785398163f;  ///< No light beyond [rad, from the axis], <= pi/2.
+  /// The way the light travels; unit. Directional and spot.
+  glm::vec3 direction_ws{0.0f, 0.0f, -1.0f};
+  /// Distance at which KHR_lights_punctual's window reaches 0 [m]; 0: infinite.
+  float range = 0.0f;
+  float inner_cone_angle = 0.0f;  ///< Full intensity within [rad, from the axis].
+  float outer_cone_angle =
+      0.785398163f;  ///< No light beyond [rad, from the axis], inner cone to pi/2; 45 degrees.
 };
 
+/// A pinhole camera, perspective or orthographic.
 struct Camera {
   std::string name;
-  glm::mat4 world_from_view{1.0f};  ///< Looks along its -Z, +Y up. No scale.
-  bool orthographic = false;
-  float vertical_fov = 0.785398163f;  ///< Full angle [rad], perspective only.
-  float vertical_extent = 1.0f;       ///< Full height of the view [m], orthographic only.
+  glm::mat4 world_from_view{1.0f};    ///< Looks along its -Z, +Y up. No scale.
+  bool orthographic = false;          ///< Parallel rays.
+  float vertical_fov = 0.785398163f;  ///< Full angle [rad], 0 to pi, perspective only; 45 degrees.
+  float vertical_extent = 1.0f;       ///< Full height of the view [m], > 0, orthographic only.
   float aspect = 0.0f;  ///< Width over height that the file asks for; 0: the image's own.
 };
 
-/// A camera at `eye` that looks at `target` with +Y up. `vertical_fov` in radians.
+/// A camera at `eye` that looks at `target` with +Y up (-Z where it looks straight up or down;
+/// along -Z where both are one point). `vertical_fov` in radians.
 Camera look_at(const glm::vec3& eye, const glm::vec3& target, float vertical_fov);
 
 /// The light from infinity.
@@ -128,30 +137,32 @@ struct Environment {
 
 /// What a file held beyond what was kept; for `lambent info` and for people who wonder.
 struct SceneSource {
-  std::string path;
-  std::string generator;
+  std::string path;                     ///< As given to load_scene; empty for scenes made by hand.
+  std::string generator;                ///< Of the file, in its own words; may be empty.
   std::vector<std::string> extensions;  ///< Used by the file, known to us or not.
-  std::vector<std::string>
-      warnings;  ///< One sentence each: what was ignored or repaired, and where.
+  /// One sentence each: what was ignored or repaired, and where.
+  std::vector<std::string> warnings;
+  /// How many the whole file holds, not only the scene that was loaded.
   int nodes = 0, animations = 0, skins = 0, morph_targets = 0, scenes = 0;
 };
 
 /// Everything that a frame is computed from. Plain data: fill it by hand or with load_scene.
 struct Scene {
-  std::vector<Texture> textures;
-  std::vector<Material> materials;
-  std::vector<Mesh> meshes;
+  std::vector<Texture> textures;    ///< Read by materials.
+  std::vector<Material> materials;  ///< Used by meshes.
+  std::vector<Mesh> meshes;         ///< Seen only where an instance places them.
   std::vector<Instance> instances;
-  std::vector<Light> lights;
-  std::vector<Camera> cameras;
+  std::vector<Light> lights;    ///< Surfaces that emit are lights too, and not in this list.
+  std::vector<Camera> cameras;  ///< In the order of the file's nodes.
   Environment environment;
-  SceneSource source;
+  SceneSource source;  ///< Nothing is rendered from it.
 };
 
+/// What load_scene makes of a file.
 struct LoadOptions {
   int scene = -1;           ///< Index of the glTF scene; -1: the file's default, else the first.
   bool lambert = false;     ///< Reduce every material to exact Lambert (Material::lambert).
-  bool normal_maps = true;  ///< false: drop normal maps.
+  bool normal_maps = true;  ///< false: drop normal maps, and with them tangents.
 };
 
 /// Reads .gltf or .glb. Errors name the file, the place in it and the cause; what could be repaired
@@ -167,9 +178,11 @@ Expected<void> validate(const Scene& scene);
 
 /// Axis-aligned box [m]; empty when min > max.
 struct Bounds {
-  glm::vec3 min{3.4e38f};
-  glm::vec3 max{-3.4e38f};
+  glm::vec3 min{std::numeric_limits<float>::max()};
+  glm::vec3 max{std::numeric_limits<float>::lowest()};
+  /// True where nothing was added.
   bool empty() const { return min.x > max.x; }
+  /// Grows the box until it holds `p`.
   void add(const glm::vec3& p) {
     min = glm::min(min, p);
     max = glm::max(max, p);

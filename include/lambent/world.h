@@ -38,4 +38,10 @@ class World {
   std::unique_ptr<EmissiveTriangles> emissive_;
 };
 
+/// Bounds of the scene's open space: world_bounds less the walls that close it off, so that a field
+/// fitted to it has its outermost probes in front of the walls and not inside. A side counts as
+/// walled where most rays from outside pass through no more than a tenth of the scene before they
+/// reach open space; other sides stay as they are.
+Bounds open_bounds(const World& world);
+
 }  // namespace lambent

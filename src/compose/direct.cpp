@@ -37,8 +37,8 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
       const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[i]);
       RandomStream random = make_random_stream(static_cast<uint>(first_pixel + i),
                                                static_cast<uint>(sample), settings.seed);
-      for_each_light(world, surface.position_ws, settings.emissive_samples, random,
-                     [&](const LightCandidate& candidate) {
+      for_each_light(world, {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws},
+                     settings.emissive_samples, random, [&](const LightCandidate& candidate) {
                        if (dot(surface.geometric_normal_ws, candidate.to_light) <= 0.0f) return;
                        const vec3 to_light = to_local(frame, candidate.to_light);
                        const ReflectedPair share =

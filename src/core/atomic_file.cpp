@@ -97,13 +97,15 @@ Expected<void> write_file_atomically(const std::string& path, std::span<const st
 Expected<void> check_writable(const std::string& path) {
   if (path.empty()) return fail("", "", "the name of the file to write is empty");
   std::error_code error;
-  if (fs::is_directory(path, error)) return fail(path, "", "cannot write: is a directory");
-  fs::path directory = fs::path(path).parent_path();
-  if (directory.empty()) directory = ".";
-  if (::access(directory.c_str(), W_OK) != 0) {
-    return fail(path, "", system_cause("cannot write", errno), kind_of(errno));
-  }
-  return {};
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_directory(status)) return fail(path, "", "cannot write: is a directory");
+  // What is written in place needs no right to its directory, what is replaced no other
+  const bool in_place = fs::exists(status) && !fs::is_regular_file(status);
+  fs::path written = in_place ? fs::path(path) : fs::path(path).parent_path();
+  if (written.empty()) written = ".";
+  if (::access(written.c_str(), W_OK) == 0) return {};
+  const int failure = errno;
+  return fail(path, "", system_cause("cannot write", failure), kind_of(failure));
 }
 
 Expected<void> write_file_atomically(const std::string& path, std::string_view text) {

@@ -11,6 +11,7 @@
 namespace lambent {
 
 Expected<std::vector<std::byte>> read_file(const std::string& path, std::uint64_t max_bytes) {
+  if (path.empty()) return fail("", "", "the name of the file to read is empty");
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return fail(path, "", "no such file");

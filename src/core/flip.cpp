@@ -45,15 +45,22 @@ vec3 linear_from_xyz(const vec3& xyz) {
   return kInverse * xyz;
 }
 
+/// CIE 15: scales of CIELAB, and the lightness that its curve has at black.
+constexpr float kLabLightness = 116.0f, kLabBlack = 16.0f, kLabA = 500.0f, kLabB = 200.0f;
+/// Largest lightness: that of white.
+constexpr float kLabWhite = 100.0f;
+/// Standard deviations that a Gaussian's taps reach to each side.
+constexpr float kGaussianReach = 3.0f;
+
 /// Sec. 4.1: the linearised CIELAB in which the eye's contrast sensitivity is modelled.
 vec3 opponent_from_linear(const vec3& linear) {
   const vec3 v = xyz_from_linear(linear) / kWhite;
-  return vec3(116.0f * v.y - 16.0f, 500.0f * (v.x - v.y), 200.0f * (v.y - v.z));
+  return vec3(kLabLightness * v.y - kLabBlack, kLabA * (v.x - v.y), kLabB * (v.y - v.z));
 }
 
 vec3 linear_from_opponent(const vec3& opponent) {
-  const float y = (opponent.x + 16.0f) / 116.0f;
-  return linear_from_xyz(vec3(y + opponent.y / 500.0f, y, y - opponent.z / 200.0f) * kWhite);
+  const float y = (opponent.x + kLabBlack) / kLabLightness;
+  return linear_from_xyz(vec3(y + opponent.y / kLabA, y, y - opponent.z / kLabB) * kWhite);
 }
 
 /// CIE 15: the cube root with its linear toe.
@@ -66,9 +73,10 @@ float lab_curve(float t) {
 vec3 hunt_lab_from_linear(const vec3& linear) {
   const vec3 v = xyz_from_linear(linear) / kWhite;
   const vec3 f(lab_curve(v.x), lab_curve(v.y), lab_curve(v.z));
-  const float lightness = 116.0f * f.y - 16.0f;
-  return vec3(lightness, 0.01f * lightness * 500.0f * (f.x - f.y),
-              0.01f * lightness * 200.0f * (f.y - f.z));
+  const float lightness = kLabLightness * f.y - kLabBlack;
+  const float share_of_white = lightness / kLabWhite;
+  return vec3(lightness, share_of_white * kLabA * (f.x - f.y),
+              share_of_white * kLabB * (f.y - f.z));
 }
 
 /// Abasi et al. 2020: HyAB, a distance of colours that also holds for large ones.
@@ -102,8 +110,8 @@ float sensitivity_sigma(float b, float pixels_per_degree) {
 /// One opponent channel as the eye resolves it. A sum of two Gaussians in 2D is two separable
 /// filters; their shares are their volumes on the pixel grid.
 Image filter_channel(const Image& channel, const Sensitivity& csf, float pixels_per_degree) {
-  const int radius =
-      static_cast<int>(std::ceil(3.0f * sensitivity_sigma(kBlueYellow.b1, pixels_per_degree)));
+  const int radius = static_cast<int>(
+      std::ceil(kGaussianReach * sensitivity_sigma(kBlueYellow.b1, pixels_per_degree)));
   const auto volume = [&](float a, float b) {
     const float sigma = sensitivity_sigma(b, pixels_per_degree);
     float line = 0.0f;
@@ -174,7 +182,7 @@ Kernel feature_kernel(int order, float sigma, int radius) {
 /// Strength of edges (order 1) or points (order 2) of an achromatic channel.
 Image feature_strength(const Image& achromatic, int order, float pixels_per_degree) {
   const float sigma = 0.5f * kFeatureWidth * pixels_per_degree;
-  const int radius = static_cast<int>(std::ceil(3.0f * sigma));
+  const int radius = static_cast<int>(std::ceil(kGaussianReach * sigma));
   const Kernel smooth = gaussian_kernel(sigma, radius);
   const Kernel derivative = feature_kernel(order, sigma, radius);
   Image dx = convolve(achromatic, derivative, smooth);
@@ -193,7 +201,7 @@ float redistribute(float difference, float largest) {
 }
 
 Image normalised_achromatic(Image achromatic) {
-  for (float& value : achromatic.pixels) value = (value + 16.0f) / 116.0f;
+  for (float& value : achromatic.pixels) value = (value + kLabBlack) / kLabLightness;
   return achromatic;
 }
 

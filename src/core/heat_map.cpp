@@ -19,6 +19,8 @@ using ColorOf = std::function<glm::vec3(float)>;
 /// Panels are enlarged by whole factors until they are this wide [pixels], so that labels fit and
 /// pixels show.
 constexpr int kMinPanelWidth = 256;
+/// ... but not beyond this height [pixels]: a narrow column would grow to gigabytes.
+constexpr int kMaxEnlargedHeight = 4096;
 constexpr int kMargin = 8;
 constexpr int kLegendBar = 12;
 constexpr int kGlyphScale = 2, kGlyphWidth = 3, kGlyphHeight = 5;
@@ -158,7 +160,8 @@ Image heat_map(const ImagePair& pair, bool display) {
                         0.0f,
                         1.0f,
                         {"0", "0.5", "1"}};
-  const int zoom = (kMinPanelWidth + pair.b.width - 1) / pair.b.width;
+  const int zoom = std::clamp((kMinPanelWidth + pair.b.width - 1) / pair.b.width, 1,
+                              std::max(1, kMaxEnlargedHeight / pair.b.height));
   const int panel_width = pair.b.width * zoom;
   Image picture =
       blank(2 * panel_width + 3 * kMargin, pair.b.height * zoom + kMargin + kLegendHeight);

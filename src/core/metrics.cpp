@@ -213,9 +213,10 @@ Expected<Metrics> compare_images(const Image& a, const Image& b, const MetricsOp
   if (options.standard_error != nullptr) {
     const Image& se = *options.standard_error;
     if (se.width != b.width || se.height != b.height || se.channels < pair->b.channels) {
-      return fail(
-          "", "",
-          "the standard error (" + shape(se) + ") does not fit the reference (" + shape(b) + ")");
+      return fail("", "",
+                  "the standard error (" + shape(se) + ", " + std::to_string(se.channels) +
+                      " channels) does not fit the reference (" + shape(b) + ", " +
+                      std::to_string(pair->b.channels) + ")");
     }
     const double variance =
         mean_block_variance(with_channels(se, pair->b.channels), pair->valid, options.block);

@@ -23,7 +23,7 @@ constexpr uint kRotationSalt = 0x52415953u;
 
 // Smaller weights count for nothing in a float sum, but their products with values are denormal and
 // a hundred times slower to compute.
-constexpr float kMinWeight = 1e-9f;
+constexpr float kMinWeight = 1e-30f;
 
 /// One block of texels: sums[t][c] = sum over rays of values[ray][c] * weights[ray][t].
 template <int channels>

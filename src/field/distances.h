@@ -10,8 +10,11 @@
 namespace lambent {
 
 /// Exponent of the cosine with which rays count for a distance texel: sharp enough that what blocks
-/// one direction does not blur into the next. JCGT 8(2) 2019, sec. 4.3.
-inline constexpr float kDistanceExponent = 50.0f;
+/// one direction does not blur into the next. Published: 50 (JCGT 8(2) 2019, sec. 4.3). 100 is
+/// about as wide as a texel of the default tile and leaks less than half as much (brightest spot
+/// behind a closed wall, probes 1 m apart: 3.9 % of the room's light with the door open,
+/// against 9.1 %); 200 gains nothing.
+inline constexpr float kDistanceExponent = 100.0f;
 
 /// Blends the distances of an update's rays into the store: mean and mean square along each texel's
 /// direction. `hits` has an entry a ray, probe after probe; `share` is the part of the new values,

@@ -151,7 +151,7 @@ LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetc
     const float variance = std::fabs(square - mean * mean);
     const float beyond = fetch.dist[k] - mean;
     const float bound = variance / (variance + beyond * beyond + kTiniestSquare);
-    const float visibility = beyond <= 0.0f ? 1.0f : bound;
+    const float visibility = beyond <= 0.0f ? 1.0f : bound * bound * bound;
 
     const float raw = fetch.wrap[k] * visibility;
     const float crushed = raw * raw * raw * (1.0f / (kCrushThreshold * kCrushThreshold));

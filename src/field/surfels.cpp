@@ -55,6 +55,18 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeGrid& grid,
   });
 }
 
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, uint update) {
+  ShadeHitsSettings shading;
+  // Width of the cone that stands for one ray, per metre: that of its share of the sphere.
+  shading.cone_width = 2.0f * sqrt(4.0f / static_cast<float>(settings.rays_per_probe)) *
+                       exp2(settings.texture_lod_bias);
+  shading.max_albedo = settings.max_albedo;
+  shading.emissive_samples = settings.emissive_samples;
+  shading.salt = update;
+  shading.seed = settings.seed;
+  return shading;
+}
+
 std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
                             std::span<const vec3> directions, std::span<const Hit> hits,
                             const FieldSettings& settings, uint update, Surfels& surfels) {
@@ -63,14 +75,7 @@ std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
   surfels.resize(probes, static_cast<int>(rays));
   std::atomic<std::uint64_t> shadow_rays = 0;
 
-  ShadeHitsSettings shading;
-  // Width of the cone that stands for one ray, per metre: that of its share of the sphere.
-  shading.cone_width =
-      2.0f * sqrt(4.0f / static_cast<float>(rays)) * exp2(settings.texture_lod_bias);
-  shading.max_albedo = settings.max_albedo;
-  shading.emissive_samples = settings.emissive_samples;
-  shading.salt = update;
-  shading.seed = settings.seed;
+  const ShadeHitsSettings shading = surfel_shading(settings, update);
 
   parallel_chunks(probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> batch(rays);

@@ -47,6 +47,9 @@ struct Surfels {
 void trace_probe_rays(const RayTracer& tracer, const ProbeGrid& grid,
                       std::span<const vec3> directions, std::vector<Hit>& hits);
 
+/// How the hits of an update's rays are shaded.
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, uint update);
+
 /// Fills surfels (all but their lookups) from hits. Returns the shadow rays traced.
 std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
                             std::span<const vec3> directions, std::span<const Hit> hits,

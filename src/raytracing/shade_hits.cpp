@@ -12,8 +12,8 @@ namespace {
 /// Draws the candidates of direct light at a surface and queues their shadow rays.
 void queue_direct_light(const World& world, const Surface& surface, std::size_t hit,
                         int emissive_samples, RandomStream random, ShadeHitsScratch& scratch) {
-  for_each_light(world, surface.position_ws, emissive_samples, random,
-                 [&](const LightCandidate& light) {
+  for_each_light(world, {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws},
+                 emissive_samples, random, [&](const LightCandidate& light) {
                    const float cosine = glm::dot(surface.normal_ws, light.to_light);
                    const float side = glm::dot(surface.geometric_normal_ws, light.to_light);
                    if (cosine <= 0.0f || side <= 0.0f) return;

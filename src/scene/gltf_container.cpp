@@ -97,6 +97,7 @@ bool nested_too_deeply(ByteSpan text) {
 }
 
 Expected<json> parse_json(ByteSpan text, const std::string& file) {
+  if (text.empty()) return fail(file, "", "the file is empty");
   if (text.size() > kMaxJsonBytes) return fail(file, "JSON", "the JSON is absurdly large");
   if (nested_too_deeply(text)) return fail(file, "JSON", "the JSON is nested too deeply");
   try {
@@ -256,6 +257,19 @@ bool same_sizes(const Document& document, const json& root) {
          model.cameras.size() == size_of("cameras") && model.scenes.size() == size_of("scenes");
 }
 
+// Specification, sec. 3.2: files of later minor versions load, unless they ask for one.
+Expected<void> check_version(const Document& document, const json& asset) {
+  const std::string version = string_or_empty(asset, "version");
+  if (!version.starts_with("2.")) {
+    return document.fail_at("asset.version", "glTF version " + version + " is not supported");
+  }
+  const std::string least = string_or_empty(asset, "minVersion");
+  if (!least.empty() && least != "2.0") {
+    return document.fail_at("asset.minVersion", "glTF version " + least + " is not supported");
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool file_access) {
@@ -271,10 +285,7 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   document.model.extensionsRequired = strings_of(root, "extensionsRequired");
   LAMBENT_CHECK(check_extensions(document));
   LAMBENT_CHECK(check_schema(root, file));
-  const std::string version = root["asset"]["version"].get<std::string>();
-  if (version.rfind("2.", 0) != 0) {
-    return document.fail_at("asset.version", "glTF version " + version + " is not supported");
-  }
+  LAMBENT_CHECK(check_version(document, root["asset"]));
 
   if (root.contains("buffers")) LAMBENT_CHECK(read_buffers(document, root["buffers"], chunks));
   read_skies(document, root);

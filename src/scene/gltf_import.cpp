@@ -179,16 +179,21 @@ class Importer {
       Elements elements;
     };
     Attribute read[] = {{"TRANSLATION", 3, {}}, {"ROTATION", 4, {}}, {"SCALE", 3, {}}};
+    // Custom attributes, which mean nothing to us, count instances too
     std::size_t count = 0;
+    for (const std::string& name : attributes.Keys()) {
+      const int accessor = attributes.Get(name).GetNumberAsInt();
+      const std::size_t instances = document_.model.accessors[accessor].count;
+      if (count != 0 && instances != count) {
+        return document_.fail_at(entry("nodes", node) + ".extensions.EXT_mesh_gpu_instancing",
+                                 "the attributes have different counts");
+      }
+      count = instances;
+    }
     for (Attribute& attribute : read) {
       if (!attributes.Has(attribute.name)) continue;
       const int accessor = attributes.Get(attribute.name).GetNumberAsInt();
       LAMBENT_TRY(elements, read_elements(document_, accessor, attribute.components));
-      if (count != 0 && elements.size() != count) {
-        return document_.fail_at(entry("nodes", node) + ".extensions.EXT_mesh_gpu_instancing",
-                                 "the attributes have different counts");
-      }
-      count = elements.size();
       attribute.elements = std::move(elements);
     }
     for (std::size_t i = 0; i < count; ++i) {

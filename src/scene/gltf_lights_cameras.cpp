@@ -45,9 +45,11 @@ Expected<Light> import_light(Document& document, int index, int node,
   light.range = static_cast<float>(source.range);
   if (light.type == Light::Type::spot) {
     const auto outer = static_cast<float>(source.spot.outerConeAngle);
+    const auto inner = static_cast<float>(source.spot.innerConeAngle);
     light.outer_cone_angle = std::min(outer, 0.5f * kPi);
-    light.inner_cone_angle =
-        std::min(static_cast<float>(source.spot.innerConeAngle), light.outer_cone_angle);
+    light.inner_cone_angle = std::min(inner, light.outer_cone_angle);
+    document.repaired("spot lights' inner cones were cut to their outer ones", inner > outer,
+                      place);
   }
   return light;
 }
@@ -62,7 +64,8 @@ Expected<Camera> import_camera(const Document& document, int node,
   if (source.type == "perspective" && source.perspective.yfov > 0.0) {
     camera.vertical_fov = static_cast<float>(source.perspective.yfov);
     camera.aspect = static_cast<float>(source.perspective.aspectRatio);
-  } else if (source.type == "orthographic" && source.orthographic.ymag != 0.0) {
+  } else if (source.type == "orthographic" && source.orthographic.xmag != 0.0 &&
+             source.orthographic.ymag != 0.0) {
     const double xmag = std::abs(source.orthographic.xmag);
     const double ymag = std::abs(source.orthographic.ymag);
     camera.orthographic = true;

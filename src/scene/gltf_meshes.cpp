@@ -66,6 +66,9 @@ class PrimitiveReader {
 
   void expect_vertices(std::size_t vertices) { vertices_ = vertices; }
 
+  // How indices make triangles. Draco streams hold triangles, also of what was a strip.
+  int mode() const { return draco_ ? TINYGLTF_MODE_TRIANGLES : source_.mode; }
+
   // The primitive's vertex indices in its own order: 0, 1, 2.. where it has none.
   Expected<std::vector<std::uint32_t>> indices() const {
     if (draco_) return checked(draco_->indices, place_);
@@ -220,7 +223,7 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
     return std::nullopt;
   }
   LAMBENT_TRY(indices, reader.indices());
-  mesh.triangles = triangles_of(source.mode, indices);
+  mesh.triangles = triangles_of(reader.mode(), indices);
 
   LAMBENT_CHECK(bend_by_morph_targets(document, source, place, deformation.morph_weights, mesh));
   if (!deformation.joint_matrices.empty()) {

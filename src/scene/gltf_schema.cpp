@@ -224,7 +224,7 @@ class Checker {
 
   Expected<void> check_object(const json& value, const char* shape,
                               const std::string& place) const {
-    if (!value.is_object()) return wrong(place, "must be an object");
+    if (!value.is_object()) return wrong(place.empty() ? "JSON" : place, "must be an object");
     for (const Rule& rule : kRules) {
       if (std::strcmp(rule.shape, shape) != 0) continue;
       const auto member = value.find(rule.key);

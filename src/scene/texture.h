@@ -16,8 +16,9 @@ glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv);
 glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv,
                          float lod = 0.0f);
 
-/// The one texel of a MIP level (clamped to what exists) at texture coordinates: linear RGBA. Enough
-/// where the level was picked so that a texel is as wide as what asks, and four times as fast.
+/// The one texel of a MIP level (clamped to what exists) at texture coordinates: linear RGBA.
+/// Enough where the level was picked so that a texel is as wide as what asks, and four times as
+/// fast.
 glm::vec4 nearest_texel(const Scene& scene, const TextureView& view, glm::vec2 uv, int level);
 
 }  // namespace lambent

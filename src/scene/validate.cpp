@@ -169,6 +169,8 @@ const char* flaw_of(const Camera& camera) {
   if (!unit(glm::vec3(m[0])) || !unit(glm::vec3(m[1])) || !unit(glm::vec3(m[2]))) {
     return "has a transform with scale";
   }
+  if (!finite(camera.aspect) || camera.aspect < 0.0f)
+    return "has an aspect ratio that is negative or not finite";
   if (camera.orthographic) {
     return finite(camera.vertical_extent) && camera.vertical_extent > 0.0f
                ? nullptr
@@ -177,7 +179,7 @@ const char* flaw_of(const Camera& camera) {
   if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < kPi)) {
     return "has a field of view that is not between 0 and pi";
   }
-  return finite(camera.aspect) && camera.aspect >= 0.0f ? nullptr : "has a negative aspect ratio";
+  return nullptr;
 }
 
 const char* flaw_of(const Environment& environment) {

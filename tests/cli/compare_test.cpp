@@ -88,6 +88,7 @@ TEST_F(Compare, BadInputIsStatus2WithAMessageAndNoOutput) {
       {"compare --layer glossy " + a + " " + b, "layer glossy: not in the file"},
       {"compare --layer indirect=glossy " + a + " " + b, "layer glossy: not in the file"},
       {"compare --heatmap " + heat + " " + a + " " + b, "cannot write"},
+      {"compare --heatmap " + directory.file("heat.exr") + " " + a + " " + b, "must end in .png"},
       {"compare --block 0 " + a + " " + b, "block"},
       {"compare --scale nan " + a + " " + b, "finite"},
       {"compare --noise " + directory.file("small.exr") + " --layer direct " + a + " " + b,

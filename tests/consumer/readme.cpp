@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   scene->environment.radiance = {1.5f, 2.0f, 2.6f};  // W/(m^2 sr)
 
   const lambent::World world(*scene);  // refers to the scene
-  auto field = lambent::IrradianceField::make({}, lambent::world_bounds(*scene));
+  auto field = lambent::IrradianceField::make({}, lambent::open_bounds(world));
   if (!field) return std::fprintf(stderr, "%s\n", field.error().message().c_str()), 2;
   for (int i = 0; i < 8; ++i) field->update(world);  // an engine updates once a frame
 

@@ -57,6 +57,16 @@ TEST(AtomicFile, WritesThroughASymbolicLink) {
   EXPECT_EQ(text_of(directory.file("target")), "new");
 }
 
+TEST(AtomicFile, TellsBeforehandWhatCouldNotBeWritten) {
+  const testing::TemporaryDirectory directory;
+  EXPECT_TRUE(check_writable(directory.file("new.txt")));
+  EXPECT_TRUE(check_writable("/dev/null"));
+  EXPECT_FALSE(check_writable(""));
+  EXPECT_FALSE(check_writable(directory.path().string()));
+  EXPECT_FALSE(check_writable(directory.file("missing/a.txt")));
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
 TEST(AtomicFile, FullDiskIsAFailureNotBadInput) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full on this system";
   const auto written = write_file_atomically("/dev/full", "text");
@@ -67,6 +77,7 @@ TEST(AtomicFile, FullDiskIsAFailureNotBadInput) {
 
 TEST(ReadFile, RefusesWhatIsMissingTooLargeOrADirectory) {
   const testing::TemporaryDirectory directory;
+  EXPECT_EQ(read_file("").error().cause, "the name of the file to read is empty");
   EXPECT_EQ(read_file(directory.file("none")).error().cause, "no such file");
   EXPECT_EQ(read_file(directory.path().string()).error().cause, "is a directory, not a file");
   ASSERT_TRUE(write_file_atomically(directory.file("a"), "four"));

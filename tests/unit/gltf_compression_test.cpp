@@ -64,6 +64,15 @@ TEST(GltfDraco, DecodesPositionsAndIndices) {
   for (const glm::vec3& normal : mesh.normals) EXPECT_GT(normal.z, 0.999f);
 }
 
+TEST(GltfDraco, HoldsTrianglesWhateverTheModeSays) {
+  GltfBuilder builder = with_draco(draco_square(), 0);
+  constexpr int kTriangleStrip = 5;
+  builder.root["meshes"][0]["primitives"][0]["mode"] = kTriangleStrip;
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_THAT(scene->meshes.at(0).triangles, SizeIs(2));
+}
+
 TEST(GltfDraco, CorruptStreamsAreErrors) {
   const Bytes stream = draco_square();
   EXPECT_THAT(error_of(with_draco(stream, 7).load()), HasSubstr("has no attribute 7"));

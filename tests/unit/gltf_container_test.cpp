@@ -181,6 +181,7 @@ struct Hostile {
 
 TEST(GltfJson, HostileNumbersNameTheirPlace) {
   const Hostile cases[] = {
+      {"/asset/minVersion", "2.1", "asset.minVersion: glTF version 2.1 is not supported"},
       {"/accessors/0/count", -1, "accessors[0].count: is -1"},
       {"/accessors/0/count", 0, "accessors[0].count: is 0"},
       {"/accessors/0/count", 1.5, "accessors[0].count: must be a whole number"},

@@ -93,6 +93,18 @@ TEST(GltfNodes, GpuInstancesStandRelativeToTheirNode) {
   expect_near(place(scene->instances[1], {1, 0, 0}), {8, 1, 0});
 }
 
+TEST(GltfNodes, GpuInstancesAreCountedByCustomAttributesToo) {
+  GltfBuilder builder;
+  const int mesh = builder.append("meshes", {{"primitives", Json::array({builder.triangle()})}});
+  const int ids = builder.accessor<float>({7, 8, 9}, "SCALAR");
+  builder.show_node(
+      {{"mesh", mesh},
+       {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"_ID", ids}}}}}}}});
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_THAT(scene->instances, SizeIs(3));
+}
+
 TEST(GltfNodes, OnlyTheChosenSceneIsShown) {
   GltfBuilder builder;
   const int mesh = builder.append("meshes", {{"primitives", Json::array({builder.triangle()})}});
@@ -201,6 +213,17 @@ TEST(GltfCameras, OrthographicOnesHaveAnExtent) {
   EXPECT_TRUE(scene->cameras.at(0).orthographic);
   EXPECT_EQ(scene->cameras[0].vertical_extent, 3.0f);
   EXPECT_EQ(scene->cameras[0].aspect, 2.0f);
+}
+
+TEST(GltfCameras, OrthographicOnesWithoutAShapeAreErrors) {
+  for (const auto& [xmag, ymag] : {std::pair{0.0, 1.0}, {1.0, 0.0}, {1e38, 1e-38}}) {
+    GltfBuilder builder;
+    builder.append("cameras",
+                   {{"type", "orthographic"},
+                    {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"znear", 0}, {"zfar", 9}}}});
+    builder.show_node({{"camera", 0}});
+    EXPECT_THAT(error_of(builder.load()), HasSubstr("cameras[0]")) << xmag << " " << ymag;
+  }
 }
 
 TEST(GltfSky, IsReadFromTheExtrasOfTheChosenScene) {

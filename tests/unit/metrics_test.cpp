@@ -9,6 +9,7 @@
 
 #include "core/convolve.h"
 #include "core/flip.h"
+#include "core/heat_map.h"
 #include "core/ssim.h"
 #include "shared/color.h"
 #include "shared/random.h"
@@ -230,6 +231,13 @@ TEST(HdrFlip, SeesADifferenceInTheShadowsThatTheLdrImageHides) {
   EXPECT_EQ(mean(hdr_flip(b, b)), 0.0f);
   EXPECT_GT(hdr_flip(a, b).at(4, 24)[0], 0.05f);
   EXPECT_LT(hdr_flip(a, b).at(44, 24)[0], 0.01f);
+}
+
+TEST(HeatMap, OfANarrowImageStaysSmall) {
+  const Image column = constant(1, 5000, vec3(1.0f));
+  const Image map = heat_map(*match_images(column, column, 1.0), false);
+  EXPECT_LT(map.width, 100);
+  EXPECT_LT(map.height, 5100);
 }
 
 TEST(Metrics, TruthAgainstItselfWithItsOwnNoiseIsClean) {

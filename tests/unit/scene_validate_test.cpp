@@ -72,6 +72,12 @@ TEST(Validate, NamesTheFirstThingWrong) {
        }},
       {"cameras[0]", [](Scene& s) { s.cameras[0].vertical_fov = 0.0f; }},
       {"cameras[0]", [](Scene& s) { s.cameras[0].world_from_view[0] *= 2.0f; }},
+      {"cameras[0]", [](Scene& s) { s.cameras[0].aspect = -1.0f; }},
+      {"cameras[0]",
+       [](Scene& s) {
+         s.cameras[0].orthographic = true;
+         s.cameras[0].aspect = kNan;
+       }},
       {"environment", [](Scene& s) { s.environment.radiance.r = kNan; }},
       {"environment", [](Scene& s) { s.environment.map.pixels[4] = -1.0f; }},
       {"environment", [](Scene& s) { s.environment.map.pixels.pop_back(); }},

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The matrix product from rays to texels, for all probes of a field.
+#include "bench/workload.h"
+#include "core/parallel.h"
+#include "field/blend.h"
+#include "field/distances.h"
+#include "field/probe_store.h"
+#include "field/surfels.h"
+
+namespace lambent::bench {
+namespace {
+
+constexpr int kRepetitions = 15;
+constexpr std::size_t kProbesPerTask = 16;
+
+std::vector<vec3> directions_of(const Workload& work) {
+  const FieldSettings& settings = work.field.settings();
+  return probe_ray_directions(settings.rays_per_probe, 0, settings.seed);
+}
+
+/// Irradiance: the product alone.
+void blend_irradiance(benchmark::State& state) {
+  const Workload& work = workload();
+  const BlendMatrix blend(work.field.settings().irradiance_texels, 1.0f, directions_of(work));
+  const auto probes = static_cast<std::size_t>(work.field.grid().probes());
+  const std::size_t values = 4 * static_cast<std::size_t>(blend.rays());
+  const std::vector<float> radiance(values * probes, 0.7f);
+  std::vector<float> sums(4 * probes * blend.texels());
+  Median ms;
+  for (auto _ : state) {
+    const double elapsed = time_ms([&] {
+      parallel_chunks(probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t probe = begin; probe < end; ++probe) {
+          blend.apply4(&radiance[probe * values], &sums[4 * probe * blend.texels()]);
+        }
+      });
+    });
+    state.SetIterationTime(elapsed * 1e-3);
+    ms.add(elapsed);
+  }
+  benchmark::DoNotOptimize(sums.data());
+  state.counters["median_ms"] = ms.value();
+  state.counters["probes"] = static_cast<double>(probes);
+}
+
+/// Distances: the product, and storing what it yields.
+void blend_distances_of_all_probes(benchmark::State& state) {
+  const Workload& work = workload();
+  const FieldSettings& settings = work.field.settings();
+  const std::vector<vec3> directions = directions_of(work);
+  const BlendMatrix blend(settings.distance_texels, kDistanceExponent, directions);
+  ProbeStore store(work.field.store().grid(), settings);
+  std::vector<Hit> hits;
+  trace_probe_rays(work.world.tracer(), store.grid(), directions, hits);
+  Median ms;
+  for (auto _ : state) {
+    const double elapsed =
+        time_ms([&] { blend_distances(work.scene, blend, hits, 0.1f, 1u, store); });
+    state.SetIterationTime(elapsed * 1e-3);
+    ms.add(elapsed);
+  }
+  state.counters["median_ms"] = ms.value();
+  state.counters["probes"] = static_cast<double>(store.probes());
+}
+
+BENCHMARK(blend_irradiance)
+    ->UseManualTime()
+    ->Iterations(kRepetitions)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(blend_distances_of_all_probes)
+    ->UseManualTime()
+    ->Iterations(kRepetitions)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lambent::bench

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A whole frame by passes.
+#include <map>
+
+#include "bench/workload.h"
+#include "lambent/renderer.h"
+
+namespace lambent::bench {
+namespace {
+
+constexpr int kRepetitions = 5;
+
+void frame(benchmark::State& state) {
+  const Workload& work = workload();
+  FrameSettings settings;
+  settings.width = kWidth;
+  settings.height = kHeight;
+  Median ms;
+  std::map<std::string, Median> passes;
+  for (auto _ : state) {
+    RenderedFrame rendered;
+    const double elapsed =
+        time_ms([&] { rendered = render_frame(work.world, &work.field, work.camera, settings); });
+    state.SetIterationTime(elapsed * 1e-3);
+    ms.add(elapsed);
+    for (const PassTime& pass : rendered.passes) passes[pass.name].add(pass.ms);
+  }
+  state.counters["median_ms"] = ms.value();
+  for (const auto& [name, median] : passes) state.counters[name + "_ms"] = median.value();
+}
+
+BENCHMARK(frame)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lambent::bench

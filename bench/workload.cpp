@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/workload.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <stdexcept>
+
+#include "core/parallel.h"
+#include "field/blend.h"
+#include "field/probe_grid.h"
+#include "field/probe_store.h"
+#include "field/surfels.h"
+#include "raytracing/camera_rays.h"
+#include "raytracing/shade_hits.h"
+#include "raytracing/surface.h"
+#include "scenes/builtin.h"
+
+namespace lambent::bench {
+namespace {
+
+constexpr std::size_t kRaysPerTask = 1152;  // as eight probes trace together
+constexpr int kSettlingUpdates = 2;
+
+template <class Value>
+Value value_or_throw(Expected<Value> result) {
+  if (!result) throw std::runtime_error(result.error().message());
+  return std::move(*result);
+}
+
+/// One sun and a sky, as in the project's table of speeds.
+void light_up(Scene& scene) {
+  if (!scene.lights.empty() || scene.environment.radiance != glm::vec3(0.0f)) return;
+  Light sun;
+  sun.name = "sun";
+  sun.type = Light::Type::directional;
+  sun.intensity = {20.0f, 18.0f, 15.0f};
+  sun.direction_ws = glm::normalize(glm::vec3(-0.62f, -0.8f, 0.10f));
+  scene.lights.push_back(sun);
+  scene.environment.radiance = {1.5f, 2.0f, 2.6f};
+}
+
+Scene lit(Scene scene) {
+  light_up(scene);
+  return scene;
+}
+
+/// The scene's first camera, or one that looks along the scene's length from near one end.
+Camera camera_of(const Scene& scene) {
+  if (!scene.cameras.empty()) return scene.cameras.front();
+  const Bounds bounds = world_bounds(scene);
+  const glm::vec3 size = bounds.max - bounds.min;
+  constexpr float kEyeHeight = 0.15f, kDistance = 0.4f;  // shares of height and of length
+  const glm::vec3 middle = 0.5f * (bounds.min + bounds.max);
+  const glm::vec3 along = size.x >= size.z ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
+  glm::vec3 eye = middle - kDistance * size * along;
+  eye.y = bounds.min.y + kEyeHeight * size.y;
+  return look_at(eye, eye + along, 1.0f);
+}
+
+}  // namespace
+
+Workload::Workload(std::string scene_name, Scene made)
+    : name(std::move(scene_name)),
+      scene(lit(std::move(made))),
+      world(scene),
+      camera(camera_of(scene)),
+      field(value_or_throw(IrradianceField::make(FieldSettings{}, open_bounds(world)))) {
+  for (int i = 0; i < kSettlingUpdates; ++i) field.update(world);
+}
+
+Workload& workload() {
+  static Workload work = [] {
+    const char* asked = std::getenv("LAMBENT_BENCH_SCENE");
+    const std::string name = asked != nullptr && *asked != '\0' ? asked : "atrium";
+    return Workload(name, value_or_throw(scenes::open_scene(name)));
+  }();
+  return work;
+}
+
+UpdateRays record_update_rays(const Workload& work, int update) {
+  const FieldSettings& settings = work.field.settings();
+  const ProbeGrid& grid = work.field.store().grid();
+  const std::vector<vec3> directions =
+      probe_ray_directions(settings.rays_per_probe, static_cast<uint>(update), settings.seed);
+  const ShadeHitsSettings shading = surfel_shading(settings, static_cast<uint>(update));
+
+  // Shade each probe's hits for the sake of the shadow rays
+  const std::size_t rays = directions.size();
+  std::vector<std::vector<Ray>> shadows(work.field.grid().probes());
+  UpdateRays result;
+  result.probe_rays.resize(shadows.size() * rays);
+  parallel_chunks(shadows.size(), 8, [&](std::size_t begin, std::size_t end) {
+    std::vector<Hit> hits(rays);
+    std::vector<ShadedHit> shaded(rays);
+    ShadeHitsScratch scratch;
+    for (std::size_t probe = begin; probe < end; ++probe) {
+      const vec3 origin = probe_position(grid, probe_coords(grid, static_cast<int>(probe)));
+      const std::span<Ray> batch(&result.probe_rays[probe * rays], rays);
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
+      work.world.tracer().closest_hits(batch, hits);
+      shade_hits(work.world, batch, hits, shading, probe * rays, scratch, shaded);
+      shadows[probe] = scratch.shadow_rays;
+    }
+  });
+  for (const std::vector<Ray>& part : shadows) {
+    result.shadow_rays.insert(result.shadow_rays.end(), part.begin(), part.end());
+  }
+  return result;
+}
+
+std::vector<Ray> primary_rays(const Workload& work) {
+  std::vector<Ray> rays(static_cast<std::size_t>(kWidth) * kHeight);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    rays[i] = camera_ray(work.camera, kWidth, kHeight, static_cast<float>(i % kWidth) + 0.5f,
+                         static_cast<float>(i / kWidth) + 0.5f);
+  }
+  return rays;
+}
+
+std::vector<FieldQuery> pixel_queries(const Workload& work) {
+  const std::vector<Ray> rays = primary_rays(work);
+  std::vector<Hit> hits;
+  time_closest_hits(work, rays, hits);
+  std::vector<FieldQuery> queries(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    // A pixel that shows the sky costs as much as any other
+    if (hits[i].missed()) continue;
+    const Surface surface = surface_at(work.scene, rays[i], hits[i]);
+    queries[i] = {surface.position_ws, surface.normal_ws, -rays[i].direction};
+  }
+  return queries;
+}
+
+double time_closest_hits(const Workload& work, std::span<const Ray> rays, std::vector<Hit>& hits) {
+  hits.resize(rays.size());
+  return time_ms([&] {
+    parallel_chunks(rays.size(), kRaysPerTask, [&](std::size_t begin, std::size_t end) {
+      work.world.tracer().closest_hits(rays.subspan(begin, end - begin),
+                                       {&hits[begin], end - begin});
+    });
+  });
+}
+
+double time_occlusions(const Workload& work, std::span<const Ray> rays,
+                       std::vector<std::uint8_t>& occluded) {
+  occluded.resize(rays.size());
+  return time_ms([&] {
+    parallel_chunks(rays.size(), kRaysPerTask, [&](std::size_t begin, std::size_t end) {
+      work.world.tracer().occlusions(rays.subspan(begin, end - begin),
+                                     {&occluded[begin], end - begin});
+    });
+  });
+}
+
+double Median::value() const {
+  if (values_.empty()) return 0.0;
+  std::vector<double> sorted = values_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+}  // namespace lambent::bench

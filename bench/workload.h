@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all benches work on: a scene, a field of the default settings that has settled a little, and
+// the rays of its updates.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lambent/field.h"
+#include "lambent/scene.h"
+#include "lambent/world.h"
+#include "raytracing/raytracer.h"
+
+namespace lambent::bench {
+
+// The picture that primary rays and lookups are measured on.
+inline constexpr int kWidth = 1280, kHeight = 720;
+
+struct Workload {
+  Workload(std::string scene_name, Scene made);
+
+  std::string name;
+  Scene scene;
+  World world;
+  Camera camera;
+  IrradianceField field;
+};
+
+/// The atrium, or the scene that the environment variable LAMBENT_BENCH_SCENE names; where that
+/// brings no light, under a sun and a sky. Throws where it cannot be read.
+Workload& workload();
+
+/// Rays grouped as the passes trace them.
+struct UpdateRays {
+  std::vector<Ray> probe_rays;
+  std::vector<Ray> shadow_rays;
+};
+
+/// The very closest-hit and shadow rays that update number `update` of the field traces.
+UpdateRays record_update_rays(const Workload& work, int update);
+
+/// Primary rays through the middle of each pixel of the picture.
+std::vector<Ray> primary_rays(const Workload& work);
+
+/// What the camera sees of the scene, as points to look the field up at.
+std::vector<FieldQuery> pixel_queries(const Workload& work);
+
+/// Wall-clock time [ms] of nothing but tracing, on all cores.
+double time_closest_hits(const Workload& work, std::span<const Ray> rays, std::vector<Hit>& hits);
+double time_occlusions(const Workload& work, std::span<const Ray> rays,
+                       std::vector<std::uint8_t>& occluded);
+
+/// Wall-clock time [ms] of a call.
+template <class Body>
+double time_ms(Body body) {
+  const auto start = std::chrono::steady_clock::now();
+  body();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+/// Numbers of repetitions; a counter of a benchmark shows their median, which one repetition that
+/// another program disturbed does not move.
+class Median {
+ public:
+  void add(double value) { values_.push_back(value); }
+  double value() const;
+
+ private:
+  std::vector<double> values_;
+};
+
+}  // namespace lambent::bench

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+#include "field/probe_store.h"
+#include "lambent/renderer.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+using test::make_field;
+using test::Stage;
+
+/// All that a run leaves: the store's words and the frame's pixels.
+struct Outcome {
+  std::vector<uint> words;
+  std::vector<float> pixels;
+  bool operator==(const Outcome&) const = default;
+};
+
+FieldSettings small_field(std::uint32_t seed) {
+  FieldSettings settings;
+  settings.probe_count = glm::ivec3(5);
+  settings.rays_per_probe = 32;
+  settings.seed = seed;
+  return settings;
+}
+
+Outcome run(const Stage& stage, std::uint32_t seed) {
+  const IrradianceField field = make_field(stage, small_field(seed), 3);
+  Outcome outcome;
+  const ProbeStore& store = field.store();
+  outcome.words.assign(store.irradiance_words().begin(), store.irradiance_words().end());
+  outcome.words.insert(outcome.words.end(), store.distance_words().begin(),
+                       store.distance_words().end());
+  FrameSettings frame;
+  frame.width = 96;
+  frame.height = 64;
+  frame.samples = 2;
+  frame.seed = seed;
+  const RenderedFrame rendered = render_frame(stage.world, &field, stage.scene.cameras[0], frame);
+  for (const Layer& layer : rendered.image.layers) {
+    outcome.pixels.insert(outcome.pixels.end(), layer.image.pixels.begin(),
+                          layer.image.pixels.end());
+  }
+  return outcome;
+}
+
+Outcome run_on_threads(const Stage& stage, int threads) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  Outcome outcome;
+  arena.execute([&] { outcome = run(stage, 1); });
+  return outcome;
+}
+
+TEST(IrradianceField, SameBitsOnAnyNumberOfThreads) {
+  const Stage stage("cornell");
+  const Outcome one = run_on_threads(stage, 1);
+  EXPECT_TRUE(run_on_threads(stage, 2) == one);
+  EXPECT_TRUE(run_on_threads(stage, 4) == one);
+}
+
+TEST(IrradianceField, SameBitsForTheSameSeedAndOthersForAnother) {
+  const Stage stage("cornell");
+  const Outcome first = run(stage, 1), other = run(stage, 2);
+  EXPECT_TRUE(run(stage, 1) == first);
+  EXPECT_FALSE(other.words == first.words);
+  EXPECT_FALSE(other.pixels == first.pixels);
+}
+
+TEST(IrradianceField, ResetForgetsAllLight) {
+  const Stage stage("cornell");
+  IrradianceField field = make_field(stage, small_field(1), 1);
+  const auto words = field.store().irradiance_words();
+  const std::vector<uint> first(words.begin(), words.end());
+  field.update(stage.world);
+  EXPECT_EQ(field.updates(), 2);
+  field.reset();
+  EXPECT_EQ(field.updates(), 0);
+  EXPECT_TRUE(std::all_of(words.begin(), words.end(), [](uint word) { return word == 0u; }));
+  field.update(stage.world);
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), words.begin()));
+}
+
+TEST(IrradianceField, TellsWhatAnUpdateDid) {
+  const Stage stage("cornell");
+  IrradianceField field = make_field(stage, small_field(1), 0);
+  const UpdateStatistics statistics = field.update(stage.world);
+  EXPECT_EQ(statistics.probe_rays, 125u * 32u);
+  EXPECT_GT(statistics.shadow_rays, 0u);
+  EXPECT_GT(statistics.relights, 0);
+  EXPECT_LE(statistics.residual, field.settings().relight_tolerance);
+  EXPECT_GT(statistics.change, 0.5);  // all of the light is new
+  EXPECT_LT(field.update(stage.world).change, 0.5);
+  EXPECT_GT(field.surfel_bytes(), 0u);
+  EXPECT_LE(field.store_bytes(), 1168u * 125u);
+}
+
+TEST(IrradianceField, StaysDarkWithoutLightAndWithoutScene) {
+  Scene dark = scenes::make("cube").value();
+  dark.lights.clear();
+  for (Scene scene : {dark, Scene{}}) {
+    const Stage stage(std::move(scene));
+    const IrradianceField field = make_field(stage, small_field(1), 2);
+    const FieldQuery query{glm::vec3(0.1f), {0.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 0.0f}};
+    EXPECT_EQ(test::look_up(field, {&query, 1})[0], glm::vec3(0.0f));
+  }
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/relight.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "field/distances.h"
+#include "field/tile_fit.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+using test::look_up;
+using test::make_field;
+using test::Stage;
+
+/// One update's transport operator over a scene, made as the field makes it.
+class Transport {
+ public:
+  Transport(const Stage& stage, const FieldSettings& settings)
+      : grid_(fit_grid(settings, stage.bounds()).value()),
+        store_({grid_.origin, grid_.spacing, grid_.count}, settings),
+        directions_(probe_ray_directions(settings.rays_per_probe, 0, settings.seed)),
+        blend_(settings.irradiance_texels, 1.0f, directions_),
+        fit_(blend_.texels(), blend_.texels(), tile_fit_matrix(settings.irradiance_texels)) {
+    const BlendMatrix distance_blend(settings.distance_texels, kDistanceExponent, directions_);
+    std::vector<Hit> hits;
+    trace_probe_rays(stage.world.tracer(), store_.grid(), directions_, hits);
+    blend_distances(stage.scene, distance_blend, hits, 1.0f, 0u, store_);
+    shade_surfels(stage.world, store_.grid(), directions_, hits, settings, 0u, surfels_);
+    find_surfel_lookups(store_, directions_, surfels_);
+    texels_ = settings.irradiance_texels;
+  }
+
+  TransportOperator make_operator() const {
+    return {store_.grid(), surfels_, blend_, fit_, texels_};
+  }
+  WorkingIrradiance darkness() const {
+    return WorkingIrradiance(static_cast<std::size_t>(store_.probes()) * texels_ * texels_,
+                             vec4(0.0f));
+  }
+
+ private:
+  FieldGrid grid_;
+  ProbeStore store_;
+  std::vector<vec3> directions_;
+  BlendMatrix blend_, fit_;
+  Surfels surfels_;
+  int texels_;
+};
+
+FieldSettings few_probes() {
+  FieldSettings settings = test::exact_formats();
+  settings.probe_count = {6, 4, 4};
+  settings.rays_per_probe = 64;
+  return settings;
+}
+
+/// Rooms that light leaves slowly, which makes them hard to solve.
+const Stage& rooms() {
+  static const Stage stage("two-rooms");
+  return stage;
+}
+
+double norm(const WorkingIrradiance& field) {
+  double sum = 0.0;
+  for (const vec4& e : field) sum += glm::dot(e, e);
+  return std::sqrt(sum);
+}
+
+double relative_distance(WorkingIrradiance a, const WorkingIrradiance& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] -= b[i];
+  return norm(a) / norm(b);
+}
+
+/// So many plain applications of the operator to darkness: the Neumann sum.
+WorkingIrradiance neumann_sum(const Transport& transport, int terms) {
+  const TransportOperator op = transport.make_operator();
+  WorkingIrradiance field = transport.darkness(), next = field;
+  for (int i = 0; i < terms; ++i) {
+    op.apply(field, transport.darkness(), next);
+    field.swap(next);
+  }
+  return field;
+}
+
+TEST(Relight, AcceleratedSolutionEqualsTheNeumannSumToTheTolerance) {
+  const Transport transport(rooms(), few_probes());
+  const TransportOperator op = transport.make_operator();
+  const WorkingIrradiance truth = neumann_sum(transport, 400);
+  ASSERT_GT(norm(truth), 0.0);
+  for (const float tolerance : {1e-2f, 1e-3f, 1e-4f}) {
+    WorkingIrradiance solution = transport.darkness();
+    const RelightResult result =
+        relight(op, transport.darkness(), {1.0f, 0.95f, tolerance, 200}, solution);
+    EXPECT_LE(result.error, tolerance);
+    EXPECT_LT(result.iterations, 200);
+    // The error is estimated, from how fast steps shrink
+    EXPECT_LE(relative_distance(solution, truth), 1.5f * tolerance);
+  }
+}
+
+TEST(Relight, AccelerationSavesIterations) {
+  const Transport transport(rooms(), few_probes());
+  const TransportOperator op = transport.make_operator();
+  const WorkingIrradiance truth = neumann_sum(transport, 400);
+  WorkingIrradiance solution = transport.darkness();
+  const RelightResult result =
+      relight(op, transport.darkness(), {1.0f, 0.95f, 1e-4f, 200}, solution);
+  // As many plain applications stay farther from the truth
+  EXPECT_GT(relative_distance(neumann_sum(transport, result.iterations), truth),
+            3.0 * relative_distance(solution, truth));
+}
+
+TEST(Relight, AWarmStartIsFasterThanACold) {
+  const Transport transport(rooms(), few_probes());
+  const TransportOperator op = transport.make_operator();
+  const RelightSettings settings{1.0f, 0.95f, 1e-4f, 200};
+  WorkingIrradiance solution = transport.darkness();
+  const int cold = relight(op, transport.darkness(), settings, solution).iterations;
+  const int warm = relight(op, transport.darkness(), settings, solution).iterations;
+  EXPECT_LT(warm, cold);
+}
+
+TEST(Relight, StopsAtTheIterationsItIsGiven) {
+  const Transport transport(rooms(), few_probes());
+  WorkingIrradiance solution = transport.darkness();
+  const RelightResult result =
+      relight(transport.make_operator(), transport.darkness(), {1.0f, 0.95f, 1e-6f, 3}, solution);
+  EXPECT_EQ(result.iterations, 3);
+  EXPECT_GT(result.error, 1e-6);
+}
+
+TEST(Relight, BouncesArePlainApplications) {
+  const Transport transport(rooms(), few_probes());
+  for (const int bounces : {0, 1, 2, 5}) {
+    WorkingIrradiance solution = transport.darkness();
+    const RelightResult result =
+        relight_bounces(transport.make_operator(), transport.darkness(), bounces, solution);
+    EXPECT_EQ(result.iterations, bounces);
+    // There is no sky, so the sum starts from darkness
+    EXPECT_EQ(solution, neumann_sum(transport, bounces)) << bounces;
+  }
+}
+
+/// Points in the middle of the rooms that face six ways.
+std::vector<FieldQuery> points_in_rooms() {
+  std::vector<FieldQuery> queries;
+  for (const glm::vec3 position :
+       {glm::vec3(-2.0f, 1.0f, 0.3f), glm::vec3(1.0f, 1.5f, 1.0f), glm::vec3(3.0f, 0.5f, -1.0f)}) {
+    for (int axis = 0; axis < 6; ++axis) {
+      glm::vec3 normal(0.0f);
+      normal[axis / 2] = axis % 2 == 0 ? 1.0f : -1.0f;
+      queries.push_back({position, normal, normal});
+    }
+  }
+  return queries;
+}
+
+TEST(IrradianceField, LightOnlyGrowsWithBounces) {
+  const std::vector<FieldQuery> queries = points_in_rooms();
+  std::vector<glm::vec3> fewer(queries.size(), glm::vec3(0.0f));
+  double fewer_sum = -1.0;
+  for (const int bounces : {0, 1, 2, 3, 6, 12, -1}) {
+    FieldSettings settings = few_probes();
+    settings.max_bounces = bounces;
+    settings.relight_tolerance = 1e-5f;
+    settings.max_relights = 200;
+    const std::vector<glm::vec3> light = look_up(make_field(rooms(), settings), queries);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < light.size(); ++i) {
+      sum += light[i].x + light[i].y + light[i].z;
+      for (int c = 0; c < 3; ++c) EXPECT_GE(light[i][c], fewer[i][c] * 0.998f) << bounces;
+    }
+    EXPECT_GT(sum, fewer_sum) << bounces;
+    fewer = light;
+    fewer_sum = sum;
+  }
+}
+
+TEST(IrradianceField, AllBouncesEqualVeryMany) {
+  FieldSettings settings = few_probes();
+  settings.relight_tolerance = 1e-4f;
+  settings.max_relights = 100;
+  const std::vector<FieldQuery> queries = points_in_rooms();
+  const std::vector<glm::vec3> all = look_up(make_field(rooms(), settings), queries);
+  settings.max_bounces = 200;
+  const std::vector<glm::vec3> many = look_up(make_field(rooms(), settings), queries);
+  // The tolerance is a share of all light: of what the lit room holds, in the dark room, too
+  float brightest = 0.0f;
+  for (const glm::vec3& e : many) brightest = std::max(brightest, glm::length(e));
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    EXPECT_LT(glm::distance(all[i], many[i]), 3e-4f * brightest) << i;
+  }
+}
+
+}  // namespace
+}  // namespace lambent
