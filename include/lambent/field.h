@@ -59,7 +59,8 @@ struct FieldSettings {
   DistanceFormat distance_format = DistanceFormat::rg16f;
 
   /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
-  /// share of it, 1e-7 to 1. Ten times less costs a few iterations more.
+  /// share of it, 1e-7 to 1. Ten times less costs a few iterations more; under some 1e-6
+  /// rounding is in the way.
   float relight_tolerance = 0.002f;
   /// ... or after so many iterations, 1 to 1000. Each costs a fraction of tracing.
   int max_relights = 32;
@@ -102,7 +103,7 @@ struct UpdateStatistics {
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int relights = 0;               ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;          ///< Estimated relative error it stopped at.
+  double residual = 0.0;          ///< Estimated relative error this update stopped at.
   double change = 0.0;            ///< Of the stored light, root mean square over root mean square.
 };
 

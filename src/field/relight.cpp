@@ -37,6 +37,10 @@ double dot(const WorkingIrradiance& a, const WorkingIrradiance& b) {
   });
 }
 
+double norm(const WorkingIrradiance& a) {
+  return std::sqrt(dot(a, a));
+}
+
 /// result = a + scale * b
 void add_scaled(const WorkingIrradiance& a, float scale, const WorkingIrradiance& b,
                 WorkingIrradiance& result) {
@@ -235,8 +239,8 @@ double blended_change(const WorkingIrradiance& history, const WorkingIrradiance&
                       float share) {
   WorkingIrradiance difference(history.size());
   add_scaled(solution, -1.0f, history, difference);
-  const double norm = std::sqrt(dot(solution, solution));
-  return norm > 0.0 ? share * std::sqrt(dot(difference, difference)) / norm : 0.0;
+  const double whole = norm(solution);
+  return whole > 0.0 ? share * norm(difference) / whole : 0.0;
 }
 
 RelightResult relight(const TransportOperator& transport, const WorkingIrradiance& history,
@@ -245,7 +249,6 @@ RelightResult relight(const TransportOperator& transport, const WorkingIrradianc
   WorkingIrradiance field(size), image(size), residual(size), previous_image, previous_residual;
   AndersonMemory memory;
   RelightResult result;
-  double previous_norm = 0.0;
   const double bound = static_cast<double>(settings.blend) * settings.max_albedo;
   double observed = 0.0;
   double contraction = bound;
@@ -261,30 +264,30 @@ RelightResult relight(const TransportOperator& transport, const WorkingIrradianc
     ++result.iterations;
     add_scaled(image, -1.0f, solution, residual);
 
-    // Estimate the error: a contraction by q leaves q / (1 - q) of the last step to go. One step
-    // knows only that nothing reflects more than the largest albedo; later ones have seen how fast
-    // steps shrink
-    const double norm = std::sqrt(dot(residual, residual));
-    const double image_norm = std::sqrt(dot(image, image));
-    if (result.iterations > 1 && previous_norm > 0.0) {
-      observed = std::max(observed, norm / previous_norm);
+    // Compute the contraction: by how much an image changed less than what it is the image of. One
+    // step knows only that nothing reflects more than the largest albedo
+    if (!previous_residual.empty()) {
+      WorkingIrradiance residual_change(size), image_change(size), change(size);
+      add_scaled(residual, -1.0f, previous_residual, residual_change);
+      add_scaled(image, -1.0f, previous_image, image_change);
+      add_scaled(image_change, -1.0f, residual_change, change);
+      const double change_norm = norm(change);
+      if (change_norm > 0.0) observed = std::max(observed, norm(image_change) / change_norm);
       contraction = std::min(bound, std::max(observed, kMinContraction));
+      memory.push(std::move(residual_change), std::move(image_change));
     }
+
+    // Estimate the error: a contraction by q leaves q / (1 - q) of the last step to go
+    const double image_norm = norm(image);
     const double remaining = contraction / (1.0 - contraction);
-    result.error = image_norm > 0.0 ? settings.blend * remaining * norm / image_norm : 0.0;
+    result.error =
+        image_norm > 0.0 ? settings.blend * remaining * norm(residual) / image_norm : 0.0;
     if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {
       solution.swap(image);
       return result;
     }
-    previous_norm = norm;
 
     // Extrapolate from the last steps; the plain next iterate is the image itself
-    if (!previous_residual.empty()) {
-      WorkingIrradiance residual_change(size), image_change(size);
-      add_scaled(residual, -1.0f, previous_residual, residual_change);
-      add_scaled(image, -1.0f, previous_image, image_change);
-      memory.push(std::move(residual_change), std::move(image_change));
-    }
     previous_residual = residual;
     previous_image = image;
     solution = image;

@@ -38,7 +38,7 @@ struct LitPoint {
 /// Share of the samples of emissive surfaces that follow the cosine instead of the sources' power.
 /// Power alone is best for far lamps, but a point near an emitter then gets rare, enormous samples:
 /// the mixed density bounds them by pi / kCosineShare times the radiance.
-inline constexpr float kCosineShare = 0.25f;
+inline constexpr float kCosineShare = 0.1f;
 
 /// Where an emissive triangle was found, and with which density.
 struct EmitterPoint {

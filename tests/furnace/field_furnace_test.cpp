@@ -45,7 +45,7 @@ RenderedFrame render(const Stage& stage, const IrradianceField* field, int gathe
   frame.width = 64;
   frame.height = 36;
   frame.samples = 4;
-  frame.emissive_samples = 8;
+  frame.emissive_samples = 32;
   frame.gather_rays = gather_rays;
   return render_frame(stage.world, field, stage.scene.cameras[0], frame);
 }
