@@ -31,13 +31,28 @@ Expected<void> render_picture(const RenderOptions& options, const World& world, 
   return painter.verify(world, *camera, *image, stats);
 }
 
-/// Poses the scene at the time that the options ask for.
-Expected<void> pose(const RenderOptions& options, Scene& scene) {
-  if (!options.time_s) return {};
-  if (scene.animations.empty()) {
+/// The animation that the options name; -1: all of them.
+Expected<int> chosen_animation(const RenderOptions& options, const Scene& scene) {
+  if (options.animation.empty()) return -1;
+  std::string known;
+  for (int i = 0; i < static_cast<int>(scene.animations.size()); ++i) {
+    const std::string& name = scene.animations[i].name;
+    if (options.animation == name || options.animation == std::to_string(i)) return i;
+    known += (i == 0 ? "" : ", ") + std::to_string(i) + " " + name;
+  }
+  return fail("--animation", "",
+              "no animation '" + options.animation + "'; the scene has " +
+                  (known.empty() ? std::string("none") : known));
+}
+
+/// Poses the scene at the time that the options ask for, a sequence's start included.
+Expected<void> pose(const RenderOptions& options, int animation, Scene& scene) {
+  if (options.time_s && scene.animations.empty()) {
     return fail("--time", "", "the scene has no animation that can be played");
   }
-  animate(scene, -1, *options.time_s);
+  if (options.time_s || options.frames > 0) {
+    animate(scene, animation, options.time_s.value_or(0.0f));
+  }
   return {};
 }
 
@@ -50,7 +65,9 @@ Expected<void> render(const RenderOptions& options) {
 
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
-  if (const auto posed = pose(options, *scene); !posed) return posed;
+  const auto animation = chosen_animation(options, *scene);
+  if (!animation) return tl::unexpected(animation.error());
+  if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
   World world(*scene);
 
   Json stats;
@@ -63,9 +80,9 @@ Expected<void> render(const RenderOptions& options) {
   stats["acceleration_structure_bytes"] = world.bytes();
 
   Painter painter(options, *size);
-  const Expected<void> done = options.frames > 0
-                                  ? render_sequence(options, *scene, world, painter, stats)
-                                  : render_picture(options, world, painter, stats);
+  const Expected<void> done =
+      options.frames > 0 ? render_sequence(options, *scene, *animation, world, painter, stats)
+                         : render_picture(options, world, painter, stats);
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;
   const auto told = write_file_atomically(options.stats, stats.dump(2) + "\n");

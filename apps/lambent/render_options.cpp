@@ -31,6 +31,8 @@ constexpr float kMaxFps = 1e6f;
 void add_sequence_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--time", o.time_s,
                      "Time of the scene's animation [s]; of a sequence's start");
+  command.add_option("--animation", o.animation,
+                     "Which animation of the scene plays, by index or name (all at once)");
   command.add_option("--frames", o.frames, "Write a sequence of so many pictures")
       ->check(CLI::Range(1, kMaxFrames));
   o.fps_option = command.add_option("--fps", o.fps, "Frames of a sequence a second")
@@ -102,6 +104,9 @@ Expected<void> check_options(const RenderOptions& options) {
   }
   if (options.time_s && !std::isfinite(*options.time_s)) {
     return fail("--time", "", "is not a finite number of seconds");
+  }
+  if (!options.animation.empty() && !options.time_s && options.frames == 0) {
+    return fail("--animation", "", "goes with --time or --frames");
   }
   if (options.frames == 0 && options.fps_option->count() > 0) {
     return fail("--fps", "", "goes with --frames");

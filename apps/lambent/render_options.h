@@ -37,6 +37,7 @@ struct RenderOptions {
   int verify_samples = 0;
 
   std::optional<float> time_s;  // none: the rest pose, or the start of a sequence
+  std::string animation;        // by index or name; empty: all at once
   int frames = 0;               // 0: one picture
   float fps = 24.0f;
   int frame_updates = 1;  // of the field, before each frame after the first

@@ -39,8 +39,8 @@ class InterruptGuard {
 
 }  // namespace
 
-Expected<void> render_sequence(const RenderOptions& options, Scene& scene, World& world,
-                               Painter& painter, nlohmann::ordered_json& stats) {
+Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation,
+                               World& world, Painter& painter, nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
@@ -53,7 +53,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, World
     }
     const double time =
         static_cast<double>(options.time_s.value_or(0.0f)) + i / static_cast<double>(options.fps);
-    animate(scene, -1, static_cast<float>(time));
+    animate(scene, animation, static_cast<float>(time));
     const Expected<WorldChanges> changes = world.update();
     if (!changes) return tl::unexpected(changes.error());
 

@@ -92,6 +92,20 @@ TEST_F(RenderSequence, StartsAtTheTimeThatIsAskedFor) {
   EXPECT_NE(mean_of(one), mean_of(directory.file("many.0000.exr")));
 }
 
+TEST_F(RenderSequence, PlaysTheAnimationThatIsChosen) {
+  const std::string stats = directory.file("stats.json");
+  for (const std::string name : {"door", "1"}) {
+    ASSERT_EQ(run_program("render atrium --method direct --size 8x8 --samples 1 --frames 2 --fps 1 "
+                          "--animation " +
+                          name + " --stats " + stats + " -o " + directory.file("out.exr"))
+                  .status,
+              0);
+    const auto frame = json_of(stats)["frames"][1];
+    EXPECT_EQ(frame["moved_boxes"], name == "door" ? 4 : 0);
+    EXPECT_EQ(frame["changed_lights"], name == "door" ? 0 : 1);
+  }
+}
+
 TEST_F(RenderSequence, OfAFileIsThatOfTheBuiltInScene) {
   const std::string glb = directory.file("atrium.glb");
   ASSERT_EQ(run_program("make-scene atrium -o " + glb).status, 0);
@@ -150,16 +164,18 @@ TEST_P(BadSequence, IsStatusTwoAndLeavesNoFile) {
 
 INSTANTIATE_TEST_SUITE_P(
     Arguments, BadSequence,
-    ::testing::Values(BadUse{"time_without_animation", "cornell --time 1", "no animation"},
-                      BadUse{"time_not_a_number", "atrium --time nan", "--time"},
-                      BadUse{"no_frames", "atrium --frames 0", "--frames"},
-                      BadUse{"negative_frames", "atrium --frames=-3", "--frames"},
-                      BadUse{"no_fps", "atrium --frames 2 --fps 0", "--fps"},
-                      BadUse{"fps_not_a_number", "atrium --frames 2 --fps nan", "--fps"},
-                      BadUse{"fps_without_frames", "atrium --fps 25", "--frames"},
-                      BadUse{"verify_of_a_sequence", "cornell --frames 2 --verify 4", "--verify"},
-                      BadUse{"updates_without_field", "cornell --frames 2 --frame-updates 2",
-                             "--frame-updates"}),
+    ::testing::Values(
+        BadUse{"time_without_animation", "cornell --time 1", "no animation"},
+        BadUse{"time_not_a_number", "atrium --time nan", "--time"},
+        BadUse{"unknown_animation", "atrium --time 1 --animation night", "0 door, 1 day"},
+        BadUse{"animation_of_what_is_still", "atrium --animation day", "--time"},
+        BadUse{"no_frames", "atrium --frames 0", "--frames"},
+        BadUse{"negative_frames", "atrium --frames=-3", "--frames"},
+        BadUse{"no_fps", "atrium --frames 2 --fps 0", "--fps"},
+        BadUse{"fps_not_a_number", "atrium --frames 2 --fps nan", "--fps"},
+        BadUse{"fps_without_frames", "atrium --fps 25", "--frames"},
+        BadUse{"verify_of_a_sequence", "cornell --frames 2 --verify 4", "--verify"},
+        BadUse{"updates_without_field", "cornell --frames 2 --frame-updates 2", "--frame-updates"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 }  // namespace
