@@ -27,8 +27,8 @@ bool is_back_face(const Scene& scene, const Hit& hit) {
 
 }  // namespace
 
-void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<const Hit> hits,
-                     float share, uint salt, ProbeStore& store) {
+void blend_distances(const Scene& scene, const BlendMatrix& blend, const TraceGroup& group,
+                     std::span<const float> shares, uint salt, ProbeStore& store) {
   const int rays = blend.rays();
   const int texels = blend.texels();
   const float farthest = max_probe_distance(store.grid());
@@ -38,13 +38,13 @@ void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<con
   std::vector<vec2> totals(texels);
   blend.apply2(ones.data(), &totals[0].x);
 
-  parallel_chunks(store.probes(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<vec2> values(rays), sums(texels), moments(texels);
-    for (int probe = static_cast<int>(begin); probe < static_cast<int>(end); ++probe) {
+    for (std::size_t k = begin; k < end; ++k) {
       // Cut the distances and count the back faces
       int back_faces = 0;
       for (int i = 0; i < rays; ++i) {
-        const Hit& hit = hits[static_cast<std::size_t>(probe) * rays + i];
+        const Hit& hit = group.hits[k * rays + i];
         float distance = min(hit.distance, farthest);
         if (is_back_face(scene, hit)) {
           ++back_faces;
@@ -60,7 +60,7 @@ void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<con
       for (int t = 0; t < texels; ++t) {
         moments[t] = inside_matter ? vec2(0.0f) : sums[t] / totals[t];
       }
-      store.blend_moments(probe, moments, share, salt);
+      store.blend_moments(group.probes[k], moments, shares[k], salt);
     }
   });
 }

@@ -5,7 +5,7 @@
 
 #include "field/blend.h"
 #include "field/probe_store.h"
-#include "raytracing/raytracer.h"
+#include "field/surfels.h"
 
 namespace lambent {
 
@@ -16,10 +16,10 @@ namespace lambent {
 /// against 9.1 %); 200 gains nothing.
 inline constexpr float kDistanceExponent = 100.0f;
 
-/// Blends the distances of an update's rays into the store: mean and mean square along each texel's
-/// direction. `hits` has an entry a ray, probe after probe; `share` is the part of the new values,
-/// 0 to 1.
-void blend_distances(const Scene& scene, const BlendMatrix& blend, std::span<const Hit> hits,
-                     float share, uint salt, ProbeStore& store);
+/// Blends the distances that a group's rays met into the store: mean and mean square along each
+/// texel's direction. `shares` holds one number a probe of the group: the part of the new values, 0
+/// to 1.
+void blend_distances(const Scene& scene, const BlendMatrix& blend, const TraceGroup& group,
+                     std::span<const float> shares, uint salt, ProbeStore& store);
 
 }  // namespace lambent

@@ -37,7 +37,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ShadedHit& result = shaded[i];
     result = {};
-    result.normal_ws = -rays[i].direction;
+    result.normal_ws = result.geometric_normal_ws = -rays[i].direction;
     result.position_ws = rays[i].origin;
     if (hits[i].missed()) {
       result.sky_radiance = sky_radiance(scene.environment, rays[i].direction);
@@ -49,6 +49,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
         surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
     result.position_ws = surface.position_ws;
     result.normal_ws = surface.normal_ws;
+    result.geometric_normal_ws = surface.geometric_normal_ws;
     if (!surface.front_face && !surface.double_sided && !settings.back_faces_count) {
       result.counts = false;
       continue;
