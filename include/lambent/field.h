@@ -106,7 +106,7 @@ struct UpdateRequest {
   /// the smaller of both bounds holds.
   double time_budget_ms = 0.0;
   /// Where the camera is [m]: of probes equally unsettled, near ones go first.
-  std::optional<glm::vec3> viewer_ws;
+  std::optional<glm::vec3> viewer_ws = std::nullopt;
 };
 
 /// What an update did. Times are wall-clock [ms].

@@ -13,6 +13,7 @@
 #include "field/schedule.h"
 #include "field/surfels.h"
 #include "lambent/field.h"
+#include "lambent/world.h"
 
 namespace lambent {
 
@@ -23,6 +24,9 @@ struct OpenEdits {
   WorkingIrradiance gain;      ///< What was held over what the last rays told, where followed.
   std::vector<int> followed;   ///< In ascending order.
 };
+
+/// Which of the probes that edits of the world may have touched an update held against them.
+enum class Followed { nothing, some, all };
 
 struct IrradianceField::State {
   State(const FieldSettings& field_settings, const FieldGrid& field_grid);
@@ -37,6 +41,7 @@ struct IrradianceField::State {
   OpenEdits edits;
   RayCost ray_cost;
   int updates = 0;
+  float mean_light = 0.0f;     ///< Luminance that probes hold on average, when last traced.
   bool followed_last = false;  ///< The last update followed edits and traced nothing else.
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
@@ -49,9 +54,15 @@ struct IrradianceField::State {
     return {store.grid(), traces, probes, tile_fit, settings.irradiance_texels};
   }
 
-  /// Follows the world's edits with at most so many rays (0: no bound). Returns whether there was
-  /// anything to follow.
-  bool follow(const World& world, std::uint64_t ray_budget, UpdateStatistics& statistics);
+  /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
+  Followed follow(const World& world, std::uint64_t ray_budget,
+                  const std::optional<vec3>& viewer_ws, UpdateStatistics& statistics);
+  void keep_gain(std::span<const int> probes);
+  void follow_slice(const World& world, std::span<const WorldChanges> changes,
+                    std::span<const int> probes, std::span<const int> all,
+                    UpdateStatistics& statistics);
+  void solve_edits(bool done, UpdateStatistics& statistics);
+  void forget_light(std::span<const int> probes, std::uint64_t revision);
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Encodes the light of some probes.

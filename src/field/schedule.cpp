@@ -45,13 +45,30 @@ int class_for(float rays) {
   return kRayClasses.back();
 }
 
-/// Variance of the mean that a probe holds, relative to it.
-float relative_variance(const ProbeRecord& record) {
-  return record.noise / std::max(record.samples, 1.0f);
+/// Relative variance of what one update tells of a probe, as its neighbours have it on average: a
+/// probe's own is the lower the less of what is bright it has met so far, and resting on it would
+/// leave the light too dark for good.
+float noise_around(const ProbeGrid& grid, std::span<const ProbeRecord> records, int probe) {
+  const ivec3 place = probe_coords(grid, probe);
+  float sum = records[probe].noise;
+  int count = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      ivec3 next = place;
+      next[axis] += side;
+      if (next[axis] < 0 || next[axis] >= grid.count[axis]) continue;
+      const ProbeRecord& record = records[probe_index(grid, next)];
+      if (!is_live(record)) continue;
+      sum += record.noise;
+      ++count;
+    }
+  }
+  return sum / static_cast<float>(count);
 }
 
 struct Candidate {
   float urgency;
+  float noise;  // standard deviation
   int probe;
 };
 
@@ -93,7 +110,8 @@ Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> r
     const int probe = static_cast<int>(i);
     const std::uint32_t age = update - record.served;
     const bool old = record.served == 0 || age >= kMaxAge;
-    const float error = std::sqrt(relative_variance(record));
+    const float noise = std::sqrt(noise_around(store.grid(), records, probe));
+    const float error = noise / std::sqrt(std::max(record.samples, 1.0f));
     if (!old && (error < kSettledError || record.samples >= longest)) continue;
     float worth = 1.0f;
     if (viewer_ws) {
@@ -101,8 +119,8 @@ Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> r
       worth = kHalfWorthCells / (kHalfWorthCells + cells);
     }
     const float urgency = old ? static_cast<float>(age) + 1.0f : std::min(error * worth, 1.0f);
-    candidates.push_back({urgency, probe});
-    noise_sum += std::sqrt(record.noise);
+    candidates.push_back({urgency, noise, probe});
+    noise_sum += noise;
   }
   if (candidates.empty()) return {};
   const double mean_noise = noise_sum / static_cast<double>(candidates.size());
@@ -120,8 +138,7 @@ Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> r
   std::vector<std::pair<int, int>> chosen;
   std::uint64_t spent = 0;
   for (std::size_t i = 0; i < most; ++i) {
-    const ProbeRecord& record = records[candidates[i].probe];
-    const double share = mean_noise > 0.0 ? std::sqrt(record.noise) / mean_noise : 1.0;
+    const double share = mean_noise > 0.0 ? candidates[i].noise / mean_noise : 1.0;
     const int rays = class_for(static_cast<float>(settings.rays_per_probe * share));
     if (spent + rays > ray_budget) break;
     spent += rays;

@@ -21,14 +21,15 @@ inline float mean_luminance(TileLight tile) {
   return sum / static_cast<float>(tile.size());
 }
 
-/// Mean square of the difference between two tiles over the squared mean of the second.
-inline float relative_square(TileLight a, TileLight b) {
+/// Mean square of the difference between two tiles over the squared mean of the second, or over
+/// `darkest` squared where it is darker.
+inline float relative_square(TileLight a, TileLight b, float darkest = 0.0f) {
   float sum = 0.0f;
   for (std::size_t t = 0; t < a.size(); ++t) {
     const float difference = luminance(glm::vec3(a[t] - b[t]));
     sum += difference * difference;
   }
-  const float mean = mean_luminance(b);
+  const float mean = glm::max(mean_luminance(b), darkest);
   return sum / (static_cast<float>(a.size()) * glm::max(mean * mean, kTiniestLight));
 }
 

@@ -20,6 +20,10 @@ constexpr std::size_t kProbesPerTask = 64;
 // Keeps the random numbers of the store's dither apart from those of other passes.
 constexpr uint kStoreSalt = 0x53544F52u;
 
+// Noise of probes darker than this share of all is judged as if they were as bright: an eye that
+// has adapted to the scene sees no more of it.
+constexpr float kDarkShare = 0.02f;
+
 }  // namespace
 
 uint IrradianceField::State::salt() const {
@@ -88,14 +92,20 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
 
   // What was blended in is a share of how far the rays were from what was held
   const auto texels = static_cast<std::size_t>(tile_texels());
+  const float darkest = kDarkShare * mean_light;
+  double light_sum = 0.0;
   for (std::size_t k = 0; k < probes.size(); ++k) {
     ProbeRecord& record = records[probes[k]];
-    const float square =
-        relative_square({&light[probes[k] * texels], texels}, {&history[k * texels], texels});
+    const TileLight held(&light[probes[k] * texels], texels), before(&history[k * texels], texels);
+    const float square = relative_square(held, before, darkest);
+    light_sum += mean_luminance(held);
     learn_noise(square / (shares[k] * shares[k]), weights[k], record);
     record.samples = min(record.samples, longest);
     record.served = static_cast<std::uint32_t>(updates) + 1;
     record.revision = world.revision();
+  }
+  if (!probes.empty()) {
+    mean_light = static_cast<float>(light_sum / static_cast<double>(probes.size()));
   }
   store_light(probes);
   statistics.blend_ms += watch.lap();
@@ -111,10 +121,13 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     budget = budget == 0 ? learned : std::min(budget, learned);
   }
 
-  const bool followed = s.follow(world, budget, statistics);
+  const Followed followed = s.follow(world, budget, request.viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
-  const bool trace = budget == 0 ? !followed || s.followed_last : spent < budget;
-  s.followed_last = followed && !trace;
+  // Probes that wait to be held against edits would lose sight of them were they traced before
+  const bool trace =
+      followed != Followed::some &&
+      (budget == 0 ? followed == Followed::nothing || s.followed_last : spent < budget);
+  s.followed_last = followed != Followed::nothing && !trace;
   if (trace) {
     const auto update = static_cast<uint>(s.updates);
     const Schedule schedule = budget == 0
