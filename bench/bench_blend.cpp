@@ -47,15 +47,14 @@ void blend_irradiance(benchmark::State& state) {
 void blend_distances_of_all_probes(benchmark::State& state) {
   const Workload& work = workload();
   const FieldSettings& settings = work.field.settings();
-  const std::vector<vec3> directions = directions_of(work);
-  const BlendMatrix blend(settings.distance_texels, kDistanceExponent, directions);
+  const TraceGroup traced = trace_all_probes(work);
+  const DistanceBlend blend(settings, traced.rays->directions);
+  const std::vector<float> shares(traced.probes.size(), 0.1f);
   ProbeStore store(work.field.store().grid(), settings);
-  std::vector<Hit> hits;
-  trace_probe_rays(work.world.tracer(), store.grid(), directions, hits);
   Median ms;
   for (auto _ : state) {
     const double elapsed =
-        time_ms([&] { blend_distances(work.scene, blend, hits, 0.1f, 1u, store); });
+        time_ms([&] { blend_distances(work.scene, blend, traced, shares, 1u, store); });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
   }

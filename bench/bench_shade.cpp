@@ -2,7 +2,6 @@
 // From hits to surfels: surfaces, direct light with its shadow rays, and where surfels look the
 // field up.
 #include "bench/workload.h"
-#include "field/blend.h"
 #include "field/probe_store.h"
 #include "field/surfels.h"
 
@@ -11,28 +10,17 @@ namespace {
 
 constexpr int kRepetitions = 9;
 
-struct Hits {
-  explicit Hits(const Workload& work)
-      : directions(probe_ray_directions(work.field.settings().rays_per_probe, 0,
-                                        work.field.settings().seed)) {
-    trace_probe_rays(work.world.tracer(), work.field.store().grid(), directions, hits);
-  }
-  std::vector<vec3> directions;
-  std::vector<Hit> hits;
-};
-
 void shade(benchmark::State& state) {
   const Workload& work = workload();
-  const Hits traced(work);
+  const TraceGroup traced = trace_all_probes(work);
   const UpdateRays rays = record_update_rays(work, 0);
   std::vector<std::uint8_t> occluded;
-  Surfels surfels;
+  std::vector<ProbeTrace> traces(traced.probes.size());
   Median ms, ratio;
   for (auto _ : state) {
     const double shadows = time_occlusions(work, rays.shadow_rays, occluded);
     const double elapsed = time_ms([&] {
-      shade_surfels(work.world, work.field.store().grid(), traced.directions, traced.hits,
-                    work.field.settings(), 0u, surfels);
+      shade_surfels(work.world, work.field.store(), traced, work.field.settings(), traces);
     });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
@@ -40,24 +28,23 @@ void shade(benchmark::State& state) {
   }
   state.counters["median_ms"] = ms.value();
   state.counters["ratio_to_shadow_tracing"] = ratio.value();
-  state.counters["surfels"] = static_cast<double>(surfels.size());
+  state.counters["surfels"] = static_cast<double>(traced.hits.size());
 }
 
 void find_lookups(benchmark::State& state) {
   const Workload& work = workload();
-  const Hits traced(work);
-  Surfels surfels;
-  shade_surfels(work.world, work.field.store().grid(), traced.directions, traced.hits,
-                work.field.settings(), 0u, surfels);
+  const TraceGroup traced = trace_all_probes(work);
+  std::vector<ProbeTrace> traces(traced.probes.size());
+  shade_surfels(work.world, work.field.store(), traced, work.field.settings(), traces);
   Median ms;
   for (auto _ : state) {
     const double elapsed =
-        time_ms([&] { find_surfel_lookups(work.field.store(), traced.directions, surfels); });
+        time_ms([&] { find_surfel_lookups(work.field.store(), traced.probes, traces); });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
   }
   state.counters["median_ms"] = ms.value();
-  state.counters["surfels"] = static_cast<double>(surfels.size());
+  state.counters["surfels"] = static_cast<double>(traced.hits.size());
 }
 
 BENCHMARK(shade)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numeric>
 #include <stdexcept>
 
 #include "core/parallel.h"
@@ -77,16 +78,25 @@ Workload& workload() {
   return work;
 }
 
+TraceGroup trace_all_probes(const Workload& work) {
+  const FieldSettings& settings = work.field.settings();
+  TraceGroup group;
+  group.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u);
+  group.probes.resize(work.field.store().probes());
+  std::iota(group.probes.begin(), group.probes.end(), 0);
+  trace_probe_rays(work.world.tracer(), work.field.store(), group);
+  return group;
+}
+
 UpdateRays record_update_rays(const Workload& work, int update) {
   const FieldSettings& settings = work.field.settings();
-  const ProbeGrid& grid = work.field.store().grid();
-  const std::vector<vec3> directions =
-      probe_ray_directions(settings.rays_per_probe, static_cast<uint>(update), settings.seed);
-  const ShadeHitsSettings shading = surfel_shading(settings, static_cast<uint>(update));
+  const ProbeStore& store = work.field.store();
+  const RaySet set(settings, settings.rays_per_probe, static_cast<uint>(update));
+  const ShadeHitsSettings shading = surfel_shading(settings, set);
 
   // Shade each probe's hits for the sake of the shadow rays
-  const std::size_t rays = directions.size();
-  std::vector<std::vector<Ray>> shadows(work.field.grid().probes());
+  const std::size_t rays = set.directions.size();
+  std::vector<std::vector<Ray>> shadows(store.probes());
   UpdateRays result;
   result.probe_rays.resize(shadows.size() * rays);
   parallel_chunks(shadows.size(), 8, [&](std::size_t begin, std::size_t end) {
@@ -94,11 +104,12 @@ UpdateRays record_update_rays(const Workload& work, int update) {
     std::vector<ShadedHit> shaded(rays);
     ShadeHitsScratch scratch;
     for (std::size_t probe = begin; probe < end; ++probe) {
-      const vec3 origin = probe_position(grid, probe_coords(grid, static_cast<int>(probe)));
+      const vec3 origin = store.probe_position_ws(static_cast<int>(probe));
       const std::span<Ray> batch(&result.probe_rays[probe * rays], rays);
-      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, set.directions[i]};
       work.world.tracer().closest_hits(batch, hits);
-      shade_hits(work.world, batch, hits, shading, probe * rays, scratch, shaded);
+      shade_hits(work.world, batch, hits, shading, first_ray_index(static_cast<int>(probe)),
+                 scratch, shaded);
       shadows[probe] = scratch.shadow_rays;
     }
   });

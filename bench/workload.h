@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "field/surfels.h"
 #include "lambent/field.h"
 #include "lambent/scene.h"
 #include "lambent/world.h"
@@ -33,6 +34,9 @@ struct Workload {
 /// The atrium, or the scene that the environment variable LAMBENT_BENCH_SCENE names; where that
 /// brings no light, under a sun and a sky. Throws where it cannot be read.
 Workload& workload();
+
+/// The first update's rays of all probes, traced.
+TraceGroup trace_all_probes(const Workload& work);
 
 /// Rays grouped as the passes trace them.
 struct UpdateRays {

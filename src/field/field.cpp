@@ -1,35 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Based on: McGuire et al., "Probe-based dynamic global illumination", US 2021/0012562; Majercik et
-// al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
-// One update of the irradiance field.
 #include "lambent/field.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "core/parallel.h"
-#include "core/stopwatch.h"
-#include "field/distances.h"
-#include "field/probe_store.h"
-#include "field/relight.h"
-#include "field/surfels.h"
+#include "field/field_state.h"
+#include "field/lookup_cpu.h"
 #include "field/tile_fit.h"
-#include "lambent/world.h"
-#include "shared/random.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kQueriesPerTask = 4096;
-constexpr std::size_t kProbesPerTask = 64;
-
-// Keeps the random numbers of the store's dither apart from those of other passes.
-constexpr uint kStoreSalt = 0x53544F52u;
-
-int square(int x) {
-  return x * x;
-}
-
 Expected<void> check(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
@@ -54,57 +38,14 @@ Expected<void> check(const FieldSettings& s) {
 
 }  // namespace
 
-struct IrradianceField::State {
-  State(const FieldSettings& field_settings, const FieldGrid& field_grid)
-      : settings(field_settings),
-        grid(field_grid),
-        store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings),
-        tile_fit(square(settings.irradiance_texels), square(settings.irradiance_texels),
-                 tile_fit_matrix(settings.irradiance_texels)) {}
-
-  FieldSettings settings;
-  FieldGrid grid;
-  ProbeStore store;
-  BlendMatrix tile_fit;
-  Surfels surfels;
-  std::vector<Hit> hits;
-  int updates = 0;
-
-  void load_history(WorkingIrradiance& history) const;
-  void store_blended(const WorkingIrradiance& history, const WorkingIrradiance& solution,
-                     float share, uint salt);
-};
-
-/// Decodes the stored irradiance.
-void IrradianceField::State::load_history(WorkingIrradiance& history) const {
-  const int edge = settings.irradiance_texels;
-  parallel_chunks(store.probes(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      for (int t = 0; t < edge * edge; ++t) {
-        history[probe * edge * edge + t] = vec4(
-            store.irradiance_texel(static_cast<int>(probe), ivec2(t % edge, t / edge) + 1), 0.0f);
-      }
-    }
-  });
-}
-
-/// Blends the solution into the history, in linear light, and encodes the result.
-void IrradianceField::State::store_blended(const WorkingIrradiance& history,
-                                           const WorkingIrradiance& solution, float share,
-                                           uint salt) {
-  const std::size_t texels =
-      static_cast<std::size_t>(settings.irradiance_texels) * settings.irradiance_texels;
-  parallel_chunks(store.probes(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<vec3> interior(texels);
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      for (std::size_t t = 0; t < texels; ++t) {
-        const std::size_t index = probe * texels + t;
-        interior[t] = max(vec3(mix(history[index], solution[index], share)), vec3(0.0f));
-      }
-      store.store_irradiance(static_cast<int>(probe), interior, salt);
-    }
-  });
-}
+IrradianceField::State::State(const FieldSettings& field_settings, const FieldGrid& field_grid)
+    : settings(field_settings),
+      grid(field_grid),
+      store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings),
+      tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
+      traces(store.probes()),
+      records(store.probes()),
+      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {}
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
 IrradianceField::~IrradianceField() = default;
@@ -119,64 +60,15 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
   return IrradianceField(std::make_unique<State>(settings, *grid));
 }
 
-UpdateStatistics IrradianceField::update(const World& world) {
-  State& s = *state_;
-  const FieldSettings& settings = s.settings;
-  UpdateStatistics statistics;
-  Stopwatch watch;
-
-  // Draw this update's ray directions and with them the blend matrices
-  const uint update = static_cast<uint>(s.updates);
-  const std::vector<vec3> directions =
-      probe_ray_directions(settings.rays_per_probe, update, settings.seed);
-  const BlendMatrix irradiance_blend(settings.irradiance_texels, 1.0f, directions);
-  const BlendMatrix distance_blend(settings.distance_texels, kDistanceExponent, directions);
-  const uint salt = hash_pcg3d(uvec3(update, settings.seed, kStoreSalt)).x;
-
-  // The mean of all updates so far, until it has become an exponential moving average
-  const float share = max(1.0f / static_cast<float>(s.updates + 1), 1.0f - settings.hysteresis);
-  statistics.blend_ms += watch.lap();
-
-  trace_probe_rays(world.tracer(), s.store.grid(), directions, s.hits);
-  statistics.probe_rays = s.hits.size();
-  statistics.trace_ms = watch.lap();
-
-  blend_distances(world.scene(), distance_blend, s.hits, share, salt, s.store);
-  statistics.blend_ms += watch.lap();
-
-  statistics.shadow_rays =
-      shade_surfels(world, s.store.grid(), directions, s.hits, settings, update, s.surfels);
-  find_surfel_lookups(s.store, directions, s.surfels);
-  statistics.shade_ms = watch.lap();
-
-  // Solve for all bounces, starting from the light that is there
-  const std::size_t texels = static_cast<std::size_t>(s.store.probes()) *
-                             settings.irradiance_texels * settings.irradiance_texels;
-  WorkingIrradiance history(texels);
-  s.load_history(history);
-  WorkingIrradiance solution = history;
-  const TransportOperator transport(s.store.grid(), s.surfels, irradiance_blend, s.tile_fit,
-                                    settings.irradiance_texels);
-  const RelightResult solved =
-      settings.max_bounces >= 0
-          ? relight_bounces(transport, history, settings.max_bounces, solution)
-          : relight(transport, history,
-                    {share, settings.max_albedo, settings.relight_tolerance, settings.max_relights},
-                    solution);
-  statistics.relights = solved.iterations;
-  statistics.residual = solved.error;
-  statistics.change = blended_change(history, solution, share);
-  statistics.relight_ms = watch.lap();
-
-  s.store_blended(history, solution, share, salt);
-  ++s.updates;
-  statistics.blend_ms += watch.lap();
-  return statistics;
-}
-
 void IrradianceField::reset() {
-  state_->store.clear();
-  state_->updates = 0;
+  State& s = *state_;
+  s.store.clear();
+  std::fill(s.light.begin(), s.light.end(), vec4(0.0f));
+  std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
+  std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
+  s.edits = {};
+  s.followed_last = false;
+  s.updates = 0;
 }
 
 void IrradianceField::irradiance(std::span<const FieldQuery> queries,
@@ -201,7 +93,9 @@ std::size_t IrradianceField::store_bytes() const {
   return state_->store.bytes();
 }
 std::size_t IrradianceField::surfel_bytes() const {
-  return state_->surfels.bytes();
+  std::size_t bytes = 0;
+  for (const ProbeTrace& trace : state_->traces) bytes += trace.bytes();
+  return bytes;
 }
 const ProbeStore& IrradianceField::store() const {
   return state_->store;

@@ -2,6 +2,8 @@
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
 //   vec2 fetch_moments(int probe, vec3 direction)
 //       mean distance [m] and mean squared distance [m^2], bilinear
+//   vec3 fetch_offset(int probe)
+//       of the probe from its place on the grid, in shares of a cell
 //   vec3 fetch_irradiance(int probe, vec3 direction)
 //       linear irradiance [W/m^2], bilinear
 // In C++ it is included in the body of a struct that has these as members.
@@ -19,8 +21,8 @@ LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_
   for (int corner = 0; corner < 8; ++corner) {
     ivec3 offset = cell_corner(corner);
     ivec3 coords = cell.base + offset;
-    vec3 probe_ws = probe_position(grid, coords);
     int probe = probe_index(grid, coords);
+    vec3 probe_ws = probe_position(grid, coords) + fetch_offset(probe) * grid.spacing;
 
     // Ask the probe how far it sees along the direction to the biased point
     vec3 from_probe = biased_ws - probe_ws;

@@ -32,6 +32,7 @@ struct Tables {
         offsets(corner_offsets(grid)),
         distances_per_metre(1.0f / distance_unit(grid)),
         spacing_min(min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z))),
+        offset_words(store.offset_words().data()),
         distance_words(store.distance_words().data()),
         distance_texels(store.distance_texels()),
         irradiance_words(store.irradiance_words().data()),
@@ -41,6 +42,7 @@ struct Tables {
   CornerOffsets offsets;
   float distances_per_metre;  // units of the stored distances in a metre
   float spacing_min;
+  const uint* offset_words;
   const uint* distance_words;
   int distance_texels;
   const uint* irradiance_words;
@@ -89,12 +91,14 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
   const float last = static_cast<float>(t.distance_texels);
   const float scale = 0.5f * last;
   const int width = t.distance_texels + 2;
+  const vec3 spacing = t.grid.spacing;
   fetch.base = base;
 
   for (int k = 0; k < kCorners; ++k) {
-    const float px = low.x + ((k & 1) != 0 ? t.grid.spacing.x : 0.0f);
-    const float py = low.y + ((k & 2) != 0 ? t.grid.spacing.y : 0.0f);
-    const float pz = low.z + ((k & 4) != 0 ? t.grid.spacing.z : 0.0f);
+    const vec3 offset = decode_probe_offset(t.offset_words[base + t.offsets.probe[k]]);
+    const float px = low.x + ((k & 1) != 0 ? spacing.x : 0.0f) + offset.x * spacing.x;
+    const float py = low.y + ((k & 2) != 0 ? spacing.y : 0.0f) + offset.y * spacing.y;
+    const float pz = low.z + ((k & 4) != 0 ? spacing.z : 0.0f) + offset.z * spacing.z;
     fetch.trilinear[k] = ((k & 1) != 0 ? cell.fraction.x : 1.0f - cell.fraction.x) *
                          ((k & 2) != 0 ? cell.fraction.y : 1.0f - cell.fraction.y) *
                          ((k & 4) != 0 ? cell.fraction.z : 1.0f - cell.fraction.z);

@@ -73,6 +73,28 @@ LAMBENT_FN float distance_unit(ProbeGrid grid) {
   return power_of_two(exponent - kDistanceUnitBits);
 }
 
+// Probes leave their place on the grid by at most this share of a cell along each axis, so that
+// they never pass each other. JCGT 10(2) 2021, sec. 4.
+const float kMaxProbeOffset = 0.45f;
+
+// Offsets are stored as three signed numbers of 10 bits; 511 stands for kMaxProbeOffset.
+const int kOffsetBits = 10;
+const float kOffsetSteps = 511.0f;
+
+/// Offset of a probe from its place on the grid, in shares of a cell, clamped to what can be
+/// stored.
+LAMBENT_FN uint encode_probe_offset(vec3 cells) {
+  vec3 steps = clamp(cells / kMaxProbeOffset, vec3(-1.0f), vec3(1.0f)) * kOffsetSteps;
+  ivec3 q = ivec3(floor(steps + vec3(0.5f)));
+  return (uint(q.x) & 1023u) | ((uint(q.y) & 1023u) << 10u) | ((uint(q.z) & 1023u) << 20u);
+}
+
+LAMBENT_FN vec3 decode_probe_offset(uint word) {
+  // Shift each number's sign to the top and back
+  ivec3 q = ivec3(int(word << 22u) >> 22, int(word << 12u) >> 22, int(word << 2u) >> 22);
+  return vec3(q) * (kMaxProbeOffset / kOffsetSteps);
+}
+
 /// Trilinear weight of a corner.
 LAMBENT_FN float trilinear_weight(vec3 fraction, ivec3 corner) {
   vec3 w = mix(vec3(1.0f) - fraction, fraction, vec3(corner));

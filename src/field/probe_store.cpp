@@ -82,11 +82,13 @@ ProbeStore::ProbeStore(const ProbeGrid& grid, const FieldSettings& settings)
       irradiance_format_(settings.irradiance_format),
       distance_format_(settings.distance_format),
       irradiance_(probes_ * tile_texels(irradiance_texels_) * words_per_irradiance_texel()),
-      distance_(probes_ * tile_texels(distance_texels_) * words_per_distance_texel()) {}
+      distance_(probes_ * tile_texels(distance_texels_) * words_per_distance_texel()),
+      offsets_(probes_, 0u) {}
 
 void ProbeStore::clear() {
   std::fill(irradiance_.begin(), irradiance_.end(), 0u);
   std::fill(distance_.begin(), distance_.end(), 0u);
+  std::fill(offsets_.begin(), offsets_.end(), 0u);
 }
 
 vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {

@@ -26,7 +26,19 @@ class ProbeStore {
   int distance_texels() const { return distance_texels_; }
   IrradianceFormat irradiance_format() const { return irradiance_format_; }
   DistanceFormat distance_format() const { return distance_format_; }
+  /// Of the tiles; offsets take four more a probe.
   std::size_t bytes() const { return 4 * (irradiance_.size() + distance_.size()); }
+
+  /// Where a probe stands: on the grid, or a little off it.
+  vec3 probe_position_ws(int probe) const {
+    return probe_position(grid_, probe_coords(grid_, probe)) + probe_offset(probe) * grid_.spacing;
+  }
+  /// Offset from the grid, in shares of a cell along each axis, at most kMaxProbeOffset.
+  vec3 probe_offset(int probe) const { return decode_probe_offset(offsets_[probe]); }
+  void set_probe_offset(int probe, const vec3& cells) {
+    offsets_[probe] = encode_probe_offset(cells);
+  }
+  std::span<const uint> offset_words() const { return offsets_; }
 
   /// Irradiance [W/m^2] of a texel, coordinates with gutter (0 to texels + 1).
   vec3 irradiance_texel(int probe, ivec2 with_gutter) const;
@@ -52,7 +64,7 @@ class ProbeStore {
   }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 
-  /// Forgets everything: no light, and distances of 0.
+  /// Forgets everything: no light, distances of 0, and probes on the grid.
   void clear();
 
  private:
@@ -65,6 +77,7 @@ class ProbeStore {
   // Aligned so that a row of a distance tile is one line of the cache.
   std::vector<uint, tbb::cache_aligned_allocator<uint>> irradiance_;
   std::vector<uint, tbb::cache_aligned_allocator<uint>> distance_;
+  std::vector<uint> offsets_;
 };
 
 }  // namespace lambent

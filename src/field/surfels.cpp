@@ -11,111 +11,135 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 8;
 
+// Rays that no probe has more of: keeps the random numbers of probes apart.
+constexpr std::size_t kMaxRays = 4096;
+
 }  // namespace
 
-std::size_t Surfels::bytes() const {
-  return size() * (5 * sizeof(vec3) + sizeof(uint) + 1 + sizeof(SurfelLookup));
+RaySet::RaySet(const FieldSettings& settings, int rays, uint update_number)
+    : update(update_number),
+      directions(probe_ray_directions(rays, update_number, settings.seed)),
+      irradiance_blend(settings.irradiance_texels, 1.0f, directions) {}
+
+std::size_t ProbeTrace::bytes() const {
+  return surfels.size() * sizeof(Surfel) + lookups.size() * sizeof(SurfelLookup);
 }
 
-void Surfels::set(std::size_t surfel, const ShadedHit& hit) {
-  position_ws[surfel] = hit.position_ws;
-  normal_ws[surfel] = hit.normal_ws;
-  albedo_over_pi[surfel] = hit.albedo_over_pi;
-  emission[surfel] = encode_rgb9e5(hit.emission, vec3(0.5f));
-  direct_irradiance[surfel] = hit.direct_irradiance;
-  sky_radiance[surfel] = hit.sky_radiance;
-  counts[surfel] = hit.counts ? 1 : 0;
+Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) {
+  Surfel surfel{};
+  surfel.position_ws = shaded.position_ws;
+  surfel.normal_ws = encode_unit_vector(shaded.normal_ws);
+  surfel.geometric_normal_ws = encode_unit_vector(shaded.geometric_normal_ws);
+  if (hit.missed()) {
+    surfel.kind = SurfelKind::sky;
+    surfel.light = shaded.sky_radiance;
+    return surfel;
+  }
+  surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::back_face;
+  surfel.material =
+      static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
+  surfel.albedo_over_pi = shaded.albedo_over_pi;
+  surfel.light = shaded.direct_irradiance;
+  return surfel;
 }
 
-void Surfels::resize(std::size_t probes, int rays) {
-  rays_per_probe = rays;
-  const std::size_t count = probes * rays;
-  position_ws.resize(count);
-  normal_ws.resize(count);
-  albedo_over_pi.resize(count);
-  emission.resize(count);
-  direct_irradiance.resize(count);
-  sky_radiance.resize(count);
-  counts.resize(count);
-  lookups.resize(count);
+Ray probe_ray(const vec3& origin_ws, const vec3& direction) {
+  return {origin_ws, 0.0f, direction, kInfiniteDistance, kRayOfProbe};
 }
 
-void trace_probe_rays(const RayTracer& tracer, const ProbeGrid& grid,
-                      std::span<const vec3> directions, std::vector<Hit>& hits) {
-  const std::size_t probes = static_cast<std::size_t>(grid.count.x) * grid.count.y * grid.count.z;
+std::size_t first_ray_index(int probe) {
+  return static_cast<std::size_t>(probe) * kMaxRays;
+}
+
+void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGroup& group) {
+  const std::vector<vec3>& directions = group.rays->directions;
   const std::size_t rays = directions.size();
-  hits.resize(probes * rays);
-  parallel_chunks(probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  group.hits.resize(group.probes.size() * rays);
+  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> batch(rays);
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      const vec3 origin = probe_position(grid, probe_coords(grid, static_cast<int>(probe)));
-      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
-      tracer.closest_hits(batch, {&hits[probe * rays], rays});
+    for (std::size_t k = begin; k < end; ++k) {
+      const vec3 origin = store.probe_position_ws(group.probes[k]);
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, directions[i]);
+      tracer.closest_hits(batch, {&group.hits[k * rays], rays});
     }
   });
 }
 
-ShadeHitsSettings surfel_shading(const FieldSettings& settings, uint update) {
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays) {
   ShadeHitsSettings shading;
   // Width of the cone that stands for one ray, per metre: that of its share of the sphere.
-  shading.cone_width = 2.0f * sqrt(4.0f / static_cast<float>(settings.rays_per_probe)) *
-                       exp2(settings.texture_lod_bias);
+  shading.cone_width =
+      2.0f * sqrt(4.0f / static_cast<float>(rays.rays())) * exp2(settings.texture_lod_bias);
   shading.max_albedo = settings.max_albedo;
   shading.emissive_samples = settings.emissive_samples;
-  shading.salt = update;
+  shading.salt = rays.update;
   shading.seed = settings.seed;
   return shading;
 }
 
-std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
-                            std::span<const vec3> directions, std::span<const Hit> hits,
-                            const FieldSettings& settings, uint update, Surfels& surfels) {
+std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
+                            const FieldSettings& settings, std::span<ProbeTrace> traces) {
+  const std::vector<vec3>& directions = group.rays->directions;
   const std::size_t rays = directions.size();
-  const std::size_t probes = hits.size() / rays;
-  surfels.resize(probes, static_cast<int>(rays));
+  const ShadeHitsSettings shading = surfel_shading(settings, *group.rays);
   std::atomic<std::uint64_t> shadow_rays = 0;
 
-  const ShadeHitsSettings shading = surfel_shading(settings, update);
-
-  parallel_chunks(probes, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> batch(rays);
     std::vector<ShadedHit> shaded(rays);
     ShadeHitsScratch scratch;
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      const vec3 origin = probe_position(grid, probe_coords(grid, static_cast<int>(probe)));
-      const std::size_t first = probe * rays;
-      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
+    for (std::size_t k = begin; k < end; ++k) {
+      const int probe = group.probes[k];
+      const vec3 origin = store.probe_position_ws(probe);
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, directions[i]);
+      const std::span<const Hit> hits(&group.hits[k * rays], rays);
       shadow_rays +=
-          shade_hits(world, batch, hits.subspan(first, rays), shading, first, scratch, shaded);
-      for (std::size_t i = 0; i < rays; ++i) surfels.set(first + i, shaded[i]);
+          shade_hits(world, batch, hits, shading, first_ray_index(probe), scratch, shaded);
+      ProbeTrace& trace = traces[probe];
+      trace.rays = group.rays;
+      trace.surfels.resize(rays);
+      for (std::size_t i = 0; i < rays; ++i)
+        trace.surfels[i] = make_surfel(world.scene(), hits[i], shaded[i]);
     }
   });
   return shadow_rays;
 }
 
-void find_surfel_lookups(const ProbeStore& store, std::span<const vec3> directions,
-                         Surfels& surfels) {
-  const std::size_t rays = directions.size();
+void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
+                         std::span<ProbeTrace> traces) {
   const int texels = store.irradiance_texels();
-  parallel_chunks(surfels.size() / rays, kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    struct Place {
+      int probe;
+      int ray;
+    };
     std::vector<FieldQuery> queries;
-    std::vector<std::size_t> reflecting;
+    std::vector<Place> reflecting;
+    int most_rays = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      ProbeTrace& trace = traces[probes[k]];
+      trace.lookups.resize(trace.surfels.size());
+      most_rays = max(most_rays, static_cast<int>(trace.surfels.size()));
+    }
     // Neighbouring probes' rays of one direction tend to end in the same cell: asked one after the
     // other, they find its probes in the cache
-    for (std::size_t ray = 0; ray < rays; ++ray) {
-      for (std::size_t probe = begin; probe < end; ++probe) {
-        const std::size_t s = probe * rays + ray;
+    for (int ray = 0; ray < most_rays; ++ray) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const ProbeTrace& trace = traces[probes[k]];
+        if (ray >= static_cast<int>(trace.surfels.size())) continue;
+        const Surfel& surfel = trace.surfels[ray];
         // What reflects nothing does not ask what lights it
-        if (surfels.albedo_over_pi[s] == vec3(0.0f)) continue;
-        reflecting.push_back(s);
-        queries.push_back({surfels.position_ws[s], surfels.normal_ws[s], -directions[ray]});
+        if (!surfel.reflects()) continue;
+        reflecting.push_back({probes[k], ray});
+        queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
+                           -trace.rays->directions[ray]});
       }
     }
     std::vector<CornerWeights> weights(queries.size());
     corner_weights(store, queries, weights);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
-      surfels.lookups[reflecting[i]] = {
+      traces[reflecting[i].probe].lookups[reflecting[i].ray] = {
           weights[i], static_cast<std::uint32_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
           fetch.fraction.x, fetch.fraction.y};
     }

@@ -4,15 +4,38 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "field/blend.h"
 #include "field/lookup_cpu.h"
 #include "field/probe_store.h"
 #include "lambent/field.h"
 #include "raytracing/shade_hits.h"
 
 namespace lambent {
+
+/// What a probe ray ended at.
+enum class SurfelKind : std::uint8_t {
+  surface,    ///< A surface, which may reflect nothing.
+  sky,        ///< Nothing: the ray left the scene.
+  back_face,  ///< The back of a single-sided surface: the ray does not count.
+};
+
+/// What one ray met.
+struct Surfel {
+  vec3 position_ws;          ///< [m]; of a ray that left the scene, its origin.
+  std::uint32_t material;    ///< Index into Scene::materials; 0 where the ray left the scene.
+  vec3 albedo_over_pi;       ///< Diffuse and specular together [1/sr]; 0: reflects nothing.
+  uint normal_ws;            ///< Packed, towards the probe.
+  vec3 light;                ///< Direct irradiance [W/m^2]; of the sky, its radiance [W/(m^2 sr)].
+  uint geometric_normal_ws;  ///< Packed, towards the probe.
+  SurfelKind kind;
+
+  bool operator==(const Surfel&) const = default;
+  bool reflects() const { return albedo_over_pi != vec3(0.0f); }
+};
 
 /// How a surfel reads the field: the shares of the eight probes around it, and, within each of
 /// their tiles, the four texels around its normal (a place in the tile's interior grid, counted
@@ -23,40 +46,55 @@ struct SurfelLookup {
   float fraction_x, fraction_y;
 };
 
-/// One entry a ray, probe after probe: surfel = probe * rays_per_probe + ray.
-struct Surfels {
-  int rays_per_probe = 0;
-  std::vector<vec3> position_ws;     ///< [m]
-  std::vector<vec3> normal_ws;       ///< Unit, towards the probe.
-  std::vector<vec3> albedo_over_pi;  ///< Diffuse and specular together [1/sr]; 0: no surface.
-  std::vector<uint>
-      emission;  ///< RGB9E5 radiance. Reaches others as direct light, not through probes.
-  std::vector<vec3> direct_irradiance;  ///< From lights and emissive surfaces [W/m^2].
-  std::vector<vec3> sky_radiance;       ///< Of rays that left the scene [W/(m^2 sr)], else 0.
-  std::vector<std::uint8_t> counts;     ///< 0: the ray met the back of a single-sided surface.
-  std::vector<SurfelLookup> lookups;    ///< Undefined where albedo is 0.
+/// The rays of one update, and what they weigh in a tile's texels. Probes that trace as many rays
+/// in one update share one.
+struct RaySet {
+  RaySet(const FieldSettings& settings, int rays, uint update_number);
 
-  std::size_t size() const { return counts.size(); }
-  std::size_t bytes() const;
-  void resize(std::size_t probes, int rays);
-  /// Sets all of a surfel but its lookup.
-  void set(std::size_t surfel, const ShadedHit& hit);
+  uint update;                   ///< Number of the update that drew the directions.
+  std::vector<vec3> directions;  ///< Unit.
+  BlendMatrix irradiance_blend;
+
+  int rays() const { return static_cast<int>(directions.size()); }
 };
 
-/// Traces every probe's rays. `hits` has probes x directions entries, probe after probe.
-void trace_probe_rays(const RayTracer& tracer, const ProbeGrid& grid,
-                      std::span<const vec3> directions, std::vector<Hit>& hits);
+/// What a probe's rays met when they were last traced.
+struct ProbeTrace {
+  std::shared_ptr<const RaySet> rays;  ///< Null: never traced.
+  std::vector<Surfel> surfels;         ///< One a ray.
+  std::vector<SurfelLookup> lookups;   ///< One a ray; undefined where nothing is reflected.
 
-/// How the hits of an update's rays are shaded.
-ShadeHitsSettings surfel_shading(const FieldSettings& settings, uint update);
+  std::size_t bytes() const;
+};
 
-/// Fills surfels (all but their lookups) from hits. Returns the shadow rays traced.
-std::uint64_t shade_surfels(const World& world, const ProbeGrid& grid,
-                            std::span<const vec3> directions, std::span<const Hit> hits,
-                            const FieldSettings& settings, uint update, Surfels& surfels);
+/// Probes that trace the same rays in an update, and what these hit.
+struct TraceGroup {
+  std::shared_ptr<const RaySet> rays;
+  std::vector<int> probes;
+  std::vector<Hit> hits;  ///< probes x rays, probe after probe.
+};
 
-/// Fills the surfels' lookups from the stored distances.
-void find_surfel_lookups(const ProbeStore& store, std::span<const vec3> directions,
-                         Surfels& surfels);
+/// Traces the rays of a group's probes.
+void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGroup& group);
+
+/// How the hits of a ray set are shaded.
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays);
+
+/// A probe's ray.
+Ray probe_ray(const vec3& origin_ws, const vec3& direction);
+
+/// What a ray met, from its hit.
+Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded);
+
+/// Index of a probe's first ray among all, for its random numbers.
+std::size_t first_ray_index(int probe);
+
+/// Turns a group's hits into surfels, all but their lookups. Returns the shadow rays traced.
+std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
+                            const FieldSettings& settings, std::span<ProbeTrace> traces);
+
+/// Finds the lookups of the probes' surfels from the stored distances.
+void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
+                         std::span<ProbeTrace> traces);
 
 }  // namespace lambent

@@ -33,5 +33,21 @@ LAMBENT_FN vec3 octahedral_decode(vec2 p) {
   return normalize(v);
 }
 
+// Steps of each coordinate of a packed unit vector: 16 bits, less one so that 0 has a code.
+const float kUnitVectorSteps = 65534.0f;
+
+/// A unit vector in a word, 16 bits a coordinate; off by at most 6e-5 rad.
+LAMBENT_FN uint encode_unit_vector(vec3 direction) {
+  vec2 p = octahedral_encode(direction);
+  uint x = uint((p.x * 0.5f + 0.5f) * kUnitVectorSteps + 0.5f);
+  uint y = uint((p.y * 0.5f + 0.5f) * kUnitVectorSteps + 0.5f);
+  return x | (y << 16u);
+}
+
+LAMBENT_FN vec3 decode_unit_vector(uint word) {
+  vec2 p = vec2(float(word & 0xFFFFu), float(word >> 16u)) * (2.0f / kUnitVectorSteps);
+  return octahedral_decode(p - vec2(1.0f));
+}
+
 LAMBENT_END
 #endif

@@ -16,6 +16,10 @@ vec2 fetch_moments(int probe, vec3 direction) {
   return vec2(mean, mean * mean);
 }
 
+vec3 fetch_offset(int probe) {
+  return decode_probe_offset(uint(probe));
+}
+
 vec3 fetch_irradiance(int probe, vec3 direction) {
   return probes.irradiance_and_distance[probe].xyz + vec3(0.0 * direction.x);
 }

@@ -26,6 +26,7 @@ struct SharedLookup {
   const ProbeStore& store;
 
   vec2 fetch_moments(int probe, vec3 direction) { return store.moments(probe, direction); }
+  vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
   vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }
 #include "field/lookup.inl.h"
 };
@@ -40,8 +41,8 @@ ProbeGrid uneven_grid() {
   return {vec3(-1.0f, 0.5f, 2.0f), vec3(0.7f, 1.1f, 0.9f), ivec3(4, 3, 5)};
 }
 
-/// Probes that hold random light and see random distances, of which the mean square is at least the
-/// mean's square.
+/// Probes off the grid that hold random light and see random distances, of which the mean square is
+/// at least the mean's square.
 ProbeStore random_store(const FieldSettings& settings) {
   ProbeStore store(uneven_grid(), settings);
   RandomStream random = make_random_stream(11, 22, 33);
@@ -55,6 +56,8 @@ ProbeStore random_store(const FieldSettings& settings) {
     }
     store.store_irradiance(probe, irradiance, 1u);
     store.blend_moments(probe, moments, 1.0f, 1u);
+    const vec3 offset(next_uniform2(random), next_uniform(random));
+    store.set_probe_offset(probe, kMaxProbeOffset * (2.0f * offset - 1.0f));
   }
   return store;
 }

@@ -124,6 +124,18 @@ TEST(ProbeStore, NeedsNoMoreThanThePublishedBytesAProbe) {
   EXPECT_LE(store.bytes(), 1168u * store.probes());
 }
 
+TEST(ProbeStore, OffsetsKeepTheirPlaceWithinAStepAndTheirBounds) {
+  const float step = kMaxProbeOffset / kOffsetSteps;
+  EXPECT_EQ(decode_probe_offset(0u), vec3(0.0f));
+  for (const vec3 cells : {vec3(0.0f), vec3(0.45f, -0.45f, 0.1f), vec3(-0.2f, 0.301f, -0.003f)}) {
+    const vec3 stored = decode_probe_offset(encode_probe_offset(cells));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(stored[c], cells[c], 0.5001f * step);
+    EXPECT_EQ(decode_probe_offset(encode_probe_offset(stored)), stored);
+  }
+  EXPECT_EQ(decode_probe_offset(encode_probe_offset({9.0f, -9.0f, 0.0f})),
+            vec3(kMaxProbeOffset, -kMaxProbeOffset, 0.0f));
+}
+
 TEST(ProbeStore, ClearsToDarkness) {
   for (const IrradianceFormat format : kIrradianceFormats) {
     ProbeStore store = make_store(format, DistanceFormat::rg16f);
