@@ -11,8 +11,8 @@ namespace {
 constexpr int kUpdatesBefore = 12;
 // The truth: fields that differ in the lamp alone, and share all random numbers, so that their
 // difference is the lamp's and not noise.
-constexpr int kTruthUpdates = 32;
-constexpr int kTruthRays = 512;
+constexpr int kTruthUpdates = 4;
+constexpr int kTruthRays = 256;
 // A probe changes where its mean light does by so much.
 constexpr double kChange = 0.01;
 
