@@ -10,16 +10,15 @@ namespace {
 
 constexpr int kFrames = 64;
 constexpr int kPixels = 96;
+constexpr std::uint64_t kBudget = 100000;  // rays a frame
 
 /// Standard deviation of each point's light over the frames, over its mean; root mean square over
 /// the points, and the largest.
-void waver(const std::string& name, const std::string& label, FieldSettings settings,
-           std::uint64_t budget) {
-  Subject subject(name, settings);
-  const UpdateRequest request{budget, 0.0, std::nullopt};
+void waver(const std::string& name, const std::string& label, int updates_before) {
+  Subject subject(name, {});
+  const UpdateRequest request{kBudget, 0.0, std::nullopt};
   const std::vector<FieldQuery> points = seen_points(subject, kPixels);
-  constexpr int kSettling = 128;
-  for (int i = 0; i < kSettling; ++i) subject.field.update(subject.world, request);
+  for (int i = 0; i < updates_before; ++i) subject.field.update(subject.world);
   std::vector<double> sum(points.size(), 0.0), squares(points.size(), 0.0);
   std::uint64_t rays = 0;
   for (int i = 0; i < kFrames; ++i) {
@@ -49,12 +48,15 @@ void waver(const std::string& name, const std::string& label, FieldSettings sett
 }  // namespace
 
 void measure_rest() {
-  std::printf("### At rest: coefficient of variation of E over %d frames, after 128\n", kFrames);
-  std::printf("| scene, budget | root mean square | largest | probe rays a frame |\n");
+  std::printf("### Coefficient of variation of E over %d frames of 100,000 rays, nothing moving\n",
+              kFrames);
+  std::printf("| scene, full updates before | root mean square | largest | probe rays a frame |\n");
   std::printf("|---|---|---|---|\n");
-  waver("cornell", "cornell, 100,000 rays", {}, 100000);
-  waver("two-rooms", "two-rooms, 100,000 rays", {}, 100000);
-  waver("atrium", "atrium, 100,000 rays", {}, 100000);
+  for (const int updates : {16, 100}) {
+    waver("cornell", "cornell, " + std::to_string(updates), updates);
+    waver("two-rooms", "two-rooms, " + std::to_string(updates), updates);
+  }
+  waver("atrium", "atrium, 100", 100);
 }
 
 }  // namespace lambent::dynamics
