@@ -16,6 +16,10 @@ namespace lambent {
 /// against 9.1 %); 200 gains nothing.
 inline constexpr float kDistanceExponent = 100.0f;
 
+/// A probe that sees more back faces than this share of its rays stands in solid matter and is to
+/// light nothing. JCGT 10(2) 2021, sec. 4.
+inline constexpr float kMaxBackFaceShare = 0.25f;
+
 /// Blends the distances that a group's rays met into the store: mean and mean square along each
 /// texel's direction. `shares` holds one number a probe of the group: the part of the new values, 0
 /// to 1.

@@ -14,6 +14,7 @@
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
+#include "field/relocate.h"
 #include "field/surfels.h"
 #include "field/tile_fit.h"
 #include "lambent/world.h"
@@ -131,6 +132,10 @@ UpdateStatistics IrradianceField::update(const World& world) {
   }
   statistics.blend_ms += watch.lap();
 
+  if (s.updates == 0 && !std::getenv("NOREL")) {
+    const std::vector<int> mv = relocate_probes(world.scene(), world.tracer(), group.probes, {}, s.store);
+    std::fprintf(stderr, "moved %zu ms %.1f\n", mv.size(), watch.lap());
+  }
   trace_probe_rays(world.tracer(), s.store, group);
   statistics.probe_rays = group.hits.size();
   statistics.trace_ms = watch.lap();
