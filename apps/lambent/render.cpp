@@ -75,6 +75,10 @@ const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
 const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
+const std::map<std::string, Visibility> kVisibilities = {{"moments", Visibility::moments},
+                                                         {"hybrid", Visibility::hybrid},
+                                                         {"exact", Visibility::exact}};
+
 using Json = nlohmann::ordered_json;
 
 /// Fails early on outputs that could not be written after minutes of work.
@@ -335,6 +339,9 @@ void add_field_options(CLI::App& command, Options& o) {
   command.add_option("--distance-format", o.distance_format, "rg16f or rg32f")
       ->check(CLI::IsMember(kDistanceFormats))
       ->capture_default_str();
+  command.add_flag("!--no-relocation", o.field.relocation, "Keep the probes on the grid");
+  command.add_option("--visibility", o.field.visibility, "Of probes: moments, hybrid or exact")
+      ->transform(CLI::CheckedTransformer(kVisibilities));
   command.add_option("--irradiance-texels", o.field.irradiance_texels, "Of a tile's edge, even")
       ->check(CLI::Range(2, 16))
       ->capture_default_str();

@@ -17,6 +17,7 @@
 #include "field/relocate.h"
 #include "field/surfels.h"
 #include "field/tile_fit.h"
+#include "field/visibility.h"
 #include "lambent/world.h"
 #include "shared/random.h"
 
@@ -132,7 +133,7 @@ UpdateStatistics IrradianceField::update(const World& world) {
   }
   statistics.blend_ms += watch.lap();
 
-  if (s.updates == 0 && !std::getenv("NOREL")) {
+  if (s.updates == 0 && settings.relocation) {
     const std::vector<int> mv = relocate_probes(world.scene(), world.tracer(), group.probes, {}, s.store);
     std::fprintf(stderr, "moved %zu ms %.1f\n", mv.size(), watch.lap());
   }
@@ -144,7 +145,8 @@ UpdateStatistics IrradianceField::update(const World& world) {
   statistics.blend_ms += watch.lap();
 
   statistics.shadow_rays = shade_surfels(world, s.store, group, settings, s.traces);
-  find_surfel_lookups(s.store, group.probes, s.traces);
+  statistics.shadow_rays += find_surfel_lookups(s.store, settings.visibility, world.tracer(),
+                                                group.probes, s.traces);
   statistics.shade_ms = watch.lap();
 
   // Solve for all bounces, starting from the light that is there
@@ -176,11 +178,12 @@ void IrradianceField::reset() {
 }
 
 void IrradianceField::irradiance(std::span<const FieldQuery> queries,
-                                 std::span<glm::vec3> result) const {
+                                 std::span<glm::vec3> result, const World* world) const {
   assert(queries.size() == result.size());
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    lookup_irradiance(state_->store, queries.subspan(begin, end - begin),
-                      result.subspan(begin, end - begin));
+    visible_irradiance(state_->store, state_->settings.visibility,
+                       world != nullptr ? &world->tracer() : nullptr,
+                       queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
   });
 }
 

@@ -49,18 +49,24 @@ LAMBENT_FN float chebyshev_visibility(vec2 moments, float dist) {
   return bound * bound * bound;
 }
 
-/// Weight of a probe before trilinear interpolation. `cos_probe` is the cosine between the surface
-/// normal and the direction from the surface to the probe. A probe inside solid matter holds a mean
-/// distance of 0: it knows nothing of light and counts for nothing, even where the others are
-/// hidden.
+/// Weight of a probe before trilinear interpolation, from its weight by its side of the surface and
+/// from its visibility.
+LAMBENT_FN float combined_weight(float wrap, float visibility) {
+  float weight = wrap * visibility;
+  if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
+  return max(weight, kMinVisibilityWeight);
+}
+
+/// The same from the stored distances. `cos_probe` is the cosine between the surface normal and the
+/// direction from the surface to the probe. A probe inside solid matter holds a mean distance of 0:
+/// it knows nothing of light and counts for nothing, even where the others are hidden.
 LAMBENT_FN float probe_weight(float cos_probe, vec2 moments, float dist) {
   // Probes behind the surface count less, smoothly. The published weight adds a floor of 0.2, which
   // lets light through sheets and costs accuracy: without it the relative RMSE of cornell falls
   // from 0.075 to 0.068.
   float wrap = 0.5f * (cos_probe + 1.0f);
-  float weight = wrap * wrap * chebyshev_visibility(moments, dist);
-  if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
-  return moments.x > 0.0f ? max(weight, kMinVisibilityWeight) : 0.0f;
+  float weight = combined_weight(wrap * wrap, chebyshev_visibility(moments, dist));
+  return moments.x > 0.0f ? weight : 0.0f;
 }
 
 LAMBENT_END

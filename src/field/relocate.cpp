@@ -25,7 +25,7 @@ constexpr int kMaxIterations = 8;
 constexpr std::size_t kProbesPerTask = 16;
 constexpr int kMaxLooksThrough = 4;
 
-const float kMargin = env("MARGIN", 0.07f);
+const float kMargin = env("MARGIN", 0.1f);
 const float kReach = env("REACH", 0.45f);
 const float kFacing = env("FACING", 0.7f);
 const float kAcross = env("ACROSS", 0.5f);

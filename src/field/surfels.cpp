@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "core/parallel.h"
+#include "field/visibility.h"
 #include "shared/packing.h"
 
 namespace lambent {
@@ -99,9 +100,11 @@ std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const T
   return shadow_rays;
 }
 
-void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
-                         std::span<ProbeTrace> traces) {
+std::uint64_t find_surfel_lookups(const ProbeStore& store, Visibility mode,
+                                  const RayTracer& tracer, std::span<const int> probes,
+                                  std::span<ProbeTrace> traces) {
   const int texels = store.irradiance_texels();
+  std::atomic<std::uint64_t> rays = 0;
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     struct Place {
       int probe;
@@ -130,7 +133,7 @@ void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
       }
     }
     std::vector<CornerWeights> weights(queries.size());
-    corner_weights(store, queries, weights);
+    rays += visible_corner_weights(store, mode, &tracer, queries, weights);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
       traces[reflecting[i].probe].lookups[reflecting[i].ray] = {
@@ -138,6 +141,7 @@ void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
           fetch.fraction.x, fetch.fraction.y};
     }
   });
+  return rays;
 }
 
 }  // namespace lambent

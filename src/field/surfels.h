@@ -86,8 +86,10 @@ std::size_t first_ray_index(int probe);
 std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
                             const FieldSettings& settings, std::span<ProbeTrace> traces);
 
-/// Finds the lookups of the probes' surfels from the stored distances.
-void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
-                         std::span<ProbeTrace> traces);
+/// Finds the lookups of the probes' surfels from the stored distances, and from rays as `mode`
+/// says. Returns the rays traced.
+std::uint64_t find_surfel_lookups(const ProbeStore& store, Visibility mode,
+                                  const RayTracer& tracer, std::span<const int> probes,
+                                  std::span<ProbeTrace> traces);
 
 }  // namespace lambent
