@@ -75,9 +75,8 @@ const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
 const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
-const std::map<std::string, Visibility> kVisibilities = {{"moments", Visibility::moments},
-                                                         {"hybrid", Visibility::hybrid},
-                                                         {"exact", Visibility::exact}};
+const std::map<std::string, Visibility> kVisibilities = {
+    {"moments", Visibility::moments}, {"hybrid", Visibility::hybrid}, {"exact", Visibility::exact}};
 
 using Json = nlohmann::ordered_json;
 

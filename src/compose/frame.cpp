@@ -68,8 +68,8 @@ class PassTimer {
 
 /// Irradiance of the field at each pixel, on a surface that faces along normal(pixel).
 template <class Normal>
-void look_up(const World& world, const IrradianceField& field, const GBuffer& gbuffer, Normal normal,
-             std::vector<vec3>& irradiance) {
+void look_up(const World& world, const IrradianceField& field, const GBuffer& gbuffer,
+             Normal normal, std::vector<vec3>& irradiance) {
   std::vector<FieldQuery> queries(gbuffer.size());
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

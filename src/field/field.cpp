@@ -67,6 +67,7 @@ struct IrradianceField::State {
                  tile_fit_matrix(settings.irradiance_texels)),
         traces(store.probes()),
         records(store.probes()),
+        sights(store.grid()),
         light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {}
 
   FieldSettings settings;
@@ -75,6 +76,7 @@ struct IrradianceField::State {
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
   std::vector<ProbeRecord> records;
+  ProbeSights sights;
   WorkingIrradiance light;  // that the store holds, before it was encoded
   TraceGroup group;
   int updates = 0;
@@ -133,20 +135,23 @@ UpdateStatistics IrradianceField::update(const World& world) {
   }
   statistics.blend_ms += watch.lap();
 
+  // Before they hold anything, have the probes stand where they are needed
   if (s.updates == 0 && settings.relocation) {
-    const std::vector<int> mv = relocate_probes(world.scene(), world.tracer(), group.probes, {}, s.store);
-    std::fprintf(stderr, "moved %zu ms %.1f\n", mv.size(), watch.lap());
+    relocate_probes(world.scene(), world.tracer(), group.probes, {}, s.store);
   }
   trace_probe_rays(world.tracer(), s.store, group);
   statistics.probe_rays = group.hits.size();
+  if (settings.visibility == Visibility::hybrid) {
+    statistics.shadow_rays += s.sights.look(world.tracer(), s.store, group.probes);
+  }
   statistics.trace_ms = watch.lap();
 
   blend_distances(world.scene(), distance_blend, group, shares, salt, s.store);
   statistics.blend_ms += watch.lap();
 
-  statistics.shadow_rays = shade_surfels(world, s.store, group, settings, s.traces);
-  statistics.shadow_rays += find_surfel_lookups(s.store, settings.visibility, world.tracer(),
-                                                group.probes, s.traces);
+  statistics.shadow_rays += shade_surfels(world, s.store, group, settings, s.traces);
+  statistics.shadow_rays += find_surfel_lookups(
+      s.store, {settings.visibility, &world.tracer(), &s.sights}, group.probes, s.traces);
   statistics.shade_ms = watch.lap();
 
   // Solve for all bounces, starting from the light that is there
@@ -177,13 +182,14 @@ void IrradianceField::reset() {
   s.updates = 0;
 }
 
-void IrradianceField::irradiance(std::span<const FieldQuery> queries,
-                                 std::span<glm::vec3> result, const World* world) const {
+void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
+                                 const World* world) const {
   assert(queries.size() == result.size());
+  const State& s = *state_;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    visible_irradiance(state_->store, state_->settings.visibility,
-                       world != nullptr ? &world->tracer() : nullptr,
-                       queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
+    visible_irradiance(
+        s.store, {s.settings.visibility, world != nullptr ? &world->tracer() : nullptr, &s.sights},
+        queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
   });
 }
 

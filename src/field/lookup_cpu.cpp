@@ -108,8 +108,7 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
     const float length_squared = tx * tx + ty * ty + tz * tz;
     const float along = tx * normal.x + ty * normal.y + tz * normal.z;
     const float cosine = along / std::sqrt(std::max(kMinLengthSquared, length_squared));
-    const float wrap = 0.5f * (cosine + 1.0f);
-    fetch.wrap[k] = wrap * wrap;
+    fetch.wrap[k] = wrap_weight(cosine);
 
     // Find the texel, and the share of its neighbours, of the direction from the probe
     const float x = biased.x - px, y = biased.y - py, z = biased.z - pz;

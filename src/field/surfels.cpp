@@ -4,7 +4,6 @@
 #include <atomic>
 
 #include "core/parallel.h"
-#include "field/visibility.h"
 #include "shared/packing.h"
 
 namespace lambent {
@@ -100,9 +99,8 @@ std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const T
   return shadow_rays;
 }
 
-std::uint64_t find_surfel_lookups(const ProbeStore& store, Visibility mode,
-                                  const RayTracer& tracer, std::span<const int> probes,
-                                  std::span<ProbeTrace> traces) {
+std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
+                                  std::span<const int> probes, std::span<ProbeTrace> traces) {
   const int texels = store.irradiance_texels();
   std::atomic<std::uint64_t> rays = 0;
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -133,7 +131,7 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, Visibility mode,
       }
     }
     std::vector<CornerWeights> weights(queries.size());
-    rays += visible_corner_weights(store, mode, &tracer, queries, weights);
+    rays += visible_corner_weights(store, by, queries, weights);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
       traces[reflecting[i].probe].lookups[reflecting[i].ray] = {
