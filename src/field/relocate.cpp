@@ -17,7 +17,7 @@ namespace {
 
 // Enough that a wall half a cell away is met by several rays that face it.
 constexpr int kSights = 128;
-// Most probes stand well after two steps, those in corners after four.
+// Steps of one walk. Most probes stand well after two, those in corners after four.
 constexpr int kMaxSteps = 8;
 constexpr std::size_t kProbesPerTask = 16;
 
@@ -40,6 +40,9 @@ constexpr float kMaxCornerCosine = 0.5f;
 // A corner's planes are at least this steep to each other, so that stepping along one's normal
 // without leaving the other divides by no less.
 constexpr float kMinSteepness = 0.5f;
+
+// Being in solid matter that can be left is worse than any place outside [margins].
+constexpr float kMatterUnrest = 100.0f;
 
 // Rays pass so many moving surfaces before they count as lost in them, and go on this share of the
 // way behind each.
@@ -97,6 +100,38 @@ float room_above(std::span<const Plane> planes, const Plane& below) {
     return max(0.0f, 0.5f * (plane.height - below.height));
   }
   return kInfiniteDistance;
+}
+
+/// Walks from where a probe stands towards better places and leaves it at the one it wants to leave
+/// least. False where none is clearly better than the first: then the probe stays, and walking
+/// again changes nothing. As each walk that moves it leaves it with less unrest, it comes to rest
+/// even among clutter, where every step leads to another.
+bool settle(const Scene& scene, const RayTracer& tracer, int probe,
+            std::span<const std::uint8_t> moving, std::span<Sight> sights, ProbeStore& store) {
+  const ProbeGrid& grid = store.grid();
+  const vec3 home = probe_position(grid, probe_coords(grid, probe));
+  const float margin = kSurfaceMargin * min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
+  const vec3 first = store.probe_offset(probe);
+  vec3 best = first;
+  float least = kInfiniteDistance;
+  for (int step = 0; step <= kMaxSteps; ++step) {
+    const vec3 position = store.probe_position_ws(probe);
+    look_around(scene, tracer, position, moving, sights);
+    const vec3 better = better_position(sights, position, home, grid.spacing);
+
+    // Compute how much the probe wants to leave, in margins
+    float unrest = length(better - position) / margin;
+    if (better != position && in_solid_matter(sights)) unrest += kMatterUnrest;
+    if (step == 0 || unrest <= least) {
+      best = store.probe_offset(probe);
+      // Away from the first place only for something clearly better
+      least = step == 0 ? unrest - kMarginTolerance : unrest;
+    }
+    if (better == position) break;
+    store.set_probe_offset(probe, (better - home) / grid.spacing);
+  }
+  store.set_probe_offset(probe, best);
+  return best != first;
 }
 
 }  // namespace
@@ -168,22 +203,13 @@ vec3 better_position(std::span<const Sight> sights, const vec3& position_ws, con
 std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,
                                  std::span<const int> probes, std::span<const std::uint8_t> moving,
                                  ProbeStore& store) {
-  const ProbeGrid& grid = store.grid();
   std::vector<std::uint8_t> moved(probes.size(), 0);
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Sight> sights(sight_directions().size());
     for (std::size_t k = begin; k < end; ++k) {
-      const int probe = probes[k];
-      const vec3 home = probe_position(grid, probe_coords(grid, probe));
-      const vec3 before = store.probe_offset(probe);
-      for (int step = 0; step < kMaxSteps; ++step) {
-        const vec3 position = store.probe_position_ws(probe);
-        look_around(scene, tracer, position, moving, sights);
-        const vec3 better = better_position(sights, position, home, grid.spacing);
-        if (better == position) break;
-        store.set_probe_offset(probe, (better - home) / grid.spacing);
-      }
-      moved[k] = store.probe_offset(probe) != before ? 1 : 0;
+      const vec3 before = store.probe_offset(probes[k]);
+      while (settle(scene, tracer, probes[k], moving, sights, store)) continue;
+      moved[k] = store.probe_offset(probes[k]) != before ? 1 : 0;
     }
   });
   std::vector<int> result;
