@@ -48,7 +48,7 @@ void blend_distances_of_all_probes(benchmark::State& state) {
   const Workload& work = workload();
   const FieldSettings& settings = work.field.settings();
   const TraceGroup traced = trace_all_probes(work);
-  const BlendMatrix blend(settings.distance_texels, kDistanceExponent, traced.rays->directions);
+  const DistanceBlend blend(settings, traced.rays->directions);
   const std::vector<float> shares(traced.probes.size(), 0.1f);
   ProbeStore store(work.field.store().grid(), settings);
   Median ms;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "lambent/error.h"
@@ -52,8 +53,9 @@ struct FieldSettings {
   /// square root.
   int rays_per_probe = 144;
   /// Share of the old value that an update keeps once enough updates have been averaged, 0 to
-  /// 0.999. Higher is smoother and slower to follow change.
-  float hysteresis = 0.97f;
+  /// 0.999. Higher is smoother. Edits that the world tells of do not wait for it, so that it need
+  /// not be low.
+  float hysteresis = 0.99f;
 
   /// Texels of a probe's irradiance tile along an edge, without gutter, even, 2 to 16. Bytes
   /// and the cost of blending grow with the square.
@@ -107,14 +109,31 @@ struct FieldGrid {
 /// volumes that make no sense and on more probes than memory could hold.
 Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_bounds);
 
+/// What an update may cost, and for whom.
+struct UpdateRequest {
+  /// Probe rays to trace at most; 0: no bound, and every probe is traced with as many rays as the
+  /// settings say, whether its light has settled or not. With a bound, probes whose light is least
+  /// settled go first, with 32 to 512 rays each as their noise asks for, and settled ones rest.
+  std::uint64_t ray_budget = 0;
+  /// Wall-clock time to take [ms], > 0; 0: no bound. The field learns how many rays that allows;
+  /// the smaller of both bounds holds.
+  double time_budget_ms = 0.0;
+  /// Where the camera is [m]: of probes equally unsettled, near ones go first.
+  std::optional<glm::vec3> viewer_ws = std::nullopt;
+};
+
 /// What an update did. Times are wall-clock [ms].
 struct UpdateStatistics {
+  double follow_ms = 0.0;         ///< Finding what edits of the world changed.
   double trace_ms = 0.0;          ///< Closest hits of the probe rays.
   double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
   double relight_ms = 0.0;        ///< Multi-bounce solve.
   double blend_ms = 0.0;          ///< Distances and irradiance into the store.
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
+  int probes_traced = 0;          ///< With new rays.
+  int probes_followed = 0;        ///< Held against what was edited in the world.
+  int probes_touched = 0;         ///< Those among them whose light the edits changed.
   int relights = 0;               ///< Iterations of the multi-bounce solve.
   double residual = 0.0;          ///< Estimated relative error this update stopped at.
   double change = 0.0;            ///< Of the stored light, root mean square over root mean square.
@@ -139,11 +158,18 @@ class IrradianceField {
   IrradianceField(IrradianceField&&) noexcept;
   IrradianceField& operator=(IrradianceField&&) noexcept;
 
-  /// Traces every probe's rays, solves for all bounces and blends the result into the store. The
-  /// world may be a different object in each update, but of the same place; it is not kept. Not to
-  /// be called while the field is read. The same calls with the same seed give the same bits on any
-  /// number of threads. Throws std::bad_alloc where memory runs out.
-  UpdateStatistics update(const World& world);
+  /// Brings the field up to date. Where the world was edited since the last update (World::update),
+  /// finds what rays and shadow rays now meet or reach something else, solves for the light of all
+  /// bounces again, and changes just those probes whose light did. Otherwise, or with what is left
+  /// of the budget, traces probes anew, solves, and blends the result into the store. Without a
+  /// budget edits that follow one another are followed in one update and traced anew as well in the
+  /// next, in turn.
+  ///
+  /// The world may be another object than before, but must then be of the same scene, unedited; it
+  /// is not kept. Not to be called while the field is read. The same calls with the same seed give
+  /// the same bits on any number of threads, unless time is bounded. Throws std::bad_alloc where
+  /// memory runs out.
+  UpdateStatistics update(const World& world, const UpdateRequest& request = {});
 
   /// Forgets all light; the next update starts anew.
   void reset();

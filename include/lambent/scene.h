@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "lambent/animation.h"
 #include "lambent/error.h"
 #include "lambent/image.h"
 
@@ -26,6 +27,7 @@ struct Texture {
   std::string name;   ///< For people; need not be unique, may be empty. So are all names here.
   bool srgb = false;  ///< Red, green and blue are sRGB-encoded (colour), not linear (data).
   std::vector<TextureLevel> levels;  ///< Full size first, then halves down to 1x1. Never empty.
+  std::uint32_t revision = 0;        ///< Raise it after an edit: World::update looks here alone.
 };
 
 /// Fills `texture.levels` below the first by box-filtering in linear light.
@@ -44,6 +46,8 @@ struct TextureView {
   glm::vec2 uv_offset{0.0f};   ///< Added last (KHR_texture_transform) [textures].
   float uv_rotation = 0.0f;    ///< Counter-clockwise about the origin [rad].
   glm::vec2 uv_scale{1.0f};    ///< Multiplies texture coordinates first.
+
+  bool operator==(const TextureView&) const = default;
 };
 
 /// What coverage does to rays: nothing, a yes or no at Material::alpha_cutoff, or stopping that
@@ -74,6 +78,8 @@ struct Material {
   TextureView emission_texture;            ///< RGB, sRGB.
   TextureView specular_texture;            ///< A strength.
   TextureView specular_color_texture;      ///< RGB, sRGB.
+
+  bool operator==(const Material&) const = default;
 };
 
 /// Triangles of one material in object space. Every non-empty attribute has one entry a vertex.
@@ -87,6 +93,8 @@ struct Mesh {
   std::vector<glm::vec4> colors;              ///< Linear, multiplied with base_color; may be empty.
   std::vector<glm::uvec3> triangles;          ///< Vertex indices, each < positions.size().
   int material = 0;                           ///< Index into Scene::materials.
+  /// Raise it after an edit of vertices or triangles: World::update looks here alone.
+  std::uint32_t revision = 0;
 };
 
 /// A mesh placed in the world. Meshes are shared, not copied.
@@ -94,6 +102,17 @@ struct Instance {
   std::string name;
   int mesh = 0;                       ///< Index into Scene::meshes.
   glm::mat4 world_from_object{1.0f};  ///< Affine, finite; may mirror.
+  /// Its surfaces bounce light and stand in the way of indirect light. false: no ray that gathers
+  /// indirect light meets it, but the camera sees it and it casts shadows of lights.
+  bool casts_gi = true;
+  bool receives_gi = true;  ///< Indirect light reaches its surfaces; false: direct light alone.
+  /// Rays of probes pass through it, others that gather indirect light do not: for small things
+  /// that move, and for what surrounds a probe.
+  bool ignored_by_probes = false;
+  /// It is about to move: it gets an acceleration structure of its own from the start, which makes
+  /// moving it cheap and rays a little dearer, and probes near it stay awake. What moves without
+  /// it costs one full rebuild, once.
+  bool dynamic = false;
 };
 
 /// Directional, point or spot light without extent.
@@ -112,6 +131,8 @@ struct Light {
   float inner_cone_angle = 0.0f;  ///< Full intensity within [rad, from the axis].
   float outer_cone_angle =
       0.785398163f;  ///< No light beyond [rad, from the axis], inner cone to pi/2; 45 degrees.
+
+  bool operator==(const Light&) const = default;
 };
 
 /// A pinhole camera, perspective or orthographic.
@@ -132,7 +153,8 @@ Camera look_at(const glm::vec3& eye, const glm::vec3& target, float vertical_fov
 struct Environment {
   glm::vec3 radiance{0.0f};  ///< Constant sky [W/(m^2 sr)]; multiplies `map` where there is one.
   Image map;  ///< Latitude-longitude radiance, 3 channels, +Y at the top row; empty: constant.
-  float rotation = 0.0f;  ///< Of the map about +Y [rad].
+  float rotation = 0.0f;       ///< Of the map about +Y [rad].
+  std::uint32_t revision = 0;  ///< Raise it after an edit of the map: World::update looks here.
 };
 
 /// What a file held beyond what was kept; for `lambent info` and for people who wonder.
@@ -155,7 +177,9 @@ struct Scene {
   std::vector<Light> lights;    ///< Surfaces that emit are lights too, and not in this list.
   std::vector<Camera> cameras;  ///< In the order of the file's nodes.
   Environment environment;
-  SceneSource source;  ///< Nothing is rendered from it.
+  std::vector<Animation> animations;  ///< The scene stands in its rest pose until `animate`.
+  Rig rig;                            ///< What they move.
+  SceneSource source;                 ///< Nothing is rendered from it.
 };
 
 /// What load_scene makes of a file.
@@ -181,12 +205,13 @@ struct Bounds {
   glm::vec3 min{std::numeric_limits<float>::max()};
   glm::vec3 max{std::numeric_limits<float>::lowest()};
   /// True where nothing was added.
-  bool empty() const { return min.x > max.x; }
+  bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
   /// Grows the box until it holds `p`.
   void add(const glm::vec3& p) {
     min = glm::min(min, p);
     max = glm::max(max, p);
   }
+  bool operator==(const Bounds&) const = default;
 };
 
 /// World-space bounds of all instances' vertices.

@@ -3,6 +3,7 @@
 // Fields", JCGT 8(2), 2019.
 #include "field/distances.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "core/parallel.h"
@@ -23,39 +24,48 @@ bool is_back_face(const Scene& scene, const Hit& hit) {
 
 }  // namespace
 
-void blend_distances(const Scene& scene, const BlendMatrix& blend, const TraceGroup& group,
+DistanceBlend::DistanceBlend(const FieldSettings& settings, std::span<const vec3> directions)
+    : blend_(settings.distance_texels, kDistanceExponent, directions), totals_(blend_.texels()) {
+  const std::vector<float> ones(2 * directions.size(), 1.0f);
+  blend_.apply2(ones.data(), &totals_[0].x);
+}
+
+void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
+                            std::span<vec2> moments) const {
+  // Cut the distances and count the back faces
+  thread_local std::vector<vec2> values, sums;
+  values.resize(seen.size());
+  sums.resize(moments.size());
+  int back_faces = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    float distance = min(seen[i].distance, farthest);
+    if (seen[i].back_face) {
+      ++back_faces;
+      distance *= kBackFaceDistanceShare;
+    }
+    values[i] = {distance, distance * distance};
+  }
+  if (static_cast<float>(back_faces) > kMaxBackFaceShare * static_cast<float>(seen.size())) {
+    std::fill(moments.begin(), moments.end(), vec2(0.0f));
+    return;
+  }
+  blend_.apply2(&values[0].x, &sums[0].x);
+  for (std::size_t t = 0; t < moments.size(); ++t) moments[t] = sums[t] / totals_[t];
+}
+
+void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
                      std::span<const float> shares, uint salt, ProbeStore& store) {
-  const int rays = blend.rays();
-  const int texels = blend.texels();
+  const auto rays = static_cast<std::size_t>(blend.rays());
   const float farthest = max_probe_distance(store.grid());
-
-  // Compute what all rays together weigh in each texel: the same for every probe
-  std::vector<float> ones(2 * static_cast<std::size_t>(rays), 1.0f);
-  std::vector<vec2> totals(texels);
-  blend.apply2(ones.data(), &totals[0].x);
-
   parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<vec2> values(rays), sums(texels), moments(texels);
+    std::vector<SeenDistance> seen(rays);
+    std::vector<vec2> moments(blend.texels());
     for (std::size_t k = begin; k < end; ++k) {
-      // Cut the distances and count the back faces
-      int back_faces = 0;
-      for (int i = 0; i < rays; ++i) {
+      for (std::size_t i = 0; i < rays; ++i) {
         const Hit& hit = group.hits[k * rays + i];
-        float distance = min(hit.distance, farthest);
-        if (is_back_face(scene, hit)) {
-          ++back_faces;
-          distance *= kBackFaceDistanceShare;
-        }
-        values[i] = {distance, distance * distance};
+        seen[i] = {hit.distance, is_back_face(scene, hit)};
       }
-      const bool inside_matter =
-          static_cast<float>(back_faces) > kMaxBackFaceShare * static_cast<float>(rays);
-
-      // Compute the mean distance and mean squared distance along each texel's direction
-      blend.apply2(&values[0].x, &sums[0].x);
-      for (int t = 0; t < texels; ++t) {
-        moments[t] = inside_matter ? vec2(0.0f) : sums[t] / totals[t];
-      }
+      blend.moments(seen, farthest, moments);
       store.blend_moments(group.probes[k], moments, shares[k], salt);
     }
   });

@@ -66,9 +66,9 @@ glm::ivec3 count_for_budget(const glm::vec3& extent, int budget) {
 }  // namespace
 
 Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_bounds) {
-  const bool given = !settings.volume.empty();
+  const bool given = settings.volume != Bounds{};
   Bounds bounds = given ? settings.volume : scene_bounds;
-  if (bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(kSmallestScene)};
+  if (!given && bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(kSmallestScene)};
   if (!finite(bounds.min) || !finite(bounds.max)) {
     return bad_setting("volume", "the corners must be finite numbers");
   }

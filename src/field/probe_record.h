@@ -17,9 +17,14 @@ enum class ProbeState : std::uint8_t {
 };
 
 struct ProbeRecord {
-  float samples = 0.0f;      ///< Updates that its tiles average, >= 0.
-  std::uint32_t served = 0;  ///< Number of the update that traced it last, counted from 1; 0: none.
+  float samples = 0.0f;  ///< Updates of the settings' rays that its tiles average, >= 0.
+  /// Relative variance of what one such update tells of its light, and the updates that this has
+  /// been learned from.
+  float noise = 1.0f;
+  std::uint16_t noise_samples = 0;
   ProbeState state = ProbeState::newly_vigilant;
+  std::uint32_t served = 0;  ///< Number of the update that traced it last, counted from 1; 0: none.
+  std::uint64_t revision = 0;  ///< Of the world that its surfels are up to date with.
 };
 
 }  // namespace lambent

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/simd.h"
 #include "field/tile.h"
 #include "shared/constants.h"
 
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 constexpr std::size_t kProbesPerCopy = 512;
+constexpr std::size_t kTexelsPerTask = 16384;
 
 // Texels whose rays count for less than this share of all are too few to tell anything.
 constexpr float kMinBlendWeight = 1e-4f;
@@ -61,6 +63,66 @@ double finish(const TransportOperator& transport, std::span<const float> shares,
   return whole > 0.0 ? norm(difference) / whole : 0.0;
 }
 
+/// Radiance along a probe's rays in a field without light: the sky, and direct light if it is to be
+/// reflected; and whether they count.
+void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
+  for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
+    const Surfel& surfel = trace.surfels[i];
+    const vec3 share = surfel.kind == SurfelKind::sky ? vec3(1.0f)
+                       : reflected                    ? surfel.albedo_over_pi
+                                                      : vec3(0.0f);
+    const vec3 sent = share * surfel.light;
+    for (int c = 0; c < 3; ++c) radiance[4 * i + c] = sent[c];
+    radiance[4 * i + 3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
+  }
+}
+
+/// What a probe's rays bring back depends on.
+struct GatherInput {
+  const ProbeTrace& trace;
+  const CornerOffsets& offsets;
+  const std::array<std::uint16_t, 4>* taps;  // interior texels of each place of a fetch
+  const vec4* field;
+  int texels;  // of a tile
+};
+
+/// Radiance along a probe's rays, and whether they count: four floats a ray.
+LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance) {
+  for (std::size_t i = 0; i < in.trace.surfels.size(); ++i) {
+    const Surfel& surfel = in.trace.surfels[i];
+    float* out = radiance + 4 * i;
+    out[3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
+
+    // What reflects nothing shows the sky, or is black
+    if (!surfel.reflects()) {
+      const bool sky = surfel.kind == SurfelKind::sky;
+      for (int c = 0; c < 3; ++c) out[c] = sky ? surfel.light[c] : 0.0f;
+      continue;
+    }
+
+    // Look the field up at the surfel
+    const SurfelLookup& lookup = in.trace.lookups[i];
+    const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
+    const float fx = lookup.fraction_x, fy = lookup.fraction_y;
+    const float shares[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
+                             fx * fy};
+    const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
+    float sum[4] = {};
+    for (int corner = 0; corner < 8; ++corner) {
+      const vec4* tile = base + static_cast<std::ptrdiff_t>(in.offsets.probe[corner]) * in.texels;
+      const float weight = lookup.corners.weight[corner];
+      for (int tap = 0; tap < 4; ++tap) {
+        const float share = weight * shares[tap];
+        const float* texel = &tile[taps[tap]].x;
+        for (int c = 0; c < 4; ++c) sum[c] += share * texel[c];
+      }
+    }
+
+    // Send back what it reflects
+    for (int c = 0; c < 3; ++c) out[c] = surfel.albedo_over_pi[c] * (surfel.light[c] + sum[c]);
+  }
+}
+
 }  // namespace
 
 TransportOperator::TransportOperator(const ProbeGrid& grid, std::span<const ProbeTrace> traces,
@@ -84,37 +146,7 @@ TransportOperator::TransportOperator(const ProbeGrid& grid, std::span<const Prob
 
 void TransportOperator::gather_probe_radiance(const WorkingIrradiance& field,
                                               const ProbeTrace& trace, float* radiance) const {
-  for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
-    const Surfel& surfel = trace.surfels[i];
-    float* out = radiance + 4 * i;
-    out[3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
-
-    // What reflects nothing shows the sky, or is black
-    if (!surfel.reflects()) {
-      const bool sky = surfel.kind == SurfelKind::sky;
-      for (int c = 0; c < 3; ++c) out[c] = sky ? surfel.light[c] : 0.0f;
-      continue;
-    }
-
-    // Look the field up at the surfel
-    const SurfelLookup& lookup = trace.lookups[i];
-    const std::array<std::uint16_t, 4>& taps = taps_[lookup.tile_corner];
-    const float fx = lookup.fraction_x, fy = lookup.fraction_y;
-    const float shares[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
-                             fx * fy};
-    vec4 irradiance(0.0f);
-    for (int corner = 0; corner < 8; ++corner) {
-      const std::size_t probe_read = lookup.corners.base + offsets_.probe[corner];
-      const vec4* tile = &field[probe_read * texels_];
-      const vec4 value = tile[taps[0]] * shares[0] + tile[taps[1]] * shares[1] +
-                         tile[taps[2]] * shares[2] + tile[taps[3]] * shares[3];
-      irradiance += value * lookup.corners.weight[corner];
-    }
-
-    // Send back what it reflects
-    const vec3 sent = surfel.albedo_over_pi * (surfel.light + vec3(irradiance));
-    for (int c = 0; c < 3; ++c) out[c] = sent[c];
-  }
+  gather_radiance({trace, offsets_, taps_.data(), field.data(), texels_}, radiance);
 }
 
 void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
@@ -124,17 +156,18 @@ void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrrad
           fallback, received);
 }
 
+void TransportOperator::apply_direct(const WorkingIrradiance& fallback,
+                                     WorkingIrradiance& received) const {
+  receive([](const ProbeTrace& trace,
+             float* radiance) { gather_unlit(trace, /*reflected=*/true, radiance); },
+          fallback, received);
+}
+
 void TransportOperator::apply_sky(const WorkingIrradiance& fallback,
                                   WorkingIrradiance& received) const {
-  const auto gather_sky = [](const ProbeTrace& trace, float* radiance) {
-    for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
-      const Surfel& surfel = trace.surfels[i];
-      const vec3 sent = surfel.kind == SurfelKind::sky ? surfel.light : vec3(0.0f);
-      for (int c = 0; c < 3; ++c) radiance[4 * i + c] = sent[c];
-      radiance[4 * i + 3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
-    }
-  };
-  receive(gather_sky, fallback, received);
+  receive([](const ProbeTrace& trace,
+             float* radiance) { gather_unlit(trace, /*reflected=*/false, radiance); },
+          fallback, received);
 }
 
 template <class Gather>
@@ -171,6 +204,12 @@ void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback
   });
 }
 
+void multiply(WorkingIrradiance& a, const WorkingIrradiance& b) {
+  parallel_chunks(a.size(), kTexelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) a[i] *= b[i];
+  });
+}
+
 WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> probes,
                            int texels) {
   WorkingIrradiance light(probes.size() * texels);
@@ -196,7 +235,7 @@ RelightResult relight_bounces(const TransportOperator& transport, std::span<cons
 }
 
 RelightResult relight(const TransportOperator& transport, std::span<const float> shares,
-                      const WorkingIrradiance& correction, const RelightSettings& settings,
+                      const WorkingIrradiance& gain, const RelightSettings& settings,
                       WorkingIrradiance& field) {
   const WorkingIrradiance history = light_of(field, transport.probes(), transport.texels());
   const std::size_t size = history.size();
@@ -214,7 +253,7 @@ RelightResult relight(const TransportOperator& transport, std::span<const float>
     // Send the light round once
     blend_into(transport, shares, history, solution, field);
     transport.apply(field, history, image);
-    if (!correction.empty()) add_scaled(image, 1.0f, correction, image);
+    if (!gain.empty()) multiply(image, gain);
     ++result.iterations;
     add_scaled(image, -1.0f, solution, residual);
 

@@ -33,6 +33,9 @@ class TransportOperator {
   void apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
              WorkingIrradiance& received) const;
 
+  /// What the probes receive from the sky, and from surfels that reflect direct light alone.
+  void apply_direct(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
+
   /// No bounce: what the probes receive from the sky alone.
   void apply_sky(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
@@ -65,14 +68,17 @@ struct RelightResult {
   double change = 0.0;  ///< Of the probes' light, root mean square over root mean square.
 };
 
+/// a *= b, texel by texel
+void multiply(WorkingIrradiance& a, const WorkingIrradiance& b);
+
 /// Copies the texels of some probes out of a field.
 WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> probes, int texels);
 
 /// Solves for the light of the operator's probes, starting from what `field` holds, and blends
-/// `shares[k]` of the solution into probe k's. `correction`, of the probes, is added to what they
-/// receive; empty: none.
+/// `shares[k]` of the solution into probe k's. What the probes receive is multiplied by `gain`, of
+/// the probes; empty: by 1.
 RelightResult relight(const TransportOperator& transport, std::span<const float> shares,
-                      const WorkingIrradiance& correction, const RelightSettings& settings,
+                      const WorkingIrradiance& gain, const RelightSettings& settings,
                       WorkingIrradiance& field);
 
 /// The same for the light of exactly so many bounces, without acceleration; the operator's probes

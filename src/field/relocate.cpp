@@ -146,7 +146,9 @@ void look_around(const Scene& scene, const RayTracer& tracer, const vec3& positi
   const std::span<const vec3> directions = sight_directions();
   std::vector<Ray> rays(directions.size());
   std::vector<Hit> hits(directions.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = {position_ws, 0.0f, directions[i]};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    rays[i] = {position_ws, 0.0f, directions[i], kInfiniteDistance, kRayOfProbe};
+  }
   tracer.closest_hits(rays, hits);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     for (int k = 0; k < kMaxMovingSurfaces && is_moving(hits[i], moving); ++k) {

@@ -14,7 +14,18 @@ constexpr std::size_t kProbesPerTask = 8;
 // Rays that no probe has more of: keeps the random numbers of probes apart.
 constexpr std::size_t kMaxRays = 4096;
 
-Surfel make_surfel(const Hit& hit, const ShadedHit& shaded) {
+}  // namespace
+
+RaySet::RaySet(const FieldSettings& settings, int rays, uint update_number)
+    : update(update_number),
+      directions(probe_ray_directions(rays, update_number, settings.seed)),
+      irradiance_blend(settings.irradiance_texels, 1.0f, directions) {}
+
+std::size_t ProbeTrace::bytes() const {
+  return surfels.size() * sizeof(Surfel) + lookups.size() * sizeof(SurfelLookup);
+}
+
+Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) {
   Surfel surfel{};
   surfel.position_ws = shaded.position_ws;
   surfel.normal_ws = encode_unit_vector(shaded.normal_ws);
@@ -25,21 +36,15 @@ Surfel make_surfel(const Hit& hit, const ShadedHit& shaded) {
     return surfel;
   }
   surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::back_face;
-  surfel.instance = hit.instance;
+  surfel.material =
+      static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
   surfel.albedo_over_pi = shaded.albedo_over_pi;
   surfel.light = shaded.direct_irradiance;
   return surfel;
 }
 
-}  // namespace
-
-RaySet::RaySet(const FieldSettings& settings, int rays, uint update_number)
-    : update(update_number),
-      directions(probe_ray_directions(rays, update_number, settings.seed)),
-      irradiance_blend(settings.irradiance_texels, 1.0f, directions) {}
-
-std::size_t ProbeTrace::bytes() const {
-  return surfels.size() * sizeof(Surfel) + lookups.size() * sizeof(SurfelLookup);
+Ray probe_ray(const vec3& origin_ws, const vec3& direction) {
+  return {origin_ws, 0.0f, direction, kInfiniteDistance, kRayOfProbe};
 }
 
 std::size_t first_ray_index(int probe) {
@@ -54,7 +59,7 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGro
     std::vector<Ray> batch(rays);
     for (std::size_t k = begin; k < end; ++k) {
       const vec3 origin = store.probe_position_ws(group.probes[k]);
-      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, directions[i]);
       tracer.closest_hits(batch, {&group.hits[k * rays], rays});
     }
   });
@@ -86,14 +91,15 @@ std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const T
     for (std::size_t k = begin; k < end; ++k) {
       const int probe = group.probes[k];
       const vec3 origin = store.probe_position_ws(probe);
-      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, directions[i]};
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, directions[i]);
       const std::span<const Hit> hits(&group.hits[k * rays], rays);
       shadow_rays +=
           shade_hits(world, batch, hits, shading, first_ray_index(probe), scratch, shaded);
       ProbeTrace& trace = traces[probe];
       trace.rays = group.rays;
       trace.surfels.resize(rays);
-      for (std::size_t i = 0; i < rays; ++i) trace.surfels[i] = make_surfel(hits[i], shaded[i]);
+      for (std::size_t i = 0; i < rays; ++i)
+        trace.surfels[i] = make_surfel(world.scene(), hits[i], shaded[i]);
     }
   });
   return shadow_rays;

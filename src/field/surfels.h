@@ -27,13 +27,14 @@ enum class SurfelKind : std::uint8_t {
 /// What one ray met.
 struct Surfel {
   vec3 position_ws;          ///< [m]; of a ray that left the scene, its origin.
-  std::uint32_t instance;    ///< Index into Scene::instances; 0 where the ray left the scene.
+  std::uint32_t material;    ///< Index into Scene::materials; 0 where the ray left the scene.
   vec3 albedo_over_pi;       ///< Diffuse and specular together [1/sr]; 0: reflects nothing.
   uint normal_ws;            ///< Packed, towards the probe.
   vec3 light;                ///< Direct irradiance [W/m^2]; of the sky, its radiance [W/(m^2 sr)].
   uint geometric_normal_ws;  ///< Packed, towards the probe.
   SurfelKind kind;
 
+  bool operator==(const Surfel&) const = default;
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }
 };
 
@@ -79,6 +80,12 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGro
 
 /// How the hits of a ray set are shaded.
 ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays);
+
+/// A probe's ray.
+Ray probe_ray(const vec3& origin_ws, const vec3& direction);
+
+/// What a ray met, from its hit.
+Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded);
 
 /// Index of a probe's first ray among all, for its random numbers.
 std::size_t first_ray_index(int probe);

@@ -44,7 +44,7 @@ class CornerRays {
         biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
     const vec3 way = store_.probe_position_ws(base + offsets_.probe[corner]) - start;
     const float distance = max(length(way), kMinProbeDistance);
-    rays_.push_back({start, 0.0f, way / distance, distance});
+    rays_.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
     questions_.push_back({index, corner});
   }
 
@@ -163,7 +163,7 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
         for (int k = i + 1; k < kCorners; ++k) {
           const vec3 way = store.probe_position_ws(base + offsets.probe[k]) - start;
           const float distance = max(length(way), kMinProbeDistance);
-          rays.push_back({start, 0.0f, way / distance, distance});
+          rays.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
           pairs.push_back(std::uint64_t{1} << (8 * i + k) | std::uint64_t{1} << (8 * k + i));
         }
       }

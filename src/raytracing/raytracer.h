@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "lambent/scene.h"
 
@@ -15,11 +16,24 @@ namespace lambent {
 
 inline constexpr float kInfiniteDistance = std::numeric_limits<float>::infinity();
 
+/// Which instances a ray meets: those whose mask (instance_mask) shares a bit with the ray's.
+inline constexpr std::uint32_t kRayMeetsAll = 0xFFFFFFFFu;  ///< Cameras, shadows.
+inline constexpr std::uint32_t kRayGathers = 1u << 1;       ///< Meets what casts GI.
+inline constexpr std::uint32_t kRayOfProbe = 1u << 2;       ///< The same less what probes ignore.
+
+/// The rays that meet an instance, by its flags.
+inline std::uint32_t instance_mask(const Instance& instance) {
+  const std::uint32_t direct = kRayMeetsAll & ~(kRayGathers | kRayOfProbe);
+  if (!instance.casts_gi) return direct;
+  return instance.ignored_by_probes ? direct | kRayGathers : kRayMeetsAll;
+}
+
 struct Ray {
   glm::vec3 origin{0.0f};  ///< World space [m].
   float t_min = 0.0f;      ///< Hits nearer than this do not count [units of |direction|].
   glm::vec3 direction{0.0f, 0.0f, 1.0f};  ///< Unit length, so that distances are metres.
   float t_max = kInfiniteDistance;        ///< Nor farther ones.
+  std::uint32_t mask = kRayMeetsAll;      ///< Which instances it meets.
 };
 
 /// Where a ray met the scene.
@@ -35,10 +49,23 @@ struct Hit {
 };
 
 struct AccelerationStatistics {
-  double build_ms = 0.0;      ///< Wall-clock time of the last build.
+  double build_ms = 0.0;      ///< Wall-clock time of the first build.
+  double refit_ms = 0.0;      ///< Of the last update; 0: there was none.
   std::size_t bytes = 0;      ///< Memory held by the acceleration structures.
   std::size_t triangles = 0;  ///< Over all instances.
   std::size_t instances = 0;
+};
+
+/// What became of a scene's geometry since a ray tracer last saw it.
+struct GeometryEdits {
+  static constexpr std::int32_t kNew = -1;
+  /// For each instance, its index before, or kNew. What is not named here has vanished.
+  std::vector<std::int32_t> previous;
+  std::vector<std::uint32_t> moved;     ///< Old instances whose transform differs.
+  std::vector<std::uint32_t> masked;    ///< Old instances whose mask differs.
+  std::vector<std::uint32_t> deformed;  ///< Meshes of as many vertices and triangles as before.
+  /// Meshes to be built anew: other triangles, or from opaque to see-through or back.
+  std::vector<std::uint32_t> remade;
 };
 
 /// Finds what rays meet. Queries are const, single-threaded and safe to call from many threads at
@@ -56,6 +83,11 @@ class RayTracer {
 
   virtual AccelerationStatistics statistics() const = 0;
 
+  /// Follows edits of the scene that it was built over, refitting or rebuilding only what they
+  /// touch. Not to be called while rays are traced. Throws std::runtime_error where memory runs
+  /// out.
+  virtual void update(const GeometryEdits& edits) = 0;
+
   Hit closest_hit(const Ray& ray) const {
     Hit hit;
     closest_hits({&ray, 1}, {&hit, 1});
@@ -68,8 +100,9 @@ class RayTracer {
   }
 };
 
-/// A ray tracer on Embree, built over the scene as it is now. The scene must outlive it and keep
-/// its geometry. Throws std::runtime_error where Embree cannot start or runs out of memory.
+/// A ray tracer on Embree, built over the scene as it is now. The scene must outlive it; after its
+/// geometry is edited, `update` must be called before the next ray. Throws std::runtime_error where
+/// Embree cannot start or runs out of memory.
 std::unique_ptr<RayTracer> make_embree_raytracer(const Scene& scene);
 
 }  // namespace lambent

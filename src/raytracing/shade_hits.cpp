@@ -3,35 +3,55 @@
 
 #include <cassert>
 
-#include "raytracing/direct_light.h"
 #include "raytracing/surface.h"
 
 namespace lambent {
 namespace {
 
-/// Draws the candidates of direct light at a surface and queues their shadow rays.
-void queue_direct_light(const World& world, const Surface& surface, std::size_t hit,
-                        int emissive_samples, RandomStream random, ShadeHitsScratch& scratch) {
-  for_each_light(world, {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws},
-                 emissive_samples, random, [&](const LightCandidate& light) {
-                   const float cosine = glm::dot(surface.normal_ws, light.to_light);
-                   const float side = glm::dot(surface.geometric_normal_ws, light.to_light);
-                   if (cosine <= 0.0f || side <= 0.0f) return;
-                   scratch.pending.push_back({hit, light.perpendicular_irradiance * cosine});
-                   scratch.shadow_rays.push_back(
-                       shadow_ray(surface.position_ws, surface.geometric_normal_ws, light));
-                 });
+/// Draws the candidates of direct light at a point and queues their shadow rays.
+void queue_direct_light(const World& world, const DirectLightQuery& query, std::size_t place,
+                        const ShadeHitsSettings& settings, ShadeHitsScratch& scratch) {
+  const LitPoint& point = query.point;
+  RandomStream random =
+      make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
+  for_each_light(world, point, settings.emissive_samples, random, [&](const LightCandidate& light) {
+    const float cosine = glm::dot(point.normal_ws, light.to_light);
+    const float side = glm::dot(point.geometric_normal_ws, light.to_light);
+    if (cosine <= 0.0f || side <= 0.0f) return;
+    scratch.pending.push_back({place, light.perpendicular_irradiance * cosine});
+    scratch.shadow_rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));
+  });
 }
 
 }  // namespace
+
+std::size_t direct_irradiance(const World& world, std::span<const DirectLightQuery> queries,
+                              const ShadeHitsSettings& settings, ShadeHitsScratch& scratch,
+                              std::span<glm::vec3> irradiance) {
+  assert(queries.size() == irradiance.size());
+  scratch.shadow_rays.clear();
+  scratch.pending.clear();
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    irradiance[i] = glm::vec3(0.0f);
+    queue_direct_light(world, queries[i], i, settings, scratch);
+  }
+  // Add the light that does reach
+  scratch.occluded.resize(scratch.shadow_rays.size());
+  world.tracer().occlusions(scratch.shadow_rays, scratch.occluded);
+  for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
+    const ShadeHitsScratch::PendingLight& light = scratch.pending[i];
+    if (scratch.occluded[i] == 0) irradiance[light.query] += light.irradiance;
+  }
+  return scratch.shadow_rays.size();
+}
 
 std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<const Hit> hits,
                        const ShadeHitsSettings& settings, std::size_t first_index,
                        ShadeHitsScratch& scratch, std::span<ShadedHit> shaded) {
   assert(rays.size() == hits.size() && rays.size() == shaded.size());
   const Scene& scene = world.scene();
-  scratch.shadow_rays.clear();
-  scratch.pending.clear();
+  scratch.queries.clear();
+  scratch.hits.clear();
   prefetch_surfaces(scene, hits);
 
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -62,20 +82,18 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
 
     // Ask for the light that may reach it
     if (albedo == glm::vec3(0.0f)) continue;
-    queue_direct_light(world, surface, i, settings.emissive_samples,
-                       make_random_stream(static_cast<std::uint32_t>(first_index + i),
-                                          settings.salt, settings.seed),
-                       scratch);
+    scratch.queries.push_back(
+        {{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws}, first_index + i});
+    scratch.hits.push_back(i);
   }
 
-  // Add the light that does reach
-  scratch.occluded.resize(scratch.shadow_rays.size());
-  world.tracer().occlusions(scratch.shadow_rays, scratch.occluded);
-  for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
-    const ShadeHitsScratch::PendingLight& light = scratch.pending[i];
-    if (scratch.occluded[i] == 0) shaded[light.hit].direct_irradiance += light.irradiance;
+  scratch.direct.resize(scratch.queries.size());
+  const std::size_t shadow_rays =
+      direct_irradiance(world, scratch.queries, settings, scratch, scratch.direct);
+  for (std::size_t i = 0; i < scratch.hits.size(); ++i) {
+    shaded[scratch.hits[i]].direct_irradiance = scratch.direct[i];
   }
-  return scratch.shadow_rays.size();
+  return shadow_rays;
 }
 
 }  // namespace lambent

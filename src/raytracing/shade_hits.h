@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "lambent/world.h"
+#include "raytracing/direct_light.h"
 #include "raytracing/raytracer.h"
 
 namespace lambent {
@@ -23,6 +23,7 @@ struct ShadedHit {
   bool counts = true;                 ///< false: the back of a single-sided surface.
 };
 
+/// How hits are shaded.
 struct ShadeHitsSettings {
   float cone_width =
       0.0f;  ///< Width of a ray's cone per metre, which picks MIP levels; 0: full resolution.
@@ -34,16 +35,31 @@ struct ShadeHitsSettings {
   std::uint32_t seed = 1;
 };
 
+/// A point whose direct light is asked for, and the hit's index, which picks its random numbers.
+struct DirectLightQuery {
+  LitPoint point;
+  std::size_t index;
+};
+
 /// Shadow rays and their stakes; kept between calls to save allocations.
 struct ShadeHitsScratch {
   struct PendingLight {
-    std::size_t hit;
+    std::size_t query;
     glm::vec3 irradiance;
   };
+  std::vector<DirectLightQuery> queries;
+  std::vector<std::size_t> hits;  // of the queries
+  std::vector<glm::vec3> direct;  // their answers
   std::vector<Ray> shadow_rays;
   std::vector<PendingLight> pending;
   std::vector<std::uint8_t> occluded;
 };
+
+/// Direct irradiance [W/m^2] at points, as shade_hits finds it for a hit of the same index. Spans
+/// have the same length. Single-threaded. Returns the shadow rays traced.
+std::size_t direct_irradiance(const World& world, std::span<const DirectLightQuery> queries,
+                              const ShadeHitsSettings& settings, ShadeHitsScratch& scratch,
+                              std::span<glm::vec3> irradiance);
 
 /// Shades the hits of rays; all spans have the same length. `first_index` is the index of the first
 /// ray among all. Single-threaded. Returns the shadow rays traced.

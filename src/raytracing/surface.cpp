@@ -123,7 +123,9 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float foo
   // Compute the shading normal on the side that the vertices call the front
   glm::vec3 normal = interpolate(mesh.normals, point);
   const bool along_winding = glm::dot(normal, face_normal) >= 0.0f;
-  if (material.normal_texture.texture >= 0) {
+  // Bumps that the footprint averages over leave the surface flat
+  if (material.normal_texture.texture >= 0 &&
+      !shows_mean_alone(scene, mesh, material.normal_texture, point, texture_footprint)) {
     normal = mapped_normal(scene, mesh, material, point, texture_footprint,
                            normalize_or(normal, glm::vec3(0.0f, 0.0f, 1.0f)));
   }

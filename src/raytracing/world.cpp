@@ -1,25 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/world.h"
 
+#include <deque>
+
+#include "core/stopwatch.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/scene_snapshot.h"
 #include "scene/light_sampling.h"
 
 namespace lambent {
 
+struct World::History {
+  SceneSnapshot snapshot;
+  std::uint64_t revision = 0;
+  std::deque<WorldChanges> log;  // the last of them
+};
+
 World::World(const Scene& scene)
     : scene_(&scene),
       tracer_(make_embree_raytracer(scene)),
-      emissive_(std::make_unique<EmissiveTriangles>(scene)) {}
+      emissive_(std::make_unique<EmissiveTriangles>(scene)),
+      history_(std::make_unique<History>()) {
+  history_->snapshot = take_snapshot(scene, nullptr);
+}
 
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
+
+Expected<WorldChanges> World::update() {
+  Stopwatch watch;
+  History& history = *history_;
+  if (Expected<void> fine = validate_edits(*scene_, history.snapshot); !fine) {
+    return tl::unexpected(std::move(fine).error());
+  }
+  SceneSnapshot now = take_snapshot(*scene_, &history.snapshot);
+  SceneEdits edits = compare(history.snapshot, now);
+  if (edits.geometry_differs) tracer_->update(edits.geometry);
+  if (edits.emitters_differ) emissive_ = std::make_unique<EmissiveTriangles>(*scene_);
+  history.snapshot = std::move(now);
+
+  edits.changes.revision = history.revision;
+  if (!edits.changes.any()) return std::move(edits.changes);
+  edits.changes.revision = ++history.revision;
+  edits.changes.refit_ms = watch.lap();
+  if (history.log.size() == kLogLength) history.log.pop_front();
+  history.log.push_back(edits.changes);
+  return std::move(edits.changes);
+}
+
+std::uint64_t World::revision() const {
+  return history_->revision;
+}
+
+std::optional<std::vector<WorldChanges>> World::changes_since(std::uint64_t revision) const {
+  const History& history = *history_;
+  if (revision > history.revision) return std::nullopt;
+  const std::uint64_t missed = history.revision - revision;
+  if (missed > history.log.size()) return std::nullopt;
+  return std::vector<WorldChanges>(history.log.end() - static_cast<std::ptrdiff_t>(missed),
+                                   history.log.end());
+}
 
 double World::build_ms() const {
   return tracer_->statistics().build_ms;
 }
 std::size_t World::bytes() const {
   return tracer_->statistics().bytes;
+}
+double World::refit_ms() const {
+  return tracer_->statistics().refit_ms;
 }
 
 }  // namespace lambent

@@ -38,6 +38,18 @@ glm::vec4 texture_at(const Scene& scene, const Mesh& mesh, const TextureView& vi
   return nearest_texel(scene, view, uv, mip_level(scene, uvs, view, point, footprint));
 }
 
+bool shows_mean_alone(const Scene& scene, const Mesh& mesh, const TextureView& view,
+                      const TrianglePoint& point, TextureFootprint footprint) {
+  // Details are averaged over, and few such averages fit into the texture
+  constexpr int kMinLevel = 2;
+  constexpr int kMaxLevelsToCoarsest = 4;
+  const std::vector<glm::vec2>& uvs = mesh.uvs[view.uv_set];
+  if (uvs.empty() || footprint.share_of_triangle <= 0.0f) return false;
+  const int level = mip_level(scene, uvs, view, point, footprint);
+  const int coarsest = static_cast<int>(scene.textures[view.texture].levels.size()) - 1;
+  return level >= kMinLevel && coarsest - level <= kMaxLevelsToCoarsest;
+}
+
 glm::vec4 base_color_at(const Scene& scene, const Mesh& mesh, const Material& material,
                         const TrianglePoint& point, TextureFootprint footprint) {
   glm::vec4 color = material.base_color;

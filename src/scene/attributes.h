@@ -41,6 +41,10 @@ struct TextureFootprint {
 glm::vec4 texture_at(const Scene& scene, const Mesh& mesh, const TextureView& view,
                      const TrianglePoint& point, TextureFootprint footprint = {});
 
+/// Whether a footprint covers so much of a texture that what it shows of it is all but its mean.
+bool shows_mean_alone(const Scene& scene, const Mesh& mesh, const TextureView& view,
+                      const TrianglePoint& point, TextureFootprint footprint);
+
 /// Linear base colour and coverage: factor, texture and vertex colour.
 glm::vec4 base_color_at(const Scene& scene, const Mesh& mesh, const Material& material,
                         const TrianglePoint& point, TextureFootprint footprint = {});

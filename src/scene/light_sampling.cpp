@@ -84,6 +84,7 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const Material& material = scene.materials[mesh.material];
     if (!may_emit(material)) continue;
+    Bounds bounds;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
       const float area = 0.5f * glm::length(edge_product(mesh, instance, t));
       const float radiance = maps[mesh.material].mean_luminance(mesh, t) *
@@ -93,7 +94,12 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
       entries_.push_back({i, t, area, 0.0f});
       powers.push_back(static_cast<double>(area) * radiance);
       total += powers.back();
+      for (int corner = 0; corner < 3; ++corner) {
+        const glm::vec3& position = mesh.positions[mesh.triangles[t][corner]];
+        bounds.add(glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f)));
+      }
     }
+    if (!bounds.empty()) bounds_.push_back(bounds);
   }
   total_power_ = static_cast<float>(kTwoPi * total);
 

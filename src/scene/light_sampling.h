@@ -45,6 +45,9 @@ class EmissiveTriangles {
   /// emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
 
+  /// World-space boxes of the emissive triangles, one an instance [m].
+  const std::vector<Bounds>& bounds() const { return bounds_; }
+
   /// Power of all triangles, both sides [W], luminance-weighted.
   float total_power() const { return total_power_; }
 
@@ -56,6 +59,7 @@ class EmissiveTriangles {
   };
   const Scene* scene_;
   std::vector<Entry> entries_;
+  std::vector<Bounds> bounds_;
   std::vector<float> cumulative_;  // upper end of each entry's interval of [0, 1)
   std::unordered_map<std::uint64_t, std::uint32_t> index_of_;
   float total_power_ = 0.0f;

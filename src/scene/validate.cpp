@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "scene/validate.h"
+
 #include <cmath>
 #include <string>
 
-#include "lambent/scene.h"
 #include "shared/constants.h"
 
 namespace lambent {
@@ -44,6 +45,28 @@ std::string entry(const char* array, std::size_t index) {
   return std::string(array) + "[" + std::to_string(index) + "]";
 }
 
+template <class T, class Check>
+bool all_of(const std::vector<T>& values, Check check) {
+  for (const T& value : values) {
+    if (!check(value)) return false;
+  }
+  return true;
+}
+
+const char* flaw_of(const TextureView& view, std::size_t textures) {
+  if (view.texture < -1) return "refers to a texture by a negative index";
+  if (view.texture >= 0 && static_cast<std::size_t>(view.texture) >= textures) {
+    return "refers to a texture that does not exist";
+  }
+  if (view.uv_set != 0 && view.uv_set != 1) return "uses texture coordinates other than 0 or 1";
+  if (!finite(view.uv_offset) || !finite(view.uv_scale) || !finite(view.uv_rotation)) {
+    return "transforms texture coordinates by numbers that are not finite";
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 const char* flaw_of(const Texture& texture) {
   if (texture.levels.empty()) return "has no levels";
   int width = texture.levels[0].width;
@@ -59,18 +82,6 @@ const char* flaw_of(const Texture& texture) {
   }
   const TextureLevel& last = texture.levels.back();
   return last.width == 1 && last.height == 1 ? nullptr : "lacks MIP levels down to 1x1";
-}
-
-const char* flaw_of(const TextureView& view, std::size_t textures) {
-  if (view.texture < -1) return "refers to a texture by a negative index";
-  if (view.texture >= 0 && static_cast<std::size_t>(view.texture) >= textures) {
-    return "refers to a texture that does not exist";
-  }
-  if (view.uv_set != 0 && view.uv_set != 1) return "uses texture coordinates other than 0 or 1";
-  if (!finite(view.uv_offset) || !finite(view.uv_scale) || !finite(view.uv_rotation)) {
-    return "transforms texture coordinates by numbers that are not finite";
-  }
-  return nullptr;
 }
 
 const char* flaw_of(const Material& m, std::size_t textures) {
@@ -91,14 +102,6 @@ const char* flaw_of(const Material& m, std::size_t textures) {
     if (const char* flaw = flaw_of(*view, textures)) return flaw;
   }
   return nullptr;
-}
-
-template <class T, class Check>
-bool all_of(const std::vector<T>& values, Check check) {
-  for (const T& value : values) {
-    if (!check(value)) return false;
-  }
-  return true;
 }
 
 const char* flaw_of(const Mesh& mesh, std::size_t materials) {
@@ -197,6 +200,8 @@ const char* flaw_of(const Environment& environment) {
              : "map has a pixel that is negative or not finite";
 }
 
+namespace {
+
 // The first flaw of an array's entries, with its place.
 template <class T, class... Counts>
 Expected<void> check_array(const Scene& scene, const char* name, const std::vector<T>& entries,
@@ -225,7 +230,7 @@ Expected<void> validate(const Scene& scene) {
   if (const char* flaw = flaw_of(scene.environment)) {
     return fail(scene.source.path, "environment", flaw);
   }
-  return {};
+  return validate_motion(scene);
 }
 
 }  // namespace lambent

@@ -31,8 +31,7 @@ class Transport {
     group_.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u);
     group_.probes.resize(store_.probes());
     std::iota(group_.probes.begin(), group_.probes.end(), 0);
-    const BlendMatrix distance_blend(settings.distance_texels, kDistanceExponent,
-                                     group_.rays->directions);
+    const DistanceBlend distance_blend(settings, group_.rays->directions);
     trace_probe_rays(stage.world.tracer(), store_, group_);
     blend_distances(stage.scene, distance_blend, group_, all(), 0u, store_);
     shade_surfels(stage.world, store_, group_, settings, traces_);

@@ -2,63 +2,42 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <chrono>
 #include <glm/gtc/type_ptr.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "raytracing/embree/api.h"
+#include "core/stopwatch.h"
+#include "raytracing/embree/geometry.h"
 #include "raytracing/raytracer.h"
-#include "raytracing/surface.h"
-#include "shared/random.h"
 
 namespace lambent {
 namespace {
 
-template <class T, void (*release)(T)>
-struct Releaser {
-  using pointer = T;
-  void operator()(T handle) const { release(handle); }
-};
-using Device = std::unique_ptr<RTCDevice, Releaser<RTCDevice, rtcReleaseDevice>>;
-using SceneHandle = std::unique_ptr<RTCScene, Releaser<RTCScene, rtcReleaseScene>>;
-using Geometry = std::unique_ptr<RTCGeometry, Releaser<RTCGeometry, rtcReleaseGeometry>>;
+using embree::Geometry;
+using embree::SceneHandle;
+using embree::Slots;
+
+// A refitted hierarchy is built anew once its box has grown or shrunk by this factor in area: its
+// nodes have come to overlap by then.
+constexpr float kMaxAreaChange = 1.5f;
 
 bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
   *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
   return true;
 }
 
-/// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without
-/// state.
-float uniform_of_hit(float u, float v, float distance, std::uint32_t triangle) {
-  const uvec3 mixed = hash_pcg3d(uvec3(floatBitsToUint(u) ^ (triangle * 0x9E3779B9u),
-                                       floatBitsToUint(v), floatBitsToUint(distance)));
-  return uniform_from_bits(mixed.x);
+float half_area(const Mesh& mesh) {
+  Bounds bounds;
+  for (const glm::vec3& p : mesh.positions) bounds.add(p);
+  if (bounds.empty()) return 0.0f;
+  const glm::vec3 size = bounds.max - bounds.min;
+  return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-/// Embree asks of each candidate hit on a triangle that may be see-through: does it count?
-void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
-  const auto& scene = *static_cast<const Scene*>(args->geometryUserPtr);
-  for (unsigned lane = 0; lane < args->N; ++lane) {
-    if (args->valid[lane] == 0) continue;
-    const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, lane);
-    const bool instanced = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    const std::uint32_t instance = instanced ? hit.instID[0] : hit.geomID;
-    const Material& material =
-        scene.materials[scene.meshes[scene.instances[instance].mesh].material];
-    const float coverage = coverage_at(scene, instance, hit.primID, {hit.u, hit.v});
-    const float threshold =
-        material.alpha_mode == AlphaMode::mask
-            ? material.alpha_cutoff
-            : uniform_of_hit(hit.u, hit.v, RTCRayN_tfar(args->ray, args->N, lane), hit.primID);
-    const bool counts =
-        material.alpha_mode == AlphaMode::mask ? coverage >= threshold : coverage > threshold;
-    if (!counts) args->valid[lane] = 0;
-  }
-}
-
+/// Everything in one hierarchy while nothing moves, which is fastest to traverse. Once something
+/// does, two levels: what stands still in a hierarchy of its own, and each moving instance beside
+/// it; then moving costs no more than sorting these anew.
 class EmbreeRayTracer final : public RayTracer {
  public:
   explicit EmbreeRayTracer(const Scene& scene);
@@ -66,100 +45,272 @@ class EmbreeRayTracer final : public RayTracer {
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
   AccelerationStatistics statistics() const override { return statistics_; }
+  void update(const GeometryEdits& edits) override;
 
  private:
-  Geometry make_mesh(const Mesh& mesh, const glm::mat4* world_from_object);
-  [[noreturn]] void fail_with_device_error(const char* doing) const;
+  /// An instance of the scene as Embree has it.
+  struct Placement {
+    Geometry geometry;
+    std::uint32_t mask = kRayMeetsAll;
+    bool moves = false;     // on its own in the upper level
+    bool baked = false;     // its vertices are in world space
+    bool mirrored = false;  // its transform turns faces inside out
+    bool used = false;
+  };
+  /// The hierarchy of one mesh, for instances that are not baked.
+  struct MeshScene {
+    SceneHandle scene;
+    Geometry geometry;
+    float half_area = 0.0f;  // when built [m^2]
+    bool deforms = false;
+  };
 
-  const Scene& scene_;
+  bool follow_list(const GeometryEdits& edits);
+  void build();
+  void make_mesh_scene(std::size_t mesh);
+  void place(std::uint32_t slot, RTCScene into);
+  void refit(const GeometryEdits& edits, const std::vector<std::uint8_t>& bent);
+  void finish(double* ms, Stopwatch& watch);
+  const Instance& instance_at(std::uint32_t slot) const {
+    return slots_.scene->instances[slots_.instance_of[slot]];
+  }
+  void check_masks() const;
+  [[noreturn]] static void fail_to_build();
+
+  Slots slots_;
   std::atomic<std::int64_t> bytes_ = 0;
-  Device device_;
-  std::vector<SceneHandle> mesh_scenes_;  // of the meshes placed more than once
+  embree::Device device_;
+  std::vector<MeshScene> meshes_;
+  std::vector<Placement> placements_;   // by slot
+  std::vector<std::uint32_t> slot_of_;  // by instance
+  std::vector<std::uint32_t> free_slots_;
+  SceneHandle still_;  // what stands still, where something else moves
   SceneHandle world_;
-  std::vector<std::uint8_t> mirrored_;  // by instance: its transform turns faces inside out
+  bool two_levels_ = false;
   AccelerationStatistics statistics_;
 };
 
-EmbreeRayTracer::EmbreeRayTracer(const Scene& scene) : scene_(scene) {
-  const auto start = std::chrono::steady_clock::now();
+EmbreeRayTracer::EmbreeRayTracer(const Scene& scene) {
+  Stopwatch watch;
+  slots_.scene = &scene;
   device_.reset(rtcNewDevice(nullptr));
   if (!device_) throw std::runtime_error("Embree cannot start: this processor lacks SSE2");
   rtcSetDeviceMemoryMonitorFunction(device_.get(), count_bytes, &bytes_);
+  GeometryEdits all_new;
+  all_new.previous.assign(scene.instances.size(), GeometryEdits::kNew);
+  follow_list(all_new);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    placements_[slot_of_[i]].moves = scene.instances[i].dynamic;
+  }
+  build();
+  finish(&statistics_.build_ms, watch);
+}
 
-  // Meshes placed once go into the world's own hierarchy, which is faster to traverse; the others
-  // are built once and instanced.
+void EmbreeRayTracer::fail_to_build() {
+  throw std::runtime_error(
+      "Embree failed while building the acceleration structure (out of memory?)");
+}
+
+void EmbreeRayTracer::check_masks() const {
+  if (rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0) return;
+  for (const Placement& placement : placements_) {
+    if (placement.used && placement.mask != kRayMeetsAll) {
+      throw std::runtime_error(
+          "this Embree was built without ray masks, which instances that cast no GI or that probes "
+          "ignore need");
+    }
+  }
+}
+
+void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
+  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) fail_to_build();
+  check_masks();
+  const Scene& scene = *slots_.scene;
+  statistics_.triangles = triangle_count(scene);
+  statistics_.instances = scene.instances.size();
+  statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));
+  *ms = watch.lap();
+}
+
+/// Gives slots to the scene's instances: their old ones to those that stay, free ones to new ones.
+/// Those that vanished are dropped from the upper level. Returns whether all that is left of the
+/// work is there, too: false where what stands still loses something.
+bool EmbreeRayTracer::follow_list(const GeometryEdits& edits) {
+  const std::vector<std::uint32_t> old_slots = std::move(slot_of_);
+  std::vector<std::uint8_t> stays(placements_.size(), 0);
+  slot_of_.clear();
+  for (const std::int32_t before : edits.previous) {
+    if (before == GeometryEdits::kNew) {
+      slot_of_.push_back(0);  // given below
+      continue;
+    }
+    slot_of_.push_back(old_slots[before]);
+    stays[old_slots[before]] = 1;
+  }
+  bool upper_level_alone = true;
+  for (std::uint32_t slot = 0; slot < stays.size(); ++slot) {
+    Placement& placement = placements_[slot];
+    if (stays[slot] != 0 || !placement.used) continue;
+    if (!placement.baked) rtcDetachGeometry(world_.get(), embree::id_of_slot(slot));
+    upper_level_alone = upper_level_alone && !placement.baked;
+    placement = {};
+    free_slots_.push_back(slot);
+  }
+  for (std::uint32_t i = 0; i < slot_of_.size(); ++i) {
+    if (edits.previous[i] == GeometryEdits::kNew) {
+      if (free_slots_.empty()) {
+        free_slots_.push_back(static_cast<std::uint32_t>(placements_.size()));
+        placements_.emplace_back();
+      }
+      slot_of_[i] = free_slots_.back();
+      free_slots_.pop_back();
+      placements_[slot_of_[i]].used = true;
+      // What came while others stood may well go again
+      placements_[slot_of_[i]].moves = true;
+    }
+  }
+  slots_.instance_of.assign(placements_.size(), 0);
+  for (std::uint32_t i = 0; i < slot_of_.size(); ++i) slots_.instance_of[slot_of_[i]] = i;
+  return upper_level_alone;
+}
+
+void EmbreeRayTracer::make_mesh_scene(std::size_t mesh) {
+  MeshScene& made = meshes_[mesh];
+  made.geometry = embree::make_mesh(device_.get(), slots_.scene->meshes[mesh], slots_, nullptr);
+  if (!made.geometry) fail_to_build();
+  made.scene.reset(rtcNewScene(device_.get()));
+  rtcSetSceneFlags(made.scene.get(), made.deforms ? RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_DYNAMIC
+                                                  : RTC_SCENE_FLAG_ROBUST);
+  if (made.deforms) {
+    rtcSetGeometryBuildQuality(made.geometry.get(), RTC_BUILD_QUALITY_REFIT);
+    made.half_area = half_area(slots_.scene->meshes[mesh]);
+  }
+  rtcCommitGeometry(made.geometry.get());
+  rtcAttachGeometry(made.scene.get(), made.geometry.get());
+  rtcCommitScene(made.scene.get());
+}
+
+/// Sets up a slot's geometry and attaches it.
+void EmbreeRayTracer::place(std::uint32_t slot, RTCScene into) {
+  Placement& placement = placements_[slot];
+  const Instance& instance = instance_at(slot);
+  placement.mask = instance_mask(instance);
+  placement.mirrored = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f;
+  if (placement.baked) {
+    placement.geometry = embree::make_mesh(device_.get(), slots_.scene->meshes[instance.mesh],
+                                           slots_, &instance.world_from_object);
+    if (!placement.geometry) fail_to_build();
+    rtcSetGeometryMask(placement.geometry.get(), placement.mask);
+    rtcCommitGeometry(placement.geometry.get());
+  } else {
+    if (!meshes_[instance.mesh].scene) make_mesh_scene(instance.mesh);
+    placement.geometry = embree::make_instance(device_.get(), meshes_[instance.mesh].scene.get(),
+                                               instance.world_from_object, placement.mask);
+  }
+  rtcAttachGeometryByID(into, placement.geometry.get(), embree::id_of_slot(slot));
+}
+
+/// Builds all levels, keeping the hierarchies of meshes.
+void EmbreeRayTracer::build() {
+  const Scene& scene = *slots_.scene;
+  meshes_.resize(scene.meshes.size());
   std::vector<int> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) ++uses[instance.mesh];
 
-  mesh_scenes_.resize(scene.meshes.size());
-  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
-    if (uses[i] < 2) continue;
-    mesh_scenes_[i].reset(rtcNewScene(device_.get()));
-    rtcSetSceneFlags(mesh_scenes_[i].get(), RTC_SCENE_FLAG_ROBUST);
-    const Geometry geometry = make_mesh(scene.meshes[i], nullptr);
-    rtcAttachGeometry(mesh_scenes_[i].get(), geometry.get());
-    rtcCommitScene(mesh_scenes_[i].get());
+  // Meshes placed once, for good, go into the hierarchy of what stands still; the others are built
+  // once and instanced
+  two_levels_ = false;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    Placement& placement = placements_[slot_of_[i]];
+    const int mesh = scene.instances[i].mesh;
+    placement.moves = placement.moves || meshes_[mesh].deforms;
+    placement.baked = !placement.moves && uses[mesh] < 2;
+    two_levels_ = two_levels_ || placement.moves;
   }
 
-  world_.reset(rtcNewScene(device_.get()));
   // Robust: neighbouring triangles leave no crack, so that closed rooms stay dark.
+  world_.reset(rtcNewScene(device_.get()));
   rtcSetSceneFlags(world_.get(), RTC_SCENE_FLAG_ROBUST);
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    statistics_.triangles += mesh.triangles.size();
-    mirrored_.push_back(glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f);
-    Geometry geometry;
-    if (mesh_scenes_[instance.mesh]) {
-      geometry.reset(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE));
-      rtcSetGeometryInstancedScene(geometry.get(), mesh_scenes_[instance.mesh].get());
-      rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
-                              glm::value_ptr(instance.world_from_object));
-      rtcCommitGeometry(geometry.get());
-    } else {
-      geometry = make_mesh(mesh, &instance.world_from_object);
-    }
-    rtcAttachGeometryByID(world_.get(), geometry.get(), static_cast<unsigned>(i));
+  still_.reset(two_levels_ ? rtcNewScene(device_.get()) : nullptr);
+  bool any_baked = false;
+  if (still_) rtcSetSceneFlags(still_.get(), RTC_SCENE_FLAG_ROBUST);
+  for (const std::uint32_t slot : slot_of_) {
+    const bool baked = placements_[slot].baked;
+    any_baked = any_baked || baked;
+    place(slot, still_ && baked ? still_.get() : world_.get());
+  }
+  if (still_ && any_baked) {
+    rtcCommitScene(still_.get());
+    const Geometry all =
+        embree::make_instance(device_.get(), still_.get(), glm::mat4(1.0f), kRayMeetsAll);
+    rtcAttachGeometryByID(world_.get(), all.get(), embree::kStillId);
   }
   rtcCommitScene(world_.get());
-  if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) fail_with_device_error("building");
-
-  statistics_.instances = scene.instances.size();
-  statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));
-  statistics_.build_ms =
-      std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-void EmbreeRayTracer::fail_with_device_error(const char* doing) const {
-  throw std::runtime_error(std::string("Embree failed while ") + doing +
-                           " the acceleration structure (out of memory?)");
+void EmbreeRayTracer::update(const GeometryEdits& edits) {
+  Stopwatch watch;
+  bool in_place = follow_list(edits) && two_levels_;
+  meshes_.resize(slots_.scene->meshes.size());
+
+  // Find what is touched. Once moved, always movable: a second time costs no rebuild
+  std::vector<std::uint8_t> bent(meshes_.size(), 0);
+  for (const std::uint32_t mesh : edits.deformed) {
+    bent[mesh] = 1;
+    if (!meshes_[mesh].deforms) meshes_[mesh].scene.reset();
+    meshes_[mesh].deforms = true;
+  }
+  for (const std::uint32_t mesh : edits.remade) {
+    bent[mesh] = 1;
+    meshes_[mesh].scene.reset();
+  }
+  const auto touch = [&](std::uint32_t slot) {
+    in_place = in_place && !placements_[slot].baked;
+    placements_[slot].moves = true;
+  };
+  for (const std::uint32_t i : edits.moved) touch(slot_of_[i]);
+  for (const std::uint32_t i : edits.masked) touch(slot_of_[i]);
+  for (const std::uint32_t slot : slot_of_) {
+    if (bent[instance_at(slot).mesh] != 0) touch(slot);
+  }
+
+  if (in_place) {
+    refit(edits, bent);
+  } else {
+    build();
+  }
+  finish(&statistics_.refit_ms, watch);
 }
 
-Geometry EmbreeRayTracer::make_mesh(const Mesh& mesh, const glm::mat4* world_from_object) {
-  Geometry geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
-  auto* vertices = static_cast<glm::vec3*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              sizeof(glm::vec3), mesh.positions.size()));
-  auto* triangles = static_cast<glm::uvec3*>(
-      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              sizeof(glm::uvec3), mesh.triangles.size()));
-  if ((vertices == nullptr && !mesh.positions.empty()) ||
-      (triangles == nullptr && !mesh.triangles.empty())) {
-    fail_with_device_error("filling");
+/// Brings the meshes that were bent and the upper level up to date.
+void EmbreeRayTracer::refit(const GeometryEdits& edits, const std::vector<std::uint8_t>& bent) {
+  for (const std::uint32_t mesh : edits.deformed) {
+    MeshScene& deforming = meshes_[mesh];
+    if (!deforming.scene) continue;
+    const Mesh& source = slots_.scene->meshes[mesh];
+    const float area = half_area(source);
+    const bool grew =
+        area > deforming.half_area * kMaxAreaChange || area * kMaxAreaChange < deforming.half_area;
+    if (grew || !embree::has_triangles_of(deforming.geometry.get(), source)) {
+      deforming.scene.reset();
+      continue;
+    }
+    embree::move_vertices(deforming.geometry.get(), source);
+    rtcCommitScene(deforming.scene.get());
   }
-  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-    vertices[v] = world_from_object != nullptr
-                      ? glm::vec3(*world_from_object * glm::vec4(mesh.positions[v], 1.0f))
-                      : mesh.positions[v];
+
+  std::vector<std::uint8_t> stale(slot_of_.size(), 0);
+  for (const std::uint32_t i : edits.moved) stale[i] = 1;
+  for (const std::uint32_t i : edits.masked) stale[i] = 1;
+  for (std::uint32_t i = 0; i < slot_of_.size(); ++i) {
+    const int mesh = slots_.scene->instances[i].mesh;
+    if (stale[i] == 0 && bent[mesh] == 0 && edits.previous[i] != GeometryEdits::kNew) continue;
+    if (edits.previous[i] != GeometryEdits::kNew) {
+      rtcDetachGeometry(world_.get(), embree::id_of_slot(slot_of_[i]));
+    }
+    place(slot_of_[i], world_.get());
   }
-  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-  if (scene_.materials[mesh.material].alpha_mode != AlphaMode::opaque) {
-    rtcSetGeometryUserData(geometry.get(), const_cast<Scene*>(&scene_));
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_by_coverage);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), filter_by_coverage);
-  }
-  rtcCommitGeometry(geometry.get());
-  return geometry;
+  rtcCommitScene(world_.get());
 }
 
 RTCRay to_embree(const Ray& ray) {
@@ -172,7 +323,7 @@ RTCRay to_embree(const Ray& ray) {
   result.dir_y = ray.direction.y;
   result.dir_z = ray.direction.z;
   result.tfar = ray.t_max;
-  result.mask = 0xFFFFFFFFu;
+  result.mask = ray.mask;
   return result;
 }
 
@@ -190,21 +341,22 @@ void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
       hit.distance = kInfiniteDistance;
       continue;
     }
-    const bool instanced = query.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    hit.instance = instanced ? query.hit.instID[0] : query.hit.geomID;
+    bool baked = false;
+    const std::uint32_t slot = Slots::slot_of(query.hit.geomID, query.hit.instID[0], baked);
+    hit.instance = slots_.instance_of[slot];
     hit.distance = query.ray.tfar;
     hit.triangle = query.hit.primID;
     hit.barycentrics = {query.hit.u, query.hit.v};
 
     // Embree's normal is of object space for instances; so must the direction be.
     glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    if (instanced) {
-      const glm::mat3 linear(scene_.instances[hit.instance].world_from_object);
+    if (!baked) {
+      const glm::mat3 linear(slots_.scene->instances[hit.instance].world_from_object);
       normal = glm::transpose(glm::inverse(linear)) * normal;
     }
     const bool faces_ray = glm::dot(normal, rays[i].direction) < 0.0f;
     // Baked vertices of a mirrored placement run the other way round; instanced normals do not.
-    hit.front_face = faces_ray != (!instanced && mirrored_[hit.instance] != 0);
+    hit.front_face = faces_ray != (baked && placements_[slot].mirrored);
   }
 }
 

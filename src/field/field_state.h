@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// All that an irradiance field consists of.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/blend.h"
+#include "field/classify.h"
+#include "field/probe_record.h"
+#include "field/probe_store.h"
+#include "field/relight.h"
+#include "field/schedule.h"
+#include "field/surfels.h"
+#include "lambent/field.h"
+#include "lambent/world.h"
+
+namespace lambent {
+
+/// Edits of the world that some probes have been held against and others not yet.
+struct OpenEdits {
+  std::uint64_t revision = 0;  ///< Of the world.
+  WorkingIrradiance before;    ///< The light when the edits came, of all probes; empty: none.
+  WorkingIrradiance gain;      ///< What was held over what the last rays told, where followed.
+  std::vector<int> followed;   ///< In ascending order.
+};
+
+/// Which of the probes that edits of the world may have touched an update held against them.
+enum class Followed { nothing, some, all };
+
+struct IrradianceField::State {
+  State(const FieldSettings& field_settings, const FieldGrid& field_grid);
+
+  FieldSettings settings;
+  FieldGrid grid;
+  ProbeStore store;
+  BlendMatrix tile_fit;
+  std::vector<ProbeTrace> traces;
+  std::vector<ProbeRecord> records;
+  ProbeSights sights;               ///< Kept for hybrid visibility alone.
+  std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
+  WorkingIrradiance light;          ///< That the store holds, before it was encoded.
+  OpenEdits edits;
+  RayCost ray_cost;
+  int updates = 0;
+  float mean_light = 0.0f;     ///< Luminance that probes hold on average, when last traced.
+  bool followed_last = false;  ///< The last update followed edits and traced nothing else.
+
+  int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
+  /// Of this update's dither.
+  uint salt() const;
+  RelightSettings relight_settings() const {
+    return {settings.max_albedo, settings.relight_tolerance, settings.max_relights};
+  }
+  TransportOperator transport(std::span<const int> probes) const {
+    return {store.grid(), traces, probes, tile_fit, settings.irradiance_texels};
+  }
+
+  /// Moves probes to where they are needed and finds what they reach. Those that moved forget all.
+  void place(const World& world, std::span<const int> probes);
+  /// Says what each probe is for, with what moves where it is now.
+  void classify(const World& world);
+  VisibilityRays visibility(const World& world) const {
+    return {settings.visibility, &world.tracer(), &sights};
+  }
+
+  /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
+  Followed follow(const World& world, std::uint64_t ray_budget,
+                  const std::optional<vec3>& viewer_ws, UpdateStatistics& statistics);
+  void keep_gain(std::span<const int> probes);
+  void follow_slice(const World& world, std::span<const WorldChanges> changes,
+                    std::span<const int> probes, std::span<const int> all,
+                    UpdateStatistics& statistics);
+  void solve_edits(bool done, UpdateStatistics& statistics);
+  void forget_light(std::span<const int> probes, std::uint64_t revision);
+  /// Traces the scheduled probes, and blends what they receive into the store.
+  void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
+  /// Encodes the light of some probes.
+  void store_light(std::span<const int> probes);
+};
+
+}  // namespace lambent

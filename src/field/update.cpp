@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: McGuire et al., "Probe-based dynamic global illumination", US 2021/0012562; Majercik et
+// al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
+// The order of an update of the irradiance field.
+#include <algorithm>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "field/distances.h"
+#include "field/field_state.h"
+#include "field/tile_light.h"
+#include "lambent/world.h"
+#include "shared/random.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kProbesPerTask = 64;
+
+// Keeps the random numbers of the store's dither apart from those of other passes.
+constexpr uint kStoreSalt = 0x53544F52u;
+
+// Noise of probes darker than this share of all is judged as if they were as bright: an eye that
+// has adapted to the scene sees no more of it.
+constexpr float kDarkShare = 0.02f;
+
+}  // namespace
+
+uint IrradianceField::State::salt() const {
+  return hash_pcg3d(uvec3(static_cast<uint>(updates), settings.seed, kStoreSalt)).x;
+}
+
+void IrradianceField::State::store_light(std::span<const int> probes) {
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  const uint dither = salt();
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<vec3> interior(texels);
+    for (std::size_t k = begin; k < end; ++k) {
+      for (std::size_t t = 0; t < texels; ++t) interior[t] = vec3(light[probes[k] * texels + t]);
+      store.store_irradiance(probes[k], interior, dither);
+    }
+  });
+}
+
+void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> groups,
+                                   UpdateStatistics& statistics) {
+  Stopwatch watch;
+  for (TraceGroup& group : groups) {
+    trace_probe_rays(world.tracer(), store, group);
+    statistics.probe_rays += group.hits.size();
+  }
+  statistics.trace_ms += watch.lap();
+
+  // The mean of all updates so far, until it has become an exponential moving average
+  const float longest = 1.0f / (1.0f - settings.hysteresis);
+  std::vector<int> probes;
+  std::vector<float> shares, weights;
+  for (const TraceGroup& group : groups) {
+    const DistanceBlend blend(settings, group.rays->directions);
+    const float weight =
+        static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
+    std::vector<float> group_shares;
+    for (const int probe : group.probes) {
+      const float held = min(records[probe].samples, max(longest - weight, 0.0f));
+      group_shares.push_back(weight / (held + weight));
+    }
+    blend_distances(world.scene(), blend, group, group_shares, salt(), store);
+    probes.insert(probes.end(), group.probes.begin(), group.probes.end());
+    shares.insert(shares.end(), group_shares.begin(), group_shares.end());
+    weights.insert(weights.end(), group.probes.size(), weight);
+  }
+  statistics.blend_ms += watch.lap();
+
+  for (const TraceGroup& group : groups) {
+    statistics.shadow_rays += shade_surfels(world, store, group, settings, traces);
+  }
+  if (settings.visibility == Visibility::hybrid) {
+    statistics.shadow_rays += sights.look(world.tracer(), store, probes);
+  }
+  statistics.shadow_rays += find_surfel_lookups(store, visibility(world), probes, traces);
+  statistics.shade_ms += watch.lap();
+
+  // Solve for all bounces, starting from the light that is there
+  const TransportOperator operator_of_all = transport(probes);
+  const WorkingIrradiance history = light_of(light, probes, tile_texels());
+  const RelightResult solved =
+      settings.max_bounces >= 0
+          ? relight_bounces(operator_of_all, shares, settings.max_bounces, light)
+          : relight(operator_of_all, shares, {}, relight_settings(), light);
+  statistics.relights += solved.iterations;
+  statistics.residual = solved.error;
+  statistics.change = solved.change;
+  statistics.probes_traced += static_cast<int>(probes.size());
+  statistics.relight_ms += watch.lap();
+
+  // What was blended in is a share of how far the rays were from what was held
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  const float darkest = kDarkShare * mean_light;
+  double light_sum = 0.0;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    ProbeRecord& record = records[probes[k]];
+    const TileLight held(&light[probes[k] * texels], texels), before(&history[k * texels], texels);
+    const float square = relative_square(held, before, darkest);
+    light_sum += mean_luminance(held);
+    learn_noise(square / (shares[k] * shares[k]), weights[k], record);
+    record.samples = min(record.samples, longest);
+    record.served = static_cast<std::uint32_t>(updates) + 1;
+    record.state = state_once_traced(record.state);
+    record.revision = world.revision();
+  }
+  if (!probes.empty()) {
+    mean_light = static_cast<float>(light_sum / static_cast<double>(probes.size()));
+  }
+  store_light(probes);
+  statistics.blend_ms += watch.lap();
+}
+
+UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest& request) {
+  State& s = *state_;
+  UpdateStatistics statistics;
+  Stopwatch watch;
+  std::uint64_t budget = request.ray_budget;
+  if (request.time_budget_ms > 0.0) {
+    const std::uint64_t learned = s.ray_cost.rays_within(request.time_budget_ms);
+    budget = budget == 0 ? learned : std::min(budget, learned);
+  }
+
+  if (s.updates == 0) {
+    std::vector<int> all(s.records.size());
+    std::iota(all.begin(), all.end(), 0);
+    s.place(world, all);
+  }
+  s.classify(world);
+
+  const Followed followed = s.follow(world, budget, request.viewer_ws, statistics);
+  const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
+  // Probes that wait to be held against edits would lose sight of them were they traced before
+  const bool trace =
+      followed != Followed::some &&
+      (budget == 0 ? followed == Followed::nothing || s.followed_last : spent < budget);
+  s.followed_last = followed != Followed::nothing && !trace;
+  if (trace) {
+    const auto update = static_cast<uint>(s.updates);
+    const Schedule schedule = budget == 0
+                                  ? schedule_all(s.records, s.settings.rays_per_probe)
+                                  : schedule_within(s.store, s.records, s.settings, budget - spent,
+                                                    update + 1, request.viewer_ws);
+    s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
+  }
+  ++s.updates;
+  s.ray_cost.learn(statistics.probe_rays + statistics.shadow_rays, watch.lap());
+  return statistics;
+}
+
+}  // namespace lambent

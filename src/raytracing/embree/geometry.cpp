@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/embree/geometry.h"
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "raytracing/raytracer.h"
+#include "raytracing/surface.h"
+#include "shared/random.h"
+
+namespace lambent::embree {
+namespace {
+
+/// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without
+/// state.
+float uniform_of_hit(float u, float v, float distance, std::uint32_t triangle) {
+  const uvec3 mixed = hash_pcg3d(uvec3(floatBitsToUint(u) ^ (triangle * 0x9E3779B9u),
+                                       floatBitsToUint(v), floatBitsToUint(distance)));
+  return uniform_from_bits(mixed.x);
+}
+
+/// Embree asks of each candidate hit on a triangle that may be see-through: does it count?
+void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
+  const auto& slots = *static_cast<const Slots*>(args->geometryUserPtr);
+  const Scene& scene = *slots.scene;
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] == 0) continue;
+    const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, lane);
+    bool baked = false;
+    const std::uint32_t instance =
+        slots.instance_of[Slots::slot_of(hit.geomID, hit.instID[0], baked)];
+    const Material& material =
+        scene.materials[scene.meshes[scene.instances[instance].mesh].material];
+    const float coverage = coverage_at(scene, instance, hit.primID, {hit.u, hit.v});
+    const float threshold =
+        material.alpha_mode == AlphaMode::mask
+            ? material.alpha_cutoff
+            : uniform_of_hit(hit.u, hit.v, RTCRayN_tfar(args->ray, args->N, lane), hit.primID);
+    const bool counts =
+        material.alpha_mode == AlphaMode::mask ? coverage >= threshold : coverage > threshold;
+    if (!counts) args->valid[lane] = 0;
+  }
+}
+
+}  // namespace
+
+Geometry make_mesh(RTCDevice device, const Mesh& mesh, const Slots& slots,
+                   const glm::mat4* world_from_object) {
+  Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* vertices = static_cast<glm::vec3*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              sizeof(glm::vec3), mesh.positions.size()));
+  auto* triangles = static_cast<glm::uvec3*>(
+      rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              sizeof(glm::uvec3), mesh.triangles.size()));
+  if ((vertices == nullptr && !mesh.positions.empty()) ||
+      (triangles == nullptr && !mesh.triangles.empty())) {
+    return nullptr;
+  }
+  for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+    vertices[v] = world_from_object != nullptr
+                      ? glm::vec3(*world_from_object * glm::vec4(mesh.positions[v], 1.0f))
+                      : mesh.positions[v];
+  }
+  std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+  if (slots.scene->materials[mesh.material].alpha_mode != AlphaMode::opaque) {
+    rtcSetGeometryUserData(geometry.get(), const_cast<Slots*>(&slots));
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_by_coverage);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), filter_by_coverage);
+  }
+  rtcSetGeometryMask(geometry.get(), kRayMeetsAll);
+  return geometry;
+}
+
+bool has_triangles_of(RTCGeometry geometry, const Mesh& mesh) {
+  const auto* triangles =
+      static_cast<const glm::uvec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0));
+  return std::equal(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+}
+
+void move_vertices(RTCGeometry geometry, const Mesh& mesh) {
+  auto* vertices =
+      static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));
+  std::copy(mesh.positions.begin(), mesh.positions.end(), vertices);
+  rtcUpdateGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0);
+  rtcCommitGeometry(geometry);
+}
+
+Geometry make_instance(RTCDevice device, RTCScene mesh, const glm::mat4& world_from_object,
+                       std::uint32_t mask) {
+  Geometry geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE));
+  rtcSetGeometryInstancedScene(geometry.get(), mesh);
+  rtcSetGeometryTransform(geometry.get(), 0, RTC_FORMAT_FLOAT4X4_COLUMN_MAJOR,
+                          glm::value_ptr(world_from_object));
+  rtcSetGeometryMask(geometry.get(), mask);
+  rtcCommitGeometry(geometry.get());
+  return geometry;
+}
+
+}  // namespace lambent::embree

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Embree's handles, and how meshes and instances become geometry.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <vector>
+
+#include "lambent/scene.h"
+#include "raytracing/embree/api.h"
+
+namespace lambent::embree {
+
+template <class T, void (*release)(T)>
+struct Releaser {
+  using pointer = T;
+  void operator()(T handle) const { release(handle); }
+};
+using Device = std::unique_ptr<RTCDevice, Releaser<RTCDevice, rtcReleaseDevice>>;
+using SceneHandle = std::unique_ptr<RTCScene, Releaser<RTCScene, rtcReleaseScene>>;
+using Geometry = std::unique_ptr<RTCGeometry, Releaser<RTCGeometry, rtcReleaseGeometry>>;
+
+/// Embree's number of the one instance that holds everything that stands still.
+inline constexpr unsigned kStillId = 0;
+/// Instances are known to Embree by numbers that outlive edits of the scene's list: slots, plus
+/// one.
+inline unsigned id_of_slot(std::uint32_t slot) {
+  return slot + 1;
+}
+
+/// Which instance of the scene stands in which slot, for hits and for the filter of see-through
+/// surfaces.
+struct Slots {
+  const Scene* scene = nullptr;
+  std::vector<std::uint32_t> instance_of;  ///< By slot.
+
+  /// The slot that a hit belongs to; `baked` tells whether its vertices are in world space.
+  static std::uint32_t slot_of(unsigned geometry_id, unsigned instance_id, bool& baked) {
+    baked = instance_id == RTC_INVALID_GEOMETRY_ID || instance_id == kStillId;
+    return (baked ? geometry_id : instance_id) - 1;
+  }
+};
+
+/// A mesh as triangles, in world space where `world_from_object` is not null. `slots` must outlive
+/// it. Null where memory ran out.
+Geometry make_mesh(RTCDevice device, const Mesh& mesh, const Slots& slots,
+                   const glm::mat4* world_from_object);
+
+/// Whether the geometry of a mesh still has its triangles; their number is the same.
+bool has_triangles_of(RTCGeometry geometry, const Mesh& mesh);
+
+/// Copies vertices that moved into the geometry of their mesh; the caller commits its scene.
+void move_vertices(RTCGeometry geometry, const Mesh& mesh);
+
+/// An instance of a scene that holds one mesh.
+Geometry make_instance(RTCDevice device, RTCScene mesh, const glm::mat4& world_from_object,
+                       std::uint32_t mask);
+
+}  // namespace lambent::embree

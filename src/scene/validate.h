@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is wrong with a part of a scene, in words; null: nothing. For those who check parts of it.
+#pragma once
+
+#include <cstddef>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+const char* flaw_of(const Texture& texture);
+/// `textures`: how many the scene has; likewise below.
+const char* flaw_of(const Material& material, std::size_t textures);
+const char* flaw_of(const Mesh& mesh, std::size_t materials);
+const char* flaw_of(const Instance& instance, std::size_t meshes);
+const char* flaw_of(const Light& light);
+const char* flaw_of(const Camera& camera);
+const char* flaw_of(const Environment& environment);
+const char* flaw_of(const Curve& curve);
+
+/// Checks a scene's animations and its rig.
+Expected<void> validate_motion(const Scene& scene);
+
+}  // namespace lambent

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// Edits of the world, and what the field makes of them.
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "field/probe_store.h"
+#include "lambent/field.h"
+#include "lambent/world.h"
+#include "scenes/builtin.h"
+#include "shared/color.h"
+
+namespace lambent {
+namespace {
+
+/// A scene that may be edited, its world, and a field over it that has averaged a few updates.
+struct Edited {
+  explicit Edited(const std::string& name, const FieldSettings& settings = few(), int updates = 6)
+      : scene(scenes::make(name).value()),
+        world(scene),
+        field(IrradianceField::make(settings, open_bounds(world)).value()) {
+    for (int i = 0; i < updates; ++i) field.update(world);
+  }
+
+  static FieldSettings few() {
+    FieldSettings settings;
+    settings.probe_count = glm::ivec3(5);
+    settings.rays_per_probe = 128;
+    settings.irradiance_format = IrradianceFormat::float32;
+    return settings;
+  }
+
+  UpdateStatistics follow() {
+    EXPECT_TRUE(world.update().has_value());
+    return field.update(world);
+  }
+
+  /// What a field over the scene as it is now settles to.
+  IrradianceField settled() const {
+    const World now(scene);
+    IrradianceField fresh = IrradianceField::make(field.settings(), open_bounds(now)).value();
+    for (int i = 0; i < 24; ++i) fresh.update(now);
+    return fresh;
+  }
+
+  Scene scene;
+  World world;
+  IrradianceField field;
+};
+
+/// Luminance at points all over the field, facing six ways.
+std::vector<double> light_of(const IrradianceField& field) {
+  const FieldGrid& grid = field.grid();
+  std::vector<FieldQuery> queries;
+  constexpr int kPoints = 4;
+  for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
+    const glm::vec3 place(i % kPoints, i / kPoints % kPoints, i / (kPoints * kPoints));
+    const glm::vec3 share = (place + 0.5f) / static_cast<float>(kPoints);
+    for (int axis = 0; axis < 6; ++axis) {
+      glm::vec3 normal(0.0f);
+      normal[axis / 2] = axis % 2 == 0 ? 1.0f : -1.0f;
+      queries.push_back(
+          {grid.origin + share * grid.spacing * glm::vec3(grid.count - 1), normal, normal});
+    }
+  }
+  std::vector<glm::vec3> irradiance(queries.size());
+  field.irradiance(queries, irradiance);
+  std::vector<double> light;
+  for (const glm::vec3& e : irradiance) light.push_back(luminance(e));
+  return light;
+}
+
+double mean(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+double relative_rmse(const std::vector<double>& a, const std::vector<double>& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+  return std::sqrt(sum / static_cast<double>(a.size())) / mean(b);
+}
+
+std::vector<uint> words_of(const IrradianceField& field) {
+  const auto words = field.store().irradiance_words();
+  return {words.begin(), words.end()};
+}
+
+TEST(FieldEdit, LightThatGetsBrighterArrivesInOneUpdateWithoutAProbeRay) {
+  Edited edited("cube");
+  const std::vector<double> before = light_of(edited.field);
+  edited.scene.lights[0].intensity *= 3.0f;
+  const UpdateStatistics statistics = edited.follow();
+  EXPECT_EQ(statistics.probe_rays, 0u);
+  EXPECT_GT(statistics.shadow_rays, 0u);
+  EXPECT_EQ(statistics.probes_touched, 125);
+  std::vector<double> expected = before;
+  for (double& e : expected) e *= 3.0;
+  // As exact as the solution, not as the rays
+  EXPECT_LT(relative_rmse(light_of(edited.field), expected), 0.005);
+}
+
+TEST(FieldEdit, LightThatGoesOutLeavesDarkness) {
+  Edited edited("cube");
+  ASSERT_GT(mean(light_of(edited.field)), 0.0);
+  edited.scene.lights.clear();
+  edited.follow();
+  for (const double light : light_of(edited.field)) EXPECT_EQ(light, 0.0);
+}
+
+TEST(FieldEdit, LightThatComesOnInDarknessArrivesInOneUpdate) {
+  Edited edited("cube", Edited::few(), 0);
+  const std::vector<Light> lights = edited.scene.lights;
+  edited.scene.lights.clear();
+  ASSERT_TRUE(edited.world.update().has_value());
+  edited.field.update(edited.world);
+  ASSERT_EQ(mean(light_of(edited.field)), 0.0);
+  edited.scene.lights = lights;
+  edited.follow();
+  const std::vector<double> settled = light_of(edited.settled());
+  EXPECT_NEAR(mean(light_of(edited.field)), mean(settled), 0.03 * mean(settled));
+}
+
+TEST(FieldEdit, EmissionThatChangesIsFollowed) {
+  Edited edited("cornell");
+  const std::vector<double> before = light_of(edited.field);
+  for (Material& material : edited.scene.materials) material.emission *= 0.25f;
+  EXPECT_LT(edited.follow().probe_rays, 125u * 16u);  // those that meet the lamp
+  std::vector<double> expected = before;
+  for (double& e : expected) e *= 0.25;
+  EXPECT_LT(relative_rmse(light_of(edited.field), expected), 0.01);
+}
+
+TEST(FieldEdit, ObjectThatMovesIsFollowedWithTheRaysItMeets) {
+  Edited edited("cornell");
+  const double old_error = relative_rmse(light_of(edited.field), light_of(Edited("cornell").field));
+  EXPECT_EQ(old_error, 0.0);
+  Instance& block = edited.scene.instances.back();
+  block.world_from_object[3] += glm::vec4(0.5f, 0.0f, 0.4f, 0.0f);
+  const std::vector<double> before = light_of(edited.field);
+  const UpdateStatistics statistics = edited.follow();
+  EXPECT_GT(statistics.probe_rays, 0u);
+  EXPECT_LT(statistics.probe_rays, 125u * 128u / 2u);
+  const std::vector<double> settled = light_of(edited.settled());
+  EXPECT_LT(relative_rmse(light_of(edited.field), settled), 0.5 * relative_rmse(before, settled));
+  EXPECT_NEAR(mean(light_of(edited.field)), mean(settled), 0.05 * mean(settled));
+}
+
+TEST(FieldEdit, SkyThatChangesIsFollowedWithoutARay) {
+  Edited edited("furnace-sky");
+  const std::vector<double> before = light_of(edited.field);
+  ASSERT_GT(mean(before), 0.0);
+  edited.scene.environment.radiance *= 2.0f;
+  const UpdateStatistics statistics = edited.follow();
+  EXPECT_EQ(statistics.probe_rays + statistics.shadow_rays, 0u);
+  std::vector<double> expected = before;
+  for (double& e : expected) e *= 2.0;
+  EXPECT_LT(relative_rmse(light_of(edited.field), expected), 0.01);
+}
+
+TEST(FieldEdit, ProbesThatItCannotReachKeepTheirBits) {
+  FieldSettings settings = Edited::few();
+  settings.probe_count = {8, 4, 4};
+  Edited edited("two-rooms-sealed", settings);
+  // A second lamp in the other room, of which alone that room has light
+  Light lamp = edited.scene.lights[0];
+  const Bounds bounds = open_bounds(edited.world);
+  lamp.position_ws = bounds.min + bounds.max - lamp.position_ws;
+  lamp.position_ws.y = edited.scene.lights[0].position_ws.y;
+  edited.scene.lights.push_back(lamp);
+  edited.follow();
+  edited.follow();
+  const std::vector<uint> before = words_of(edited.field);
+
+  edited.scene.lights[1].intensity *= 2.0f;
+  const UpdateStatistics statistics = edited.follow();
+  const std::vector<uint> after = words_of(edited.field);
+  EXPECT_GT(statistics.probes_touched, 128 / 4);
+  EXPECT_LT(statistics.probes_touched, 128 * 3 / 4);
+  const std::size_t words = before.size() / 128;
+  int changed = 0;
+  for (int probe = 0; probe < 128; ++probe) {
+    changed += std::equal(before.begin() + probe * words, before.begin() + (probe + 1) * words,
+                          after.begin() + probe * words)
+                   ? 0
+                   : 1;
+  }
+  EXPECT_LE(changed, statistics.probes_touched);
+}
+
+TEST(FieldEdit, AnEditOfNothingIsNoEdit) {
+  Edited edited("cube");
+  const UpdateStatistics statistics = edited.follow();
+  EXPECT_EQ(statistics.probes_followed, 0);
+  // The 27 in open air, which light no surface, sleep
+  EXPECT_EQ(statistics.probes_traced, 98);
+}
+
+TEST(FieldEdit, ABudgetIsKeptAndTheLightArrivesAfterAFewUpdates) {
+  Edited edited("cube");
+  std::vector<double> expected = light_of(edited.field);
+  for (double& e : expected) e *= 3.0;
+  edited.scene.lights[0].intensity *= 3.0f;
+  ASSERT_TRUE(edited.world.update().has_value());
+  constexpr std::uint64_t kBudget = 125 * 128 / 4;
+  int updates = 0;
+  while (relative_rmse(light_of(edited.field), expected) > 0.05 && updates < 20) {
+    const UpdateStatistics statistics = edited.field.update(edited.world, {.ray_budget = kBudget});
+    // One lamp: no more than one shadow ray a surfel
+    EXPECT_LE(statistics.probe_rays + statistics.shadow_rays, 2 * kBudget);
+    ++updates;
+  }
+  EXPECT_GE(updates, 2);
+  EXPECT_LE(updates, 8);
+}
+
+TEST(FieldEdit, RestsOnceItHasSettled) {
+  Edited edited("furnace-sky", Edited::few(), 0);
+  UpdateStatistics statistics;
+  for (int i = 0; i < 60; ++i) {
+    statistics = edited.field.update(edited.world, {.ray_budget = 125 * 512});
+  }
+  EXPECT_EQ(statistics.probe_rays, 0u);
+}
+
+std::vector<uint> words_on_threads(int threads) {
+  const tbb::global_control control(tbb::global_control::max_allowed_parallelism,
+                                    static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  std::vector<uint> words;
+  arena.execute([&] {
+    Edited edited("cornell", Edited::few(), 2);
+    edited.scene.instances.back().world_from_object[3].x += 0.3f;
+    edited.follow();
+    for (int i = 0; i < 3; ++i) edited.field.update(edited.world, {.ray_budget = 4000});
+    words = words_of(edited.field);
+  });
+  return words;
+}
+
+TEST(FieldEdit, SameBitsOnAnyNumberOfThreads) {
+  const std::vector<uint> one = words_on_threads(1);
+  EXPECT_TRUE(words_on_threads(2) == one);
+  EXPECT_TRUE(words_on_threads(4) == one);
+}
+
+}  // namespace
+}  // namespace lambent
