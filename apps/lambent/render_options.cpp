@@ -21,6 +21,8 @@ const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
     {"rgb9e5", IrradianceFormat::rgb9e5},
     {"r11g11b10f", IrradianceFormat::r11g11b10f},
     {"float32", IrradianceFormat::float32}};
+const std::map<std::string, Visibility> kVisibilities = {
+    {"moments", Visibility::moments}, {"hybrid", Visibility::hybrid}, {"exact", Visibility::exact}};
 const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
@@ -82,6 +84,10 @@ void add_field_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--distance-format", o.distance_format, "rg16f or rg32f")
       ->check(CLI::IsMember(kDistanceFormats))
       ->capture_default_str();
+  command.add_flag("!--no-relocation", o.field.relocation, "Keep the probes on the grid");
+  command.add_option("--visibility", o.field.visibility, "Of probes: moments, hybrid or exact")
+      ->transform(CLI::CheckedTransformer(kVisibilities))
+      ->default_str("moments");
   command.add_option("--irradiance-texels", o.field.irradiance_texels, "Of a tile's edge, even")
       ->check(CLI::Range(2, 16))
       ->capture_default_str();

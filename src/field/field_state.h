@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "field/blend.h"
+#include "field/classify.h"
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
@@ -37,7 +38,9 @@ struct IrradianceField::State {
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
   std::vector<ProbeRecord> records;
-  WorkingIrradiance light;  ///< That the store holds, before it was encoded.
+  ProbeSights sights;               ///< Kept for hybrid visibility alone.
+  std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
+  WorkingIrradiance light;          ///< That the store holds, before it was encoded.
   OpenEdits edits;
   RayCost ray_cost;
   int updates = 0;
@@ -52,6 +55,14 @@ struct IrradianceField::State {
   }
   TransportOperator transport(std::span<const int> probes) const {
     return {store.grid(), traces, probes, tile_fit, settings.irradiance_texels};
+  }
+
+  /// Moves probes to where they are needed and finds what they reach. Those that moved forget all.
+  void place(const World& world, std::span<const int> probes);
+  /// Says what each probe is for, with what moves where it is now.
+  void classify(const World& world);
+  VisibilityRays visibility(const World& world) const {
+    return {settings.visibility, &world.tracer(), &sights};
   }
 
   /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
