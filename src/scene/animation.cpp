@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 #include <span>
 
 #include "lambent/scene.h"
@@ -45,6 +47,11 @@ glm::vec3 not_negative(const glm::vec3& v) {
   return glm::max(v, glm::vec3(0.0f));
 }
 
+/// A product of numbers that are not negative, as large as a float can be.
+glm::vec3 finite_product(const glm::vec3& color, float factor) {
+  return glm::min(color * factor, glm::vec3(std::numeric_limits<float>::max()));
+}
+
 /// Poses a scene. The rig's copy holds the values of the moment in place of those at rest.
 class Pose {
  public:
@@ -77,6 +84,8 @@ class Pose {
   void apply(const Channel& channel, float time_s) {
     std::vector<float> value(static_cast<std::size_t>(channel.curve.components));
     evaluate(channel.curve, time_s, channel.target == Target::node_rotation, value.data());
+    // Splines may leave the numbers between finite keys
+    if (!std::all_of(value.begin(), value.end(), [](float v) { return std::isfinite(v); })) return;
     const auto i = static_cast<std::size_t>(channel.index);
     const auto vec3 = [&value] { return glm::vec3(value[0], value[1], value[2]); };
     switch (channel.target) {
@@ -175,7 +184,7 @@ class Pose {
       Light& light = scene_.lights[now.light];
       if (now.node >= 0 && moving_[now.node] != 0) place(light, world_from_node(now.node));
       if (driven.in(i, Target::light_color) || driven.in(i, Target::light_intensity)) {
-        light.intensity = now.color * now.intensity;
+        light.intensity = finite_product(now.color, now.intensity);
       }
       if (driven.in(i, Target::light_range)) light.range = now.range;
       if (driven.in(i, Target::light_inner_cone_angle) ||
@@ -211,7 +220,7 @@ class Pose {
       if (driven.in(i, Target::material_roughness)) material.roughness = now.roughness;
       if (driven.in(i, Target::material_emissive_factor) ||
           driven.in(i, Target::material_emissive_strength)) {
-        material.emission = now.emissive_factor * now.emissive_strength;
+        material.emission = finite_product(now.emissive_factor, now.emissive_strength);
       }
     }
   }

@@ -16,6 +16,13 @@ glm::vec3 unit_or(const glm::dvec3& v, const glm::vec3& fallback) {
   return length > 0.0 && std::isfinite(length) ? glm::vec3(v / length) : fallback;
 }
 
+bool finite(const glm::mat4& m) {
+  for (int i = 0; i < 16; ++i) {
+    if (!std::isfinite(m[i / 4][i % 4])) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 glm::dmat4 compose_transform(const double* translation, const double* rotation,
@@ -34,11 +41,13 @@ glm::dmat4 compose_transform(const double* translation, const double* rotation,
 }
 
 void place(Light& light, const glm::mat4& world_from_node) {
+  if (!finite(world_from_node)) return;
   light.position_ws = glm::vec3(world_from_node[3]);
   light.direction_ws = unit_or(-glm::dvec3(world_from_node[2]), light.direction_ws);
 }
 
 void place(Camera& camera, const glm::mat4& world_from_node) {
+  if (!finite(world_from_node)) return;
   const glm::vec3 back = unit_or(glm::dvec3(world_from_node[2]), glm::vec3(0.0f, 0.0f, 1.0f));
   const glm::dvec3 up(world_from_node[1]);
   const glm::vec3 any_right =
@@ -51,17 +60,13 @@ void place(Camera& camera, const glm::mat4& world_from_node) {
 }
 
 bool invertible(const glm::mat4& m) {
-  const glm::mat4 inverse = glm::inverse(m);
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(inverse[i / 4][i % 4])) return false;
-  }
-  return true;
+  return finite(m) && finite(glm::inverse(m));
 }
 
 glm::mat4 invertible_or_speck(const glm::mat4& world_from_object) {
   if (invertible(world_from_object)) return world_from_object;
   glm::mat4 speck(kSpeck);
-  speck[3] = world_from_object[3];
+  speck[3] = finite(world_from_object) ? world_from_object[3] : glm::vec4(0, 0, 0, 1);
   return speck;
 }
 

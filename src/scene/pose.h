@@ -13,11 +13,11 @@ namespace lambent {
 glm::dmat4 compose_transform(const double* translation, const double* rotation,
                              const double* scale);
 
-/// Puts a light where the node is, shining along its -Z.
+/// Puts a light where the node is, shining along its -Z; nothing where that is nowhere finite.
 void place(Light& light, const glm::mat4& world_from_node);
 
 /// Puts a camera where the node is, looking along its -Z; scale, shear and mirroring do not bend
-/// it.
+/// it. Nothing where that is nowhere finite.
 void place(Camera& camera, const glm::mat4& world_from_node);
 
 /// Whether a transform has a finite inverse.
