@@ -32,6 +32,10 @@ struct AnimatedScene {
   Animations animations;
 };
 
+/// Gives the scene the tracks as animations that lambent::animate plays: a node of its own for each
+/// thing that moves. make_animated has done it.
+void add_rig(Scene& scene, const Animations& animations);
+
 /// Names that `make` knows, in the order of the list above.
 std::vector<std::string> names();
 

@@ -181,6 +181,42 @@ void print_cameras(const Scene& scene) {
   }
 }
 
+/// Instances with a flag other than the default, by flag.
+struct FlagCounts {
+  std::size_t dynamic = 0, without_casting_gi = 0, without_receiving_gi = 0, ignored_by_probes = 0;
+};
+
+FlagCounts count_flags(const Scene& scene) {
+  FlagCounts counts;
+  for (const Instance& instance : scene.instances) {
+    counts.dynamic += instance.dynamic;
+    counts.without_casting_gi += !instance.casts_gi;
+    counts.without_receiving_gi += !instance.receives_gi;
+    counts.ignored_by_probes += instance.ignored_by_probes;
+  }
+  return counts;
+}
+
+void print_flags(const Scene& scene) {
+  const FlagCounts counts = count_flags(scene);
+  const auto line = [](std::size_t count, const char* what) {
+    if (count > 0) std::printf("  %zu %s\n", count, what);
+  };
+  line(counts.dynamic, "move");
+  line(counts.without_casting_gi, "cast no GI");
+  line(counts.without_receiving_gi, "receive no GI");
+  line(counts.ignored_by_probes, "are ignored by probes");
+}
+
+void print_animations(const Scene& scene) {
+  row("animations", "%zu", scene.animations.size());
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    const Animation& animation = scene.animations[i];
+    std::printf("  %3zu  %-24s %.4g s, %zu channels\n", i, printable(animation.name).c_str(),
+                duration(animation), animation.channels.size());
+  }
+}
+
 void print_human(const Scene& scene, const std::string& name) {
   const Totals totals = total(scene);
   const SceneSource& source = scene.source;
@@ -190,10 +226,12 @@ void print_human(const Scene& scene, const std::string& name) {
   row("meshes", "%zu (%zu triangles, %zu vertices)", scene.meshes.size(), totals.mesh_triangles,
       totals.vertices);
   row("instances", "%zu (%zu triangles)", scene.instances.size(), totals.triangles);
+  print_flags(scene);
   print_materials(scene);
   print_textures(scene, totals);
   print_lights(scene, totals);
   print_cameras(scene);
+  print_animations(scene);
   const Bounds bounds = world_bounds(scene);
   if (bounds.empty()) {
     row("bounds", "empty");
@@ -265,6 +303,19 @@ nlohmann::ordered_json json_of(const Scene& scene, const std::string& name) {
   json["animations"] = source.animations;
   json["skins"] = source.skins;
   json["morph_targets"] = source.morph_targets;
+  const FlagCounts flags = count_flags(scene);
+  json["instances_dynamic"] = flags.dynamic;
+  json["instances_without_casting_gi"] = flags.without_casting_gi;
+  json["instances_without_receiving_gi"] = flags.without_receiving_gi;
+  json["instances_ignored_by_probes"] = flags.ignored_by_probes;
+  for (const char* list : {"animation_names", "animation_durations_s", "animation_channels"}) {
+    json[list] = nlohmann::ordered_json::array();
+  }
+  for (const Animation& animation : scene.animations) {
+    json["animation_names"].push_back(animation.name);
+    json["animation_durations_s"].push_back(duration(animation));
+    json["animation_channels"].push_back(animation.channels.size());
+  }
   json["warnings"] = source.warnings;
   return json;
 }

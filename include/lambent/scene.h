@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "lambent/animation.h"
 #include "lambent/error.h"
 #include "lambent/image.h"
 
@@ -176,7 +177,9 @@ struct Scene {
   std::vector<Light> lights;    ///< Surfaces that emit are lights too, and not in this list.
   std::vector<Camera> cameras;  ///< In the order of the file's nodes.
   Environment environment;
-  SceneSource source;  ///< Nothing is rendered from it.
+  std::vector<Animation> animations;  ///< The scene stands in its rest pose until `animate`.
+  Rig rig;                            ///< What they move.
+  SceneSource source;                 ///< Nothing is rendered from it.
 };
 
 /// What load_scene makes of a file.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG and JPEG: 8 bits a channel, sRGB.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
+#include "core/byte_decoding.h"
 #include "core/image_stb.h"
 #include "core/stb.h"
 #include "shared/color.h"
@@ -19,14 +19,6 @@ constexpr std::string_view kJpegMagic = "\xff\xd8\xff"sv;
 
 std::string_view text_of(ByteView bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-std::array<float, 256> make_srgb_table() {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    table[i] = linear_from_srgb(static_cast<float>(i) / 255.0f);
-  }
-  return table;
 }
 
 void append_bytes(void* context, void* data, int size) {
@@ -55,14 +47,14 @@ Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView byte
   const Expected<StbPixels> pixels = decode_stb_bytes(path, bytes, channels);
   if (!pixels) return tl::unexpected(pixels.error());
 
-  static const std::array<float, 256> kLinear = make_srgb_table();
+  const ByteDecoding& linear = srgb_byte_decoding();
   LayeredImage result{header->width, header->height, {}};
   Image& image = result.require("", channels);
   const std::size_t step = static_cast<std::size_t>(channels);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) {
     const std::uint8_t value = pixels->get()[i];
     const bool alpha = i % step == 3;
-    image.pixels[i] = alpha ? static_cast<float>(value) / 255.0f : kLinear[value];
+    image.pixels[i] = alpha ? static_cast<float>(value) / 255.0f : linear[value];
   }
   return result;
 }

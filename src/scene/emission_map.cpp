@@ -2,9 +2,9 @@
 #include "scene/emission_map.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "core/byte_decoding.h"
 #include "scene/attributes.h"
 #include "scene/texture.h"
 #include "shared/color.h"
@@ -19,15 +19,6 @@ constexpr int kBlock = 4;
 constexpr float kSteps = 65535.0f;
 // Texels beyond the triangle that a bilinear lookup in it reads.
 constexpr float kFilterRadius = 1.0f;
-
-std::array<float, 256> decoding_table(bool srgb) {
-  std::array<float, 256> table;
-  for (int i = 0; i < 256; ++i) {
-    const float encoded = static_cast<float>(i) / 255.0f;
-    table[i] = srgb ? linear_from_srgb(encoded) : encoded;
-  }
-  return table;
-}
 
 }  // namespace
 
@@ -49,7 +40,7 @@ EmissionMap::EmissionMap(const Scene& scene, const Material& material) {
 
   // Compute the sum of each block, every texel rounded up so that none that emits counts for
   // nothing
-  const std::array<float, 256> decode = decoding_table(texture.srgb);
+  const ByteDecoding& decode = texture.srgb ? srgb_byte_decoding() : linear_byte_decoding();
   const std::size_t stride = columns_ + 1;
   for (int y = 0; y < height_; ++y) {
     for (int x = 0; x < width_; ++x) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "scene/gltf_channels.h"
 #include "scene/gltf_document.h"
 #include "scene/gltf_extensions.h"
 #include "scene/gltf_meshopt.h"
@@ -205,8 +206,8 @@ void read_image_sources(Document& document, const json& images) {
 }
 
 // Takes out of the JSON what tinygltf would refuse or misread: index accessors without a buffer
-// view (compressed primitives have none), and buffers and images, which it would load without
-// bounds.
+// view (compressed primitives have none), buffers and images, which it would load without bounds,
+// and animations, for which it would give up the whole file.
 void take_out(Document& document, json& root) {
   for (json& mesh : root.value("meshes", json::array())) {
     std::vector<int>& indices = document.primitive_indices.emplace_back();
@@ -220,6 +221,7 @@ void take_out(Document& document, json& root) {
   }
   if (root.contains("images")) read_image_sources(document, root["images"]);
   root.erase("images");
+  root.erase("animations");
   root.erase("buffers");
 }
 
@@ -289,6 +291,8 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
 
   if (root.contains("buffers")) LAMBENT_CHECK(read_buffers(document, root["buffers"], chunks));
   read_skies(document, root);
+  read_node_flags(document, root);
+  read_channels(document, root);
   remove_extras(root);
   take_out(document, root);
   LAMBENT_CHECK(parse_model(document, root));

@@ -4,18 +4,13 @@
 
 #include <cmath>
 
+#include "scene/animation_deform.h"
+
 namespace lambent::gltf {
 namespace {
 
 bool finite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-// What turns normals where `m` turns points: the inverse transpose, but for a positive factor.
-// Unlike the inverse, it exists for every matrix.
-glm::mat3 normal_matrix(const glm::mat3& m) {
-  const glm::mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::determinant(m) < 0.0f ? -cofactors : cofactors;
 }
 
 template <class Vector>

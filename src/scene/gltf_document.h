@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "lambent/animation.h"
 #include "lambent/error.h"
 #include "scene/tinygltf.h"
 
@@ -32,16 +33,35 @@ struct Repair {
   std::string first;  ///< Where it happened first.
 };
 
+/// One channel of an animation, as the file has it.
+struct ChannelSource {
+  std::string place;          ///< "animations[0].channels[2]".
+  std::string pointer;        ///< What it drives, as a JSON pointer: "/nodes/3/translation".
+  int input = 0, output = 0;  ///< Accessors of its times and values.
+  Interpolation interpolation = Interpolation::linear;
+};
+struct AnimationSource {
+  std::string name;
+  std::vector<ChannelSource> channels;
+};
+
+/// What the extras of a node say of the instances in it.
+struct NodeFlags {
+  bool casts_gi = true, receives_gi = true, ignored_by_probes = false;
+};
+
 /// A checked glTF file. Every index in `model` is in range or -1, every array has the length that
 /// the specification asks for, every number is finite and within its range.
 struct Document {
   std::string file;         ///< For errors; empty where the file came from memory.
   std::string folder;       ///< That relative URIs start from.
   bool file_access = true;  ///< false: URIs other than data URIs are errors.
-  tinygltf::Model model;    ///< Without buffers, images and extras.
+  tinygltf::Model model;    ///< Without buffers, images, animations, extras.
   std::vector<Bytes> buffers;
   std::vector<glm::vec3> scene_skies;  ///< Constant sky radiance of each scene; black: none.
   std::vector<ImageSource> images;
+  std::vector<AnimationSource> animations;  ///< Without channels that make no sense.
+  std::vector<NodeFlags> node_flags;        ///< One a node.
   std::vector<std::vector<int>>
       primitive_indices;                  ///< Accessor of each mesh's primitives' indices; or -1.
   std::vector<Bytes> decompressed_views;  ///< Of views with EXT_meshopt_compression; else empty.
@@ -55,6 +75,10 @@ struct Document {
   /// Counts `count` repairs of one kind; warn_of_repairs makes one warning of each kind.
   void repaired(const std::string& what, std::size_t count, const std::string& place);
   void warn_of_repairs();
+  /// Counts a channel that is left out, and tells why.
+  void drop_channel(const std::string& place, const std::string& why) {
+    repaired("animation channels were dropped because " + why, 1, place);
+  }
 };
 
 /// "meshes[3]": the name of an entry in errors and warnings.

@@ -14,7 +14,7 @@ constexpr Extension kKnown[] = {
     {"EXT_mesh_gpu_instancing",             true,  nullptr},
     {"EXT_meshopt_compression",             true,  nullptr},
     {"EXT_texture_webp",                    true,  nullptr},
-    {"KHR_animation_pointer",               false, "animations are not evaluated"},
+    {"KHR_animation_pointer",               true,  nullptr},
     {"KHR_draco_mesh_compression",          true,  nullptr},
     {"KHR_lights_punctual",                 true,  nullptr},
     {"KHR_materials_anisotropy",            false, kIgnoredLobe},

@@ -8,11 +8,13 @@
 
 #include "core/file_bytes.h"
 #include "scene/gltf_accessors.h"
+#include "scene/gltf_animations.h"
 #include "scene/gltf_lights_cameras.h"
 #include "scene/gltf_materials.h"
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_textures.h"
+#include "scene/pose.h"
 
 namespace lambent {
 namespace gltf {
@@ -20,14 +22,6 @@ namespace {
 
 // More than any renderable scene; a small file can ask for more by instancing instances.
 constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
-
-bool invertible(const glm::mat4& m) {
-  const glm::mat4 inverse = glm::inverse(m);
-  for (int i = 0; i < 16; ++i) {
-    if (!std::isfinite(inverse[i / 4][i % 4])) return false;
-  }
-  return true;
-}
 
 class Importer {
  public:
@@ -39,11 +33,14 @@ class Importer {
     LAMBENT_TRY(materials, import_materials(document_, options_, textures));
     scene_.materials = std::move(materials);
     LAMBENT_TRY(tree, build_node_tree(document_, options_.scene));
+    MotionImporter motion(document_, tree);
+    motion_ = &motion;
     for (const int node : tree.visible) LAMBENT_CHECK(import_node(tree, node));
     if (tree.scene >= 0) scene_.environment.radiance = document_.scene_skies[tree.scene];
     drop_unused_default_material();
     LAMBENT_TRY(decoded, textures.decode());
     scene_.textures = std::move(decoded);
+    motion.finish(scene_);
     describe_source();
     LAMBENT_CHECK(validate(scene_));
     return std::move(scene_);
@@ -55,29 +52,56 @@ class Importer {
     const glm::mat4& world_from_node = tree.world_from_node[index];
     if (node.camera >= 0) {
       LAMBENT_TRY(camera, import_camera(document_, index, world_from_node));
+      motion_->add_camera(index, static_cast<int>(scene_.cameras.size()));
       scene_.cameras.push_back(std::move(camera));
     }
     if (const auto* light = find_extension(node.extensions, "KHR_lights_punctual")) {
-      LAMBENT_TRY(imported,
-                  import_light(document_, integer_or(*light, "light", 0), index, world_from_node));
+      const int source = integer_or(*light, "light", 0);
+      LAMBENT_TRY(imported, import_light(document_, source, index, world_from_node));
+      motion_->add_light(index, source, static_cast<int>(scene_.lights.size()));
       scene_.lights.push_back(std::move(imported));
     }
     if (node.mesh < 0) return {};
-    LAMBENT_TRY(deformation, deformation_of(tree, node));
+    LAMBENT_TRY(joint_from_bind, read_skin(node.skin));
+    const Deformation deformation = deformation_of(tree, node, joint_from_bind);
+    const bool bends = motion_->bends(index);
+    LAMBENT_TRY(meshes, bends ? import_bending_mesh(index, deformation, joint_from_bind)
+                              : shared_mesh(node.mesh, deformation));
     // Joints place a skinned mesh in the world; its node does not (specification, sec. 3.7.3.3)
     if (!deformation.joint_matrices.empty()) {
-      LAMBENT_TRY(bent, import_mesh(node.mesh, deformation));
-      return add_instances(bent, index, glm::mat4(1.0f));
+      return add_instances(meshes, index, glm::mat4(1.0f), glm::mat4(1.0f), bends);
     }
-    LAMBENT_TRY(meshes, shared_mesh(node.mesh, deformation));
     if (const auto* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
       return add_gpu_instances(meshes, index, *instancing, world_from_node);
     }
-    return add_instances(meshes, index, world_from_node);
+    return add_instances(meshes, index, world_from_node, glm::mat4(1.0f),
+                         bends || motion_->moves(index));
+  }
+
+  // The bind pose of a skin's joints; none where there is no skin.
+  Expected<std::vector<glm::mat4>> read_skin(int index) {
+    std::vector<glm::mat4> joint_from_bind;
+    if (index < 0) return joint_from_bind;
+    const tinygltf::Skin& skin = document_.model.skins[index];
+    if (skin.joints.empty()) {
+      return document_.fail_at(entry("skins", index), "the skin has no joints");
+    }
+    joint_from_bind.assign(skin.joints.size(), glm::mat4(1.0f));
+    if (skin.inverseBindMatrices < 0) return joint_from_bind;
+    LAMBENT_TRY(matrices, read_elements(document_, skin.inverseBindMatrices, 16));
+    if (matrices.size() < skin.joints.size()) {
+      return document_.fail_at(entry("accessors", skin.inverseBindMatrices),
+                               "has fewer matrices than the skin has joints");
+    }
+    for (std::size_t i = 0; i < joint_from_bind.size(); ++i) {
+      for (int k = 0; k < 16; ++k) joint_from_bind[i][k / 4][k % 4] = matrices[i][k];
+    }
+    return joint_from_bind;
   }
 
   // The default morph weights and the rest pose.
-  Expected<Deformation> deformation_of(const NodeTree& tree, const tinygltf::Node& node) {
+  Deformation deformation_of(const NodeTree& tree, const tinygltf::Node& node,
+                             const std::vector<glm::mat4>& joint_from_bind) {
     Deformation deformation;
     const auto& defaults = document_.model.meshes[node.mesh].weights;
     bool moved = false;
@@ -86,41 +110,35 @@ class Importer {
       moved = moved || weight != 0.0;
     }
     if (!moved) deformation.morph_weights.clear();
-    if (node.skin < 0) return deformation;
-
-    const tinygltf::Skin& skin = document_.model.skins[node.skin];
-    if (skin.joints.empty()) {
-      return document_.fail_at(entry("skins", node.skin), "the skin has no joints");
-    }
-    Elements bind;
-    if (skin.inverseBindMatrices >= 0) {
-      LAMBENT_TRY(matrices, read_elements(document_, skin.inverseBindMatrices, 16));
-      if (matrices.size() < skin.joints.size()) {
-        return document_.fail_at(entry("accessors", skin.inverseBindMatrices),
-                                 "has fewer matrices than the skin has joints");
-      }
-      bind = std::move(matrices);
-    }
-    for (std::size_t i = 0; i < skin.joints.size(); ++i) {
-      glm::mat4 joint_from_bind(1.0f);
-      for (int k = 0; bind.size() != 0 && k < 16; ++k) joint_from_bind[k / 4][k % 4] = bind[i][k];
-      deformation.joint_matrices.push_back(tree.world_from_node[skin.joints[i]] * joint_from_bind);
+    for (std::size_t i = 0; i < joint_from_bind.size(); ++i) {
+      const int joint = document_.model.skins[node.skin].joints[i];
+      deformation.joint_matrices.push_back(tree.world_from_node[joint] * joint_from_bind[i]);
     }
     return deformation;
   }
 
+  // Meshes that no other node shares, with what bends them.
+  Expected<std::vector<int>> import_bending_mesh(int node, const Deformation& deformation,
+                                                 const std::vector<glm::mat4>& joint_from_bind) {
+    std::vector<RigMesh> rigs;
+    LAMBENT_TRY(meshes, import_mesh(document_.model.nodes[node].mesh, deformation, &rigs));
+    for (RigMesh& rig : rigs) motion_->add_mesh(node, std::move(rig), joint_from_bind);
+    return std::move(meshes);
+  }
+
   // The scene's meshes for a glTF mesh; made once unless it is bent.
   Expected<std::vector<int>> shared_mesh(int mesh, const Deformation& deformation) {
-    if (!deformation.empty()) return import_mesh(mesh, deformation);
+    if (!deformation.empty()) return import_mesh(mesh, deformation, nullptr);
     std::optional<std::vector<int>>& shared = meshes_[mesh];
     if (!shared) {
-      LAMBENT_TRY(imported, import_mesh(mesh, deformation));
+      LAMBENT_TRY(imported, import_mesh(mesh, deformation, nullptr));
       shared = std::move(imported);
     }
     return *shared;
   }
 
-  Expected<std::vector<int>> import_mesh(int mesh, const Deformation& deformation) {
+  Expected<std::vector<int>> import_mesh(int mesh, const Deformation& deformation,
+                                         std::vector<RigMesh>* rigs) {
     std::vector<int> made;
     const auto& primitives = document_.model.meshes[mesh].primitives;
     for (int i = 0; i < static_cast<int>(primitives.size()); ++i) {
@@ -128,11 +146,15 @@ class Importer {
       const int material = primitives[i].material >= 0 ? primitives[i].material : default_material;
       const TextureView& normal_map = scene_.materials[material].normal_texture;
       const int tangent_uv_set = normal_map.texture >= 0 ? normal_map.uv_set : -1;
-      LAMBENT_TRY(imported, import_primitive(document_, mesh, i, deformation, tangent_uv_set));
+      RigMesh rig;
+      LAMBENT_TRY(imported, import_primitive(document_, mesh, i, deformation, tangent_uv_set,
+                                             rigs != nullptr ? &rig : nullptr));
       if (!imported) continue;
       imported->material = material;
       warn_of_missing_uvs(*imported, entry("meshes", mesh) + "." + entry("primitives", i));
       made.push_back(static_cast<int>(scene_.meshes.size()));
+      rig.mesh = made.back();
+      if (rigs != nullptr) rigs->push_back(std::move(rig));
       scene_.meshes.push_back(std::move(*imported));
     }
     return made;
@@ -149,9 +171,12 @@ class Importer {
     }
   }
 
+  // Places meshes at `world_from_node` * `node_from_object`. `dynamic`: they are about to move.
   Expected<void> add_instances(const std::vector<int>& meshes, int node,
-                               const glm::mat4& world_from_object) {
-    if (!invertible(world_from_object)) {
+                               const glm::mat4& world_from_node, const glm::mat4& node_from_object,
+                               bool dynamic) {
+    const glm::mat4 world_from_object = world_from_node * node_from_object;
+    if (!invertible(world_from_object) && !motion_->moves(node)) {
       document_.repaired("instances flattened to nothing were left out", meshes.size(),
                          entry("nodes", node));
       return {};
@@ -161,8 +186,21 @@ class Importer {
           entry("nodes", node),
           "the scene has more than " + std::to_string(kMaxInstances) + " instances");
     }
+    const NodeFlags& flags = document_.node_flags[node];
+    const bool skinned = document_.model.nodes[node].skin >= 0;
     for (const int mesh : meshes) {
-      scene_.instances.push_back({document_.model.nodes[node].name, mesh, world_from_object});
+      if (!skinned) {
+        motion_->add_instance(node, static_cast<int>(scene_.instances.size()), node_from_object);
+      }
+      Instance instance;
+      instance.name = document_.model.nodes[node].name;
+      instance.mesh = mesh;
+      instance.world_from_object = invertible_or_speck(world_from_object);
+      instance.casts_gi = flags.casts_gi;
+      instance.receives_gi = flags.receives_gi;
+      instance.ignored_by_probes = flags.ignored_by_probes;
+      instance.dynamic = dynamic;
+      scene_.instances.push_back(std::move(instance));
     }
     return {};
   }
@@ -205,7 +243,8 @@ class Importer {
         given[a] = values[a];
       }
       const glm::mat4 node_from_instance(compose_transform(given[0], given[1], given[2]));
-      LAMBENT_CHECK(add_instances(meshes, node, world_from_node * node_from_instance));
+      LAMBENT_CHECK(add_instances(meshes, node, world_from_node, node_from_instance,
+                                  motion_->moves(node) || motion_->bends(node)));
     }
     return {};
   }
@@ -225,16 +264,13 @@ class Importer {
     source.generator = model.asset.generator;
     source.extensions = model.extensionsUsed;
     source.nodes = static_cast<int>(model.nodes.size());
-    source.animations = static_cast<int>(model.animations.size());
+    source.animations = static_cast<int>(document_.animations.size());
     source.skins = static_cast<int>(model.skins.size());
     source.scenes = static_cast<int>(model.scenes.size());
     for (const tinygltf::Mesh& mesh : model.meshes) {
       for (const tinygltf::Primitive& primitive : mesh.primitives) {
         source.morph_targets += static_cast<int>(primitive.targets.size());
       }
-    }
-    if (source.animations > 0) {
-      document_.warn("Animations are not evaluated; the scene stands in its rest pose.");
     }
     if (triangle_count(scene_) == 0) document_.warn("The scene has no triangles.");
     document_.warn_of_repairs();
@@ -244,6 +280,7 @@ class Importer {
   Document& document_;
   const LoadOptions& options_;
   std::vector<std::optional<std::vector<int>>> meshes_;  // by glTF mesh; none: not yet imported
+  MotionImporter* motion_ = nullptr;
   Scene scene_;
 };
 

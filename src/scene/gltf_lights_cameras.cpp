@@ -4,19 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/pose.h"
 #include "shared/constants.h"
 
 namespace lambent::gltf {
-namespace {
-
-// Scaled to unit length in double, where no finite float vector over- or underflows.
-glm::vec3 unit_or(const glm::dvec3& v, const glm::vec3& fallback) {
-  const double length = glm::length(v);
-  return length > 0.0 && std::isfinite(length) ? glm::vec3(v / length) : fallback;
-}
-
-}  // namespace
-
 Expected<Light> import_light(Document& document, int index, int node,
                              const glm::mat4& world_from_node) {
   const tinygltf::Light& source = document.model.lights[index];
@@ -40,8 +31,7 @@ Expected<Light> import_light(Document& document, int index, int node,
     color = glm::max(color, glm::vec3(0.0f));
   }
   light.intensity = color * static_cast<float>(source.intensity);
-  light.position_ws = glm::vec3(world_from_node[3]);
-  light.direction_ws = unit_or(-glm::dvec3(world_from_node[2]), light.direction_ws);
+  lambent::place(light, world_from_node);
   light.range = static_cast<float>(source.range);
   if (light.type == Light::Type::spot) {
     const auto outer = static_cast<float>(source.spot.outerConeAngle);
@@ -74,17 +64,7 @@ Expected<Camera> import_camera(const Document& document, int node,
   } else {
     return document.fail_at(place, "describes neither a perspective nor an orthographic camera");
   }
-
-  // Keep where the node looks and what is up there; scale, shear and mirroring do not bend a camera
-  const glm::vec3 back = unit_or(glm::dvec3(world_from_node[2]), glm::vec3(0.0f, 0.0f, 1.0f));
-  const glm::dvec3 up(world_from_node[1]);
-  const glm::vec3 any_right =
-      std::abs(back.x) < 0.5f ? glm::vec3(1.0f, 0.0f, 0.0f) : glm::vec3(0.0f, 0.0f, -1.0f);
-  const glm::vec3 fallback = glm::normalize(any_right - back * glm::dot(back, any_right));
-  const glm::vec3 right = unit_or(glm::cross(up, glm::dvec3(back)), fallback);
-  camera.world_from_view =
-      glm::mat4(glm::vec4(right, 0.0f), glm::vec4(glm::normalize(glm::cross(back, right)), 0.0f),
-                glm::vec4(back, 0.0f), glm::vec4(glm::vec3(world_from_node[3]), 1.0f));
+  lambent::place(camera, world_from_node);
   return camera;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 #include "scene/gltf_accessors.h"
 #include "scene/gltf_deform.h"
@@ -170,8 +171,7 @@ Expected<void> read_vertices(PrimitiveReader& reader, Mesh& mesh) {
   return {};
 }
 
-Expected<void> apply_skin(const Document& document, const PrimitiveReader& reader,
-                          const Deformation& deformation, Mesh& mesh) {
+Expected<std::vector<SkinInfluences>> read_influences(const PrimitiveReader& reader) {
   std::vector<SkinInfluences> sets;
   for (int set = 0;; ++set) {
     const std::string suffix = std::to_string(set);
@@ -180,22 +180,89 @@ Expected<void> apply_skin(const Document& document, const PrimitiveReader& reade
     if (joints.size() == 0 || weights.size() == 0) break;
     sets.push_back({std::move(joints), std::move(weights)});
   }
-  return bend_by_joints(document, reader.place(), sets, deformation.joint_matrices, mesh);
+  return sets;
+}
+
+// What bends the vertices in other poses, for the vertices as the file has them.
+Expected<RigMesh> read_rig(const Document& document, const tinygltf::Primitive& source,
+                           const Mesh& unbent, const std::vector<SkinInfluences>& sets,
+                           std::size_t joints) {
+  RigMesh rig;
+  rig.positions = unbent.positions;
+  rig.normals = unbent.normals;
+  // Stored tangents mean nothing without normals
+  if (!unbent.normals.empty()) rig.tangents = unbent.tangents;
+  for (const auto& target : source.targets) {
+    RigMesh::MorphTarget& made = rig.targets.emplace_back();
+    const auto read = [&](const char* name, std::vector<glm::vec3>& offsets) -> Expected<void> {
+      const auto accessor = target.find(name);
+      if (accessor == target.end()) return {};
+      LAMBENT_TRY(elements, read_elements(document, accessor->second, 3));
+      offsets = vectors_of<glm::vec3>(elements);
+      if (offsets.size() == unbent.positions.size()) return {};
+      return document.fail_at(entry("accessors", accessor->second),
+                              "a morph target has not one element a vertex");
+    };
+    LAMBENT_CHECK(read("POSITION", made.positions));
+    LAMBENT_CHECK(read("NORMAL", made.normals));
+    LAMBENT_CHECK(read("TANGENT", made.tangents));
+  }
+  rig.influences = joints == 0 ? 0 : static_cast<int>(4 * sets.size());
+  for (std::size_t v = 0; rig.influences > 0 && v < unbent.positions.size(); ++v) {
+    for (const SkinInfluences& set : sets) {
+      for (int k = 0; k < 4; ++k) {
+        // Without weight a joint need not exist
+        const float joint = set.joints[v][k];
+        const bool exists = joint >= 0.0f && joint < static_cast<float>(joints);
+        rig.joints.push_back(exists ? static_cast<std::uint32_t>(joint) : 0u);
+        rig.weights.push_back(set.weights[v][k]);
+      }
+    }
+  }
+  return rig;
+}
+
+template <class T>
+void gather(std::vector<T>& values, const VertexOrigins& origins, std::size_t a_vertex = 1) {
+  if (values.empty()) return;
+  std::vector<T> gathered;
+  gathered.reserve(origins.size() * a_vertex);
+  for (const std::uint32_t origin : origins) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(origin * a_vertex);
+    gathered.insert(gathered.end(), first, first + static_cast<std::ptrdiff_t>(a_vertex));
+  }
+  values = std::move(gathered);
+}
+
+// Brings what bends the file's vertices to those that the mesh has come to have.
+void follow_repairs(const VertexOrigins& origins, const Mesh& mesh, RigMesh& rig) {
+  gather(rig.positions, origins);
+  gather(rig.normals, origins);
+  gather(rig.tangents, origins);
+  if (mesh.tangents.empty()) rig.tangents.clear();
+  for (RigMesh::MorphTarget& target : rig.targets) {
+    gather(target.positions, origins);
+    gather(target.normals, origins);
+    gather(target.tangents, origins);
+  }
+  gather(rig.joints, origins, static_cast<std::size_t>(rig.influences));
+  gather(rig.weights, origins, static_cast<std::size_t>(rig.influences));
 }
 
 // Fills in and repairs normals and tangents.
-void complete(Document& document, const std::string& place, int tangent_uv_set, Mesh& mesh) {
+void complete(Document& document, const std::string& place, int tangent_uv_set, Mesh& mesh,
+              VertexOrigins& origins) {
   if (mesh.normals.empty()) {
     // Stored tangents mean nothing without the normals they belong to (specification, sec. 3.7.2.1)
     mesh.tangents.clear();
-    make_flat_normals(mesh);
+    make_flat_normals(mesh, &origins);
   }
   document.repaired("normals without direction were replaced", repair_normals(mesh), place);
   const bool wanted = tangent_uv_set >= 0 && !mesh.uvs[tangent_uv_set].empty();
   if (!wanted) {
     mesh.tangents.clear();
   } else if (mesh.tangents.empty()) {
-    make_tangents(mesh, tangent_uv_set);
+    make_tangents(mesh, tangent_uv_set, &origins);
   } else {
     document.repaired("tangents without direction were replaced", repair_tangents(mesh), place);
   }
@@ -204,7 +271,8 @@ void complete(Document& document, const std::string& place, int tangent_uv_set, 
 }  // namespace
 
 Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_index, int primitive,
-                                               const Deformation& deformation, int tangent_uv_set) {
+                                               const Deformation& deformation, int tangent_uv_set,
+                                               RigMesh* rig) {
   const tinygltf::Mesh& source_mesh = document.model.meshes[mesh_index];
   const tinygltf::Primitive& source = source_mesh.primitives[primitive];
   const std::string place = primitive_place(mesh_index, primitive);
@@ -225,14 +293,27 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
   LAMBENT_TRY(indices, reader.indices());
   mesh.triangles = triangles_of(reader.mode(), indices);
 
+  std::vector<SkinInfluences> influences;
+  if (!deformation.joint_matrices.empty()) {
+    LAMBENT_TRY(sets, read_influences(reader));
+    influences = std::move(sets);
+  }
+  if (rig != nullptr) {
+    LAMBENT_TRY(made,
+                read_rig(document, source, mesh, influences, deformation.joint_matrices.size()));
+    *rig = std::move(made);
+  }
   LAMBENT_CHECK(bend_by_morph_targets(document, source, place, deformation.morph_weights, mesh));
   if (!deformation.joint_matrices.empty()) {
-    LAMBENT_CHECK(apply_skin(document, reader, deformation, mesh));
+    LAMBENT_CHECK(bend_by_joints(document, place, influences, deformation.joint_matrices, mesh));
   }
   document.repaired("triangles without area were dropped", drop_degenerate_triangles(mesh), place);
   if (mesh.triangles.empty()) return std::nullopt;
-  drop_unused_vertices(mesh);
-  complete(document, place, tangent_uv_set, mesh);
+  VertexOrigins origins(mesh.positions.size());
+  std::iota(origins.begin(), origins.end(), 0u);
+  drop_unused_vertices(mesh, &origins);
+  complete(document, place, tangent_uv_set, mesh, origins);
+  if (rig != nullptr) follow_repairs(origins, mesh, *rig);
   return mesh;
 }
 

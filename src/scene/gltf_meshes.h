@@ -19,8 +19,10 @@ struct Deformation {
 
 /// A primitive as a triangle mesh with unit normals; Mesh::material is the glTF material or -1.
 /// Tangents are kept or made where `tangent_uv_set` is 0 or 1, and dropped where it is -1. Nothing
-/// where the primitive has no triangles (points, lines, all degenerate).
+/// where the primitive has no triangles (points, lines, all degenerate). Where `rig` is not null,
+/// it becomes what bends the mesh in other poses; its mesh, node and skin are left to the caller.
 Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh, int primitive,
-                                               const Deformation& deformation, int tangent_uv_set);
+                                               const Deformation& deformation, int tangent_uv_set,
+                                               RigMesh* rig);
 
 }  // namespace lambent::gltf

@@ -2,7 +2,8 @@
 #include "scene/gltf_nodes.h"
 
 #include <cmath>
-#include <glm/gtc/quaternion.hpp>
+
+#include "scene/pose.h"
 
 namespace lambent::gltf {
 namespace {
@@ -91,28 +92,14 @@ std::vector<int> roots_of(Document& document, int scene, const std::vector<int>&
 
 }  // namespace
 
-glm::dmat4 compose_transform(const double* translation, const double* rotation,
-                             const double* scale) {
-  glm::dmat4 matrix(1.0);
-  if (rotation) {
-    const glm::dquat q(rotation[3], rotation[0], rotation[1], rotation[2]);
-    const double length = glm::length(q);
-    if (length > 0.0) matrix = glm::mat4_cast(q / length);
-  }
-  if (scale) {
-    for (int k = 0; k < 3; ++k) matrix[k] *= scale[k];
-  }
-  if (translation) matrix[3] = glm::dvec4(translation[0], translation[1], translation[2], 1.0);
-  return matrix;
-}
-
 Expected<NodeTree> build_node_tree(Document& document, int scene) {
   const std::size_t count = document.model.nodes.size();
   LAMBENT_TRY(parents, find_parents(document));
 
   // Order the whole file, since a joint may stand outside of the scene that its mesh is in
   std::vector<bool> seen(count, false);
-  std::vector<int> order;
+  NodeTree tree;
+  std::vector<int>& order = tree.order;
   for (std::size_t i = 0; i < count; ++i) {
     if (parents[i] < 0) append_subtree(document, static_cast<int>(i), seen, order);
   }
@@ -122,7 +109,6 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
 
   std::vector<glm::dmat4> world_from_node(count, glm::dmat4(1.0));
   std::vector<int> depth(count, 0);
-  NodeTree tree;
   tree.world_from_node.resize(count);
   for (const int node : order) {
     world_from_node[node] = parent_from_node(document, node);
@@ -144,6 +130,7 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
   seen.assign(count, false);
   for (const int root : roots_of(document, chosen, parents))
     append_subtree(document, root, seen, tree.visible);
+  tree.parents = std::move(parents);
   return tree;
 }
 

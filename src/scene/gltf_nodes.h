@@ -10,6 +10,8 @@ namespace lambent::gltf {
 
 struct NodeTree {
   std::vector<glm::mat4> world_from_node;  ///< One a node of the file; finite and affine.
+  std::vector<int> order;                  ///< All nodes of the file, parents before children.
+  std::vector<int> parents;                ///< Of each node of the file; -1: none.
   int scene = -1;                          ///< The chosen scene; -1: the file has none.
   std::vector<int> visible;  ///< Nodes of the chosen scene, parents before children, in file order.
 };
@@ -17,9 +19,5 @@ struct NodeTree {
 /// Builds the tree. Fails on cycles, nodes with two parents and transforms that are not finite.
 /// `scene` is an index, or -1 for the file's default.
 Expected<NodeTree> build_node_tree(Document& document, int scene);
-
-/// Translation, rotation and scale as a matrix; each may be null, the rotation need not be unit.
-glm::dmat4 compose_transform(const double* translation, const double* rotation,
-                             const double* scale);
 
 }  // namespace lambent::gltf

@@ -205,17 +205,6 @@ constexpr Rule kRules[] = {
     {"light", "spot", Kind::object, "spot"},
     {"spot", "innerConeAngle", Kind::number, "", 0, kQuarterTurn},
     {"spot", "outerConeAngle", Kind::number, "", kTiny, kQuarterTurn},
-
-    {"root", "animations", Kind::list, "animation"},
-    {"animation", "channels", Kind::list, "channel", 0, 0, kRequired},
-    {"animation", "samplers", Kind::list, "animationSampler", 0, 0, kRequired},
-    {"channel", "sampler", Kind::whole, "", 0, kAnyInt, kRequired},
-    {"channel", "target", Kind::object, "target", 0, 0, kRequired},
-    {"target", "node", Kind::index, "/nodes"},
-    {"target", "path", Kind::string, "", 0, 0, kRequired},
-    {"animationSampler", "input", Kind::index, "/accessors", 0, 0, kRequired},
-    {"animationSampler", "output", Kind::index, "/accessors", 0, 0, kRequired},
-    {"animationSampler", "interpolation", Kind::string},
 };
 
 class Checker {

@@ -70,7 +70,9 @@ Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
   const tinygltf::Texture& source = document_->model.textures[texture];
   const int image = image_of(source);
   if (image < 0) {
-    return document_->fail_at(entry("textures", texture), "has no image of a supported format");
+    document_->repaired("textures without an image of a supported format were left out", 1,
+                        entry("textures", texture));
+    return TextureView{};
   }
 
   TextureView view;

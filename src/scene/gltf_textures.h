@@ -13,7 +13,8 @@ class TextureLibrary {
 
   /// How a material reads a glTF texture. Uses of one image share a texture, but colour (`srgb`)
   /// and data do not. `texture`, `tex_coord` and `extensions` are those of a textureInfo; `place`
-  /// is its material, for warnings. Fails where the texture has no image that we can read.
+  /// is its material, for warnings. Empty, with a warning, where the texture has no image that we
+  /// can read.
   Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
                              bool srgb, const std::string& place);
 

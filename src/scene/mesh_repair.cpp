@@ -22,7 +22,7 @@ glm::vec3 geometric_normal(const Mesh& mesh, const glm::uvec3& triangle) {
 }
 
 // Appends a copy of a vertex and returns its index.
-std::uint32_t duplicate_vertex(Mesh& mesh, std::uint32_t vertex) {
+std::uint32_t duplicate_vertex(Mesh& mesh, std::uint32_t vertex, VertexOrigins* origins) {
   const auto copy = [vertex](auto& attribute) {
     if (attribute.empty()) return;
     const auto value = attribute[vertex];
@@ -34,6 +34,7 @@ std::uint32_t duplicate_vertex(Mesh& mesh, std::uint32_t vertex) {
   copy(mesh.uvs[0]);
   copy(mesh.uvs[1]);
   copy(mesh.colors);
+  if (origins != nullptr) copy(*origins);
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }
 
@@ -86,7 +87,8 @@ double corner_angle(const Mesh& mesh, const glm::uvec3& t, int corner) {
 
 // Gives triangles with mirrored coordinates vertices of their own where unmirrored ones use them
 // too.
-void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames) {
+void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames,
+                             VertexOrigins* origins) {
   constexpr std::uint32_t kNone = ~0u;
   const std::size_t vertices = mesh.positions.size();
   std::vector<bool> used_unmirrored(vertices, false);
@@ -101,7 +103,7 @@ void split_mirrored_vertices(Mesh& mesh, const std::vector<UvFrame>& frames) {
       std::uint32_t& vertex = mesh.triangles[i][k];
       if (!used_unmirrored[vertex]) continue;
       std::uint32_t& copy = mirrored_copy[vertex];
-      if (copy == kNone) copy = duplicate_vertex(mesh, vertex);
+      if (copy == kNone) copy = duplicate_vertex(mesh, vertex, origins);
       vertex = copy;
     }
   }
@@ -119,7 +121,7 @@ std::size_t drop_degenerate_triangles(Mesh& mesh) {
   return std::erase_if(mesh.triangles, is_degenerate);
 }
 
-void drop_unused_vertices(Mesh& mesh) {
+void drop_unused_vertices(Mesh& mesh, VertexOrigins* origins) {
   constexpr std::uint32_t kUnused = ~0u;
   std::vector<std::uint32_t> new_index(mesh.positions.size(), kUnused);
   std::size_t used = 0;
@@ -146,12 +148,13 @@ void drop_unused_vertices(Mesh& mesh) {
   gather(mesh.uvs[0], kept);
   gather(mesh.uvs[1], kept);
   gather(mesh.colors, kept);
+  if (origins != nullptr) gather(*origins, kept);
   for (glm::uvec3& triangle : mesh.triangles) {
     for (int k = 0; k < 3; ++k) triangle[k] = new_index[triangle[k]];
   }
 }
 
-void make_flat_normals(Mesh& mesh) {
+void make_flat_normals(Mesh& mesh, VertexOrigins* origins) {
   std::vector<std::uint32_t> vertices;
   vertices.reserve(mesh.triangles.size() * 3);
   std::vector<glm::vec3> normals;
@@ -170,6 +173,7 @@ void make_flat_normals(Mesh& mesh) {
   gather(mesh.uvs[0], vertices);
   gather(mesh.uvs[1], vertices);
   gather(mesh.colors, vertices);
+  if (origins != nullptr) gather(*origins, vertices);
   mesh.normals = std::move(normals);
 }
 
@@ -211,14 +215,14 @@ std::size_t repair_tangents(Mesh& mesh) {
   return count;
 }
 
-void make_tangents(Mesh& mesh, int uv_set) {
+void make_tangents(Mesh& mesh, int uv_set, VertexOrigins* origins) {
   assert(mesh.uvs[uv_set].size() == mesh.positions.size());
   mesh.tangents.clear();
   std::vector<UvFrame> frames(mesh.triangles.size());
   for (std::size_t i = 0; i < frames.size(); ++i) {
     frames[i] = uv_frame(mesh, mesh.triangles[i], uv_set);
   }
-  split_mirrored_vertices(mesh, frames);
+  split_mirrored_vertices(mesh, frames, origins);
 
   // Sum the triangles' tangents at each vertex, projected to its plane, weighted by the angle there
   std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));

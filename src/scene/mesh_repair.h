@@ -3,20 +3,26 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "lambent/scene.h"
 
 namespace lambent {
+
+/// Which vertex each vertex was before any repair. Functions that renumber vertices keep it right
+/// where it is given.
+using VertexOrigins = std::vector<std::uint32_t>;
 
 /// Drops triangles without area, for which there is no normal. Returns how many.
 std::size_t drop_degenerate_triangles(Mesh& mesh);
 
 /// Drops vertices that no triangle uses: primitives of one file often share a vertex buffer of
 /// which each uses a part, and bounds are those of all vertices.
-void drop_unused_vertices(Mesh& mesh);
+void drop_unused_vertices(Mesh& mesh, VertexOrigins* origins = nullptr);
 
 /// Gives each triangle vertices of its own with its geometric normal (glTF 2.0, sec. 3.7.2.1).
-void make_flat_normals(Mesh& mesh);
+void make_flat_normals(Mesh& mesh, VertexOrigins* origins = nullptr);
 
 /// Scales normals to unit length; those without direction become the normal of a triangle that uses
 /// them. Returns how many had none.
@@ -28,6 +34,6 @@ std::size_t repair_tangents(Mesh& mesh);
 
 /// Computes tangents from a set of texture coordinates, splitting vertices where the coordinates
 /// mirror.
-void make_tangents(Mesh& mesh, int uv_set);
+void make_tangents(Mesh& mesh, int uv_set, VertexOrigins* origins = nullptr);
 
 }  // namespace lambent

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/byte_decoding.h"
 #include "shared/color.h"
 
 namespace lambent {
@@ -16,24 +17,6 @@ constexpr float kMaxByte = 255.0f;
 // Entries of the table that encodes linear light: fine enough that its steps stay below a tenth of
 // an 8-bit sRGB step where sRGB is steepest (12.92 * 255 / 65536 = 0.05).
 constexpr int kEncodeEntries = 65536;
-
-const std::array<float, 256>& srgb_decode_table() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (int i = 0; i < 256; ++i) values[i] = linear_from_srgb(static_cast<float>(i) / kMaxByte);
-    return values;
-  }();
-  return table;
-}
-
-const std::array<float, 256>& linear_decode_table() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> values{};
-    for (int i = 0; i < 256; ++i) values[i] = static_cast<float>(i) / kMaxByte;
-    return values;
-  }();
-  return table;
-}
 
 std::uint8_t byte_from_unit(float value) {
   return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * kMaxByte));
@@ -81,8 +64,8 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb) {
   coarse.width = std::max(1, fine.width / 2);
   coarse.height = std::max(1, fine.height / 2);
   coarse.rgba.resize(static_cast<std::size_t>(coarse.width) * coarse.height * 4);
-  const auto& color = srgb ? srgb_decode_table() : linear_decode_table();
-  const auto& alpha = linear_decode_table();
+  const auto& color = srgb ? srgb_byte_decoding() : linear_byte_decoding();
+  const auto& alpha = linear_byte_decoding();
 
   std::vector<Taps> columns(coarse.width);
   for (int x = 0; x < coarse.width; ++x) columns[x] = box_taps(x, fine.width, coarse.width);
@@ -152,8 +135,8 @@ struct Decoder {
 };
 
 Decoder decoder_of(const Texture& texture) {
-  const float* const linear = linear_decode_table().data();
-  return {texture.srgb ? srgb_decode_table().data() : linear, linear};
+  const float* const linear = linear_byte_decoding().data();
+  return {texture.srgb ? srgb_byte_decoding().data() : linear, linear};
 }
 
 glm::vec2 wrap_uv(const TextureView& view, glm::vec2 uv) {

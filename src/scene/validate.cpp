@@ -230,7 +230,7 @@ Expected<void> validate(const Scene& scene) {
   if (const char* flaw = flaw_of(scene.environment)) {
     return fail(scene.source.path, "environment", flaw);
   }
-  return {};
+  return validate_motion(scene);
 }
 
 }  // namespace lambent

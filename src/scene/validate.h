@@ -16,5 +16,9 @@ const char* flaw_of(const Instance& instance, std::size_t meshes);
 const char* flaw_of(const Light& light);
 const char* flaw_of(const Camera& camera);
 const char* flaw_of(const Environment& environment);
+const char* flaw_of(const Curve& curve);
+
+/// Checks a scene's animations and its rig.
+Expected<void> validate_motion(const Scene& scene);
 
 }  // namespace lambent

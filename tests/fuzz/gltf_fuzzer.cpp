@@ -10,8 +10,13 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = lambent::test::gltf_from_fuzz_input({data, size});
-  const lambent::Expected<lambent::Scene> scene = lambent::load_scene_from_memory(file);
+  lambent::Expected<lambent::Scene> scene = lambent::load_scene_from_memory(file);
   if (scene && !lambent::validate(*scene)) std::abort();
+  for (const float time_s : {0.0f, 0.5f, 1e30f}) {
+    if (!scene) break;
+    lambent::animate(*scene, -1, time_s);
+    if (!lambent::validate(*scene)) std::abort();
+  }
   if (!scene && scene.error().cause.empty()) std::abort();
   return 0;
 }

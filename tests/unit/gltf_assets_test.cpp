@@ -146,6 +146,36 @@ TEST(Assets, TextureTransformTestPointsItsArrowsAtTheCorrectMarkers) {
   EXPECT_GT(glm::length(sample_texture(scene, turned, kAlongTheArrow * red) - arrow), 0.05f);
 }
 
+TEST(Assets, AnimatedOnesStayValidAndStartInTheirRestPose) {
+  for (const char* file :
+       {"AnimatedCube/glTF/AnimatedCube.gltf", "BoxAnimated/glTF-Binary/BoxAnimated.glb",
+        "CesiumMan/glTF-Binary/CesiumMan.glb", "Fox/glTF-Binary/Fox.glb",
+        "InterpolationTest/glTF-Binary/InterpolationTest.glb",
+        "RiggedSimple/glTF-Binary/RiggedSimple.glb", "SimpleSkin/glTF/SimpleSkin.gltf"}) {
+    const std::string path = std::string(LAMBENT_SHARED_DIR) + "/scenes/khronos/" + file;
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+    Expected<Scene> scene = load_scene(path);
+    ASSERT_TRUE(scene) << error_of(scene);
+    ASSERT_FALSE(scene->animations.empty()) << file;
+    // Without its curves an animation leaves everything at rest
+    const Scene rest = *scene;
+    Scene still = rest;
+    still.animations.insert(still.animations.begin(), Animation{});
+    animate(still, 0, 0.3f);
+    const Bounds a = world_bounds(still), b = world_bounds(rest);
+    const float size = glm::length(b.max - b.min);
+    EXPECT_LT(glm::distance(a.min, b.min), 1e-5f * size) << file;
+    EXPECT_LT(glm::distance(a.max, b.max), 1e-5f * size) << file;
+
+    const float end = duration(scene->animations[0]);
+    EXPECT_GT(end, 0.5f) << file;
+    for (const float share : {0.0f, 0.37f, 1.0f}) {
+      animate(*scene, 0, share * end);
+      EXPECT_EQ(error_of(validate(*scene)), "") << file;
+    }
+  }
+}
+
 TEST(Assets, FuzzCorpusNeverCrashesAndImportsToValidScenes) {
   const std::filesystem::path corpus = std::filesystem::path(LAMBENT_FUZZ_CORPUS) / "gltf";
   ASSERT_TRUE(std::filesystem::is_directory(corpus));
@@ -154,7 +184,7 @@ TEST(Assets, FuzzCorpusNeverCrashesAndImportsToValidScenes) {
     const auto bytes = read_file(file.path().string());
     ASSERT_TRUE(bytes) << error_of(bytes);
     const auto* begin = reinterpret_cast<const std::uint8_t*>(bytes->data());
-    const Expected<Scene> scene =
+    Expected<Scene> scene =
         load_scene_from_memory(test::gltf_from_fuzz_input({begin, bytes->size()}));
     if (!scene) {
       EXPECT_FALSE(scene.error().cause.empty()) << file.path();
@@ -162,6 +192,14 @@ TEST(Assets, FuzzCorpusNeverCrashesAndImportsToValidScenes) {
     }
     ++imported;
     EXPECT_EQ(error_of(validate(*scene)), "") << file.path();
+    if (file.path().stem() == "animation") {
+      EXPECT_TRUE(scene->source.warnings.empty());
+      EXPECT_EQ(scene->animations.at(0).channels.size(), 7u);
+    }
+    for (const float time_s : {0.0f, 0.5f, 1e30f}) {
+      animate(*scene, -1, time_s);
+      EXPECT_EQ(error_of(validate(*scene)), "") << file.path() << " at " << time_s << " s";
+    }
   }
   EXPECT_GT(imported, 0);
 }

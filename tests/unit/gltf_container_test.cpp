@@ -158,20 +158,6 @@ TEST(GltfJson, EmptyScenesLoadWithAWarning) {
   EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("no triangles")));
 }
 
-TEST(GltfJson, AnimationsAreCountedAndLeftOutWithAWarning) {
-  GltfBuilder builder;
-  const int times = builder.accessor<float>({0, 1}, "SCALAR");
-  const int node = builder.show_node(Json::object());
-  builder.append(
-      "animations",
-      {{"samplers", {{{"input", times}, {"output", times}}}},
-       {"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "scale"}}}}}}});
-  const Expected<Scene> scene = builder.load();
-  ASSERT_TRUE(scene) << error_of(scene);
-  EXPECT_EQ(scene->source.animations, 1);
-  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("Animations are not evaluated")));
-}
-
 // Each: a JSON pointer, a hostile value to put there, and what the error must say.
 struct Hostile {
   const char* pointer;

@@ -161,9 +161,19 @@ TEST(GltfTextures, FallBackFromBasisToThePlainImage) {
   ASSERT_TRUE(scene) << error_of(scene);
   EXPECT_EQ(scene->textures.at(0).levels.at(0).rgba, kGrey);
   EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("KHR_texture_basisu")));
+}
+
+TEST(GltfTextures, AreLeftOutWithAWarningWhereNoImageOfTheirsCanBeRead) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  builder.root["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 0;
   builder.root["textures"][0].erase("source");
-  EXPECT_THAT(error_of(builder.load()),
-              HasSubstr("textures[0]: has no image of a supported format"));
+  builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_TRUE(scene->textures.empty());
+  EXPECT_EQ(scene->materials.at(0).emission_texture.texture, -1);
+  EXPECT_THAT(scene->source.warnings,
+              Contains(HasSubstr("without an image of a supported format")));
 }
 
 TEST(GltfTextures, CorruptImagesAreErrorsThatNameThem) {

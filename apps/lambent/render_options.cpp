@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/render_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
+
+#include "lambent/parse.h"
+#include "lambent/render_output.h"
+
+namespace lambent::cli {
+namespace {
+
+// Typing errors are caught before they cost days: more samples leave no noise to see, and after so
+// many bounces no surface that we accept has light left to send on.
+constexpr int kMaxSamples = 1 << 20;
+constexpr int kMaxBounces = 1000;
+constexpr int kMaxThreads = 1024;
+
+const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
+    {"rgb9e5", IrradianceFormat::rgb9e5},
+    {"r11g11b10f", IrradianceFormat::r11g11b10f},
+    {"float32", IrradianceFormat::float32}};
+const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
+                                                                {"rg32f", DistanceFormat::rg32f}};
+
+// A day at 24 frames a second has two million: more is a typing error.
+constexpr int kMaxFrames = 10'000'000;
+constexpr float kMaxFps = 1e6f;
+
+void add_sequence_options(CLI::App& command, RenderOptions& o) {
+  command.add_option("--time", o.time_s,
+                     "Time of the scene's animation [s]; of a sequence's start");
+  command.add_option("--animation", o.animation,
+                     "Which animation of the scene plays, by index or name (all at once)");
+  command.add_option("--frames", o.frames, "Write a sequence of so many pictures")
+      ->check(CLI::Range(1, kMaxFrames));
+  o.fps_option = command.add_option("--fps", o.fps, "Frames of a sequence a second")
+                     ->check([](const std::string& text) {
+                       float fps = 0.0f;
+                       const bool fine =
+                           CLI::detail::lexical_cast(text, fps) && fps > 0.0f && fps <= kMaxFps;
+                       return fine ? std::string() : "'" + text + "' is not a number above 0";
+                     })
+                     ->capture_default_str();
+}
+
+void add_field_options(CLI::App& command, RenderOptions& o) {
+  const std::size_t others = command.get_options().size();
+  command
+      .add_option("--gather", o.gather_rays,
+                  "Rays a sample gathers indirect light with (0: look the field up)")
+      ->check(CLI::Range(0, 4096))
+      ->capture_default_str();
+  command.add_option("--probes", o.probes, "Probes along each axis, XxYxZ");
+  command.add_option("--probe-spacing", o.field.probe_spacing, "Distance between probes [m]")
+      ->check([](const std::string& text) {
+        float spacing = 0.0f;
+        const bool fine = CLI::detail::lexical_cast(text, spacing) && spacing > 0.0f;
+        return fine ? std::string() : "'" + text + "' is not a number above 0";
+      });
+  command.add_option("--volume", o.volume, "Box of the probes, x0,y0,z0,x1,y1,z1 [m]");
+  command.add_option("--rays", o.field.rays_per_probe, "Rays a probe and update")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str();
+  command.add_option("--updates", o.updates, "Updates of the field before the frame")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_flag("--converge", o.converge, "Update until the field has settled")
+      ->excludes("--updates");
+  command
+      .add_option("--frame-updates", o.frame_updates,
+                  "Updates of the field before each frame of a sequence after the first")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  command.add_option("--hysteresis", o.field.hysteresis, "Share of the old light an update keeps")
+      ->check(CLI::Range(0.0f, 0.999f))
+      ->capture_default_str();
+  command.add_option("--irradiance-format", o.irradiance_format, "rgb9e5, r11g11b10f or float32")
+      ->check(CLI::IsMember(kIrradianceFormats))
+      ->capture_default_str();
+  command.add_option("--distance-format", o.distance_format, "rg16f or rg32f")
+      ->check(CLI::IsMember(kDistanceFormats))
+      ->capture_default_str();
+  command.add_option("--irradiance-texels", o.field.irradiance_texels, "Of a tile's edge, even")
+      ->check(CLI::Range(2, 16))
+      ->capture_default_str();
+  command.add_option("--distance-texels", o.field.distance_texels, "Of a tile's edge")
+      ->check(CLI::Range(4, 32))
+      ->capture_default_str();
+  const std::vector<CLI::Option*> all = command.get_options();
+  o.of_the_field.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
+}
+
+}  // namespace
+
+Expected<void> check_options(const RenderOptions& options) {
+  if (const auto exposure = parse_exposure(options.exposure); !exposure) {
+    return tl::unexpected(exposure.error());
+  }
+  for (const CLI::Option* option : options.of_the_field) {
+    if (options.method == "field" || option->count() == 0) continue;
+    return fail(option->get_name(), "", "goes with --method field alone");
+  }
+  if (options.time_s && !std::isfinite(*options.time_s)) {
+    return fail("--time", "", "is not a finite number of seconds");
+  }
+  if (!options.animation.empty() && !options.time_s && options.frames == 0) {
+    return fail("--animation", "", "goes with --time or --frames");
+  }
+  if (options.frames == 0 && options.fps_option->count() > 0) {
+    return fail("--fps", "", "goes with --frames");
+  }
+  if (options.frames > 0 && options.verify_samples > 0) {
+    return fail("--verify", "", "goes with one picture, not with --frames");
+  }
+  if (options.method == "direct" && options.bounces > 0) {
+    return fail("--bounces", "", "--method direct has none");
+  }
+  return {};
+}
+
+Expected<FieldSettings> field_settings(const RenderOptions& options) {
+  FieldSettings settings = options.field;
+  settings.seed = options.seed;
+  settings.max_bounces = options.bounces;
+  settings.irradiance_format = kIrradianceFormats.at(options.irradiance_format);
+  settings.distance_format = kDistanceFormats.at(options.distance_format);
+  if (!options.probes.empty()) {
+    if (settings.probe_spacing > 0.0f) {
+      return fail("--probes", "", "give either --probes or --probe-spacing");
+    }
+    const auto counts = parse_counts("--probes", options.probes);
+    if (!counts) return tl::unexpected(counts.error());
+    settings.probe_count = *counts;
+  }
+  if (!options.volume.empty()) {
+    const auto box = parse_box("--volume", options.volume);
+    if (!box) return tl::unexpected(box.error());
+    settings.volume = *box;
+  }
+  return settings;
+}
+
+void add_render_options(CLI::App& command, RenderOptions& o) {
+  add_stage_options(command, o.stage);
+  command
+      .add_option(
+          "-o,--output", o.output,
+          "The .exr (linear) or .png file to write; in a sequence, #### stands for the frame's "
+          "number (without it, out.png becomes out.0000.png, ...)")
+      ->required();
+  command.add_option("--method", o.method, "field, direct or reference")
+      ->check(CLI::IsMember({"field", "direct", "reference"}))
+      ->capture_default_str();
+  command.add_option("--backend", o.backend, "cpu")
+      ->check(CLI::IsMember({"cpu"}))
+      ->capture_default_str();
+  command.add_option("--size", o.size, "WxH [pixels]")->capture_default_str();
+  command
+      .add_option("--samples", o.samples,
+                  "Rays or paths a pixel (field and direct: 4, reference: 64)")
+      ->check(CLI::Range(1, kMaxSamples));
+  command.add_option("--bounces", o.bounces, "Bounces of indirect light (all of them)")
+      ->check(CLI::Range(0, kMaxBounces));
+  command.add_option("--seed", o.seed, "Of all random numbers")->capture_default_str();
+  command.add_option("--threads", o.threads, "Threads to use (all)")
+      ->check(CLI::Range(1, kMaxThreads));
+  command.add_flag("--layers", o.layers, "Write every layer of the frame, .exr only");
+  command.add_option("--stats", o.stats, "Write times and counts to this .json file");
+  command
+      .add_option("--exposure", o.exposure,
+                  "Of a .png, in stops, or auto (a sequence's first frame decides)")
+      ->capture_default_str();
+  command.add_option("--tone-map", o.tone_map, "Of a .png: aces, neutral or linear")
+      ->check(CLI::IsMember({"aces", "neutral", "linear"}))
+      ->capture_default_str();
+  command
+      .add_option("--verify", o.verify_samples,
+                  "Also path-trace so many samples a pixel and print the error")
+      ->check(CLI::Range(2, kMaxSamples));
+  add_sequence_options(command, o);
+  add_field_options(command, o);
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arguments of `lambent render`.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/field.h"
+#include "lambent/stage.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lambent::cli {
+
+/// What `lambent render` was asked for.
+struct RenderOptions {
+  StageOptions stage;
+  std::string output;
+  std::string method = "field";
+  std::string backend = "cpu";
+  std::string size = "1280x720";
+  int samples = 0;  // 0: the method's own default
+  int gather_rays = 0;
+  int bounces = -1;  // -1: all
+  std::uint32_t seed = 1;
+  int threads = 0;  // 0: all
+  bool layers = false;
+  std::string stats;
+  std::string exposure = "auto";
+  std::string tone_map = "aces";
+  int verify_samples = 0;
+
+  std::optional<float> time_s;  // none: the rest pose, or the start of a sequence
+  std::string animation;        // by index or name; empty: all at once
+  int frames = 0;               // 0: one picture
+  float fps = 24.0f;
+  int frame_updates = 1;  // of the field, before each frame after the first
+
+  FieldSettings field;
+  std::string probes, volume;
+  int updates = 8;
+  bool converge = false;
+  std::string irradiance_format = "rgb9e5";
+  std::string distance_format = "rg16f";
+  const CLI::Option* fps_option = nullptr;
+  std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
+};
+
+/// Declares all options on `command`; `options` must outlive it.
+void add_render_options(CLI::App& command, RenderOptions& options);
+
+/// Fails on options that each make sense, but not together.
+Expected<void> check_options(const RenderOptions& options);
+
+/// What the options say of the field.
+Expected<FieldSettings> field_settings(const RenderOptions& options);
+
+}  // namespace lambent::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the 256 values of an 8-bit channel stand for.
+#pragma once
+
+#include <array>
+
+namespace lambent {
+
+using ByteDecoding = std::array<float, 256>;
+
+/// Linear light of sRGB-encoded bytes.
+const ByteDecoding& srgb_byte_decoding();
+/// Bytes as numbers from 0 to 1.
+const ByteDecoding& linear_byte_decoding();
+
+}  // namespace lambent

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "lambent/image.h"
+#include "support/program.h"
+#include "support/temporary_directory.h"
+
+namespace lambent {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+using testing::run_program;
+
+const std::string kQuick = " --size 24x16 --samples 1 --probes 4x4x4 --rays 32 --updates 3 ";
+
+nlohmann::json json_of(const std::string& path) {
+  std::ifstream file(path);
+  return nlohmann::json::parse(file);
+}
+
+double mean_of(const std::string& path) {
+  const auto image = read_image(path);
+  EXPECT_TRUE(image) << path;
+  double sum = 0.0;
+  for (const float v : image->layers[0].image.pixels) sum += v;
+  return sum / static_cast<double>(image->layers[0].image.pixels.size());
+}
+
+class RenderSequence : public ::testing::Test {
+ protected:
+  testing::TemporaryDirectory directory;
+};
+
+TEST_F(RenderSequence, WritesAPictureAFrameAndStatisticsOfEach) {
+  const std::string stats = directory.file("stats.json");
+  const ProgramResult result = run_program("render atrium --frames 3 --fps 0.25 --stats " + stats +
+                                           kQuick + "-o " + directory.file("out.exr"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_EQ(directory.entries(), 4u);
+  const auto json = json_of(stats);
+  EXPECT_EQ(json["fps"], 0.25);
+  ASSERT_EQ(json["frames"].size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    const auto& frame = json["frames"][i];
+    EXPECT_EQ(frame["frame"], i);
+    EXPECT_NEAR(frame["time_s"].get<double>(), 4.0 * i, 1e-6);
+    EXPECT_EQ(frame["updates"], i == 0 ? 3 : 1);
+    EXPECT_EQ(frame["moved_boxes"], i == 0 ? 0 : 4);
+    EXPECT_EQ(frame["changed_lights"], i == 0 ? 0 : 1);
+    for (const char* key : {"trace_ms", "blend_ms", "gbuffer_ms", "world_update_ms"}) {
+      EXPECT_GE(frame[key].get<double>(), 0.0) << key;
+    }
+  }
+  // The sun goes on
+  const double first = mean_of(directory.file("out.0000.exr"));
+  const double last = mean_of(directory.file("out.0002.exr"));
+  EXPECT_GT(std::abs(last / first - 1.0), 0.02);
+}
+
+TEST_F(RenderSequence, PutsTheNumberWhereThePatternAsksForIt) {
+  const ProgramResult result =
+      run_program("render cornell --method direct --size 8x8 --samples 1 --frames 2 -o " +
+                  directory.file("a####b.png"));
+  ASSERT_EQ(result.status, 0) << result.errors;
+  EXPECT_TRUE(std::filesystem::exists(directory.file("a0000b.png")));
+  EXPECT_TRUE(std::filesystem::exists(directory.file("a0001b.png")));
+  EXPECT_EQ(directory.entries(), 2u);
+}
+
+TEST_F(RenderSequence, StartsAtTheTimeThatIsAskedFor) {
+  const std::string one = directory.file("one.exr"), many = directory.file("many.exr");
+  const std::string direct = "render atrium --method direct --size 24x16 --samples 1 --time 9 ";
+  ASSERT_EQ(run_program(direct + "-o " + one).status, 0);
+  ASSERT_EQ(run_program(direct + "--frames 1 -o " + many).status, 0);
+  EXPECT_EQ(mean_of(one), mean_of(directory.file("many.0000.exr")));
+  ASSERT_EQ(run_program("render atrium --method direct --size 24x16 --samples 1 -o " + one).status,
+            0);
+  EXPECT_NE(mean_of(one), mean_of(directory.file("many.0000.exr")));
+}
+
+TEST_F(RenderSequence, PlaysTheAnimationThatIsChosen) {
+  const std::string stats = directory.file("stats.json");
+  for (const std::string name : {"door", "1"}) {
+    ASSERT_EQ(run_program("render atrium --method direct --size 8x8 --samples 1 --frames 2 --fps 1 "
+                          "--animation " +
+                          name + " --stats " + stats + " -o " + directory.file("out.exr"))
+                  .status,
+              0);
+    const auto frame = json_of(stats)["frames"][1];
+    EXPECT_EQ(frame["moved_boxes"], name == "door" ? 4 : 0);
+    EXPECT_EQ(frame["changed_lights"], name == "door" ? 0 : 1);
+  }
+}
+
+TEST_F(RenderSequence, OfAFileIsThatOfTheBuiltInScene) {
+  const std::string glb = directory.file("atrium.glb");
+  ASSERT_EQ(run_program("make-scene atrium -o " + glb).status, 0);
+  const std::string direct = " --method direct --size 32x24 --samples 1 --time 9 -o ";
+  ASSERT_EQ(run_program("render " + glb + direct + directory.file("a.exr")).status, 0);
+  ASSERT_EQ(run_program("render atrium" + direct + directory.file("b.exr")).status, 0);
+  const double ours = mean_of(directory.file("a.exr")), theirs = mean_of(directory.file("b.exr"));
+  EXPECT_NEAR(ours / theirs, 1.0, 0.01);
+}
+
+TEST_F(RenderSequence, StopsAfterAFrameWhenInterrupted) {
+  const std::string stats = directory.file("stats.json");
+  const std::string pattern = directory.file("f.exr");
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    execl(LAMBENT_PROGRAM, LAMBENT_PROGRAM, "render", "cornell", "--method", "direct", "--size",
+          "64x64", "--frames", "1000000", "--stats", stats.c_str(), "-o", pattern.c_str(),
+          static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  while (!std::filesystem::exists(directory.file("f.0001.exr"))) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  kill(child, SIGINT);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  // Every picture that is there is whole, and nothing else is there
+  const std::size_t frames = json_of(stats)["frames"].size();
+  EXPECT_EQ(directory.entries(), frames + 1);
+  for (std::size_t i = 0; i < 3 && i < frames; ++i) {
+    const std::string number = std::to_string(frames - 1 - i);
+    const std::string name = "f." + std::string(4 - std::min<std::size_t>(4, number.size()), '0');
+    EXPECT_GT(mean_of(directory.file(name + number + ".exr")), 0.0);
+  }
+}
+
+struct BadUse {
+  const char* name;
+  const char* arguments;
+  const char* word;
+};
+
+class BadSequence : public ::testing::TestWithParam<BadUse> {};
+
+TEST_P(BadSequence, IsStatusTwoAndLeavesNoFile) {
+  const testing::TemporaryDirectory directory;
+  const ProgramResult result = run_program(std::string("render ") + GetParam().arguments +
+                                           " --method direct -o " + directory.file("out.exr"));
+  EXPECT_EQ(result.status, 2) << result.errors;
+  EXPECT_THAT(result.errors, HasSubstr(GetParam().word));
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Arguments, BadSequence,
+    ::testing::Values(
+        BadUse{"time_without_animation", "cornell --time 1", "no animation"},
+        BadUse{"time_not_a_number", "atrium --time nan", "--time"},
+        BadUse{"unknown_animation", "atrium --time 1 --animation night", "0 door, 1 day"},
+        BadUse{"animation_of_what_is_still", "atrium --animation day", "--time"},
+        BadUse{"no_frames", "atrium --frames 0", "--frames"},
+        BadUse{"negative_frames", "atrium --frames=-3", "--frames"},
+        BadUse{"no_fps", "atrium --frames 2 --fps 0", "--fps"},
+        BadUse{"fps_not_a_number", "atrium --frames 2 --fps nan", "--fps"},
+        BadUse{"fps_without_frames", "atrium --fps 25", "--frames"},
+        BadUse{"verify_of_a_sequence", "cornell --frames 2 --verify 4", "--verify"},
+        BadUse{"updates_without_field", "cornell --frames 2 --frame-updates 2", "--frame-updates"}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace lambent
