@@ -100,5 +100,8 @@ std::size_t IrradianceField::surfel_bytes() const {
 const ProbeStore& IrradianceField::store() const {
   return state_->store;
 }
+std::span<const ProbeRecord> IrradianceField::records() const {
+  return state_->records;
+}
 
 }  // namespace lambent

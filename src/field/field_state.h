@@ -17,6 +17,8 @@
 
 namespace lambent {
 
+struct FieldVolume;
+
 /// Edits of the world that some probes have been held against and others not yet.
 struct OpenEdits {
   std::uint64_t revision = 0;  ///< Of the world.
@@ -67,6 +69,8 @@ struct IrradianceField::State {
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
+  /// Takes over what a file holds. The world is at `revision`.
+  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, std::uint64_t revision);
 };
 
 }  // namespace lambent
