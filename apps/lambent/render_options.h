@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lambent/error.h"
-#include "lambent/field.h"
+#include "lambent/field_options.h"
 #include "lambent/stage.h"
 
 namespace CLI {
@@ -42,12 +42,11 @@ struct RenderOptions {
   float fps = 24.0f;
   int frame_updates = 1;  // of the field, before each frame after the first
 
-  FieldSettings field;
-  std::string probes, volume;
+  FieldOptions field;
+  std::string field_file;  // to start from; empty: nothing
   int updates = 8;
   bool converge = false;
-  std::string irradiance_format = "rgb9e5";
-  std::string distance_format = "rg16f";
+  std::string show_probes;  // which aspect; empty: not
   const CLI::Option* fps_option = nullptr;
   std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
 };
@@ -57,8 +56,5 @@ void add_render_options(CLI::App& command, RenderOptions& options);
 
 /// Fails on options that each make sense, but not together.
 Expected<void> check_options(const RenderOptions& options);
-
-/// What the options say of the field.
-Expected<FieldSettings> field_settings(const RenderOptions& options);
 
 }  // namespace lambent::cli
