@@ -30,6 +30,9 @@ constexpr int kSamplesAcross = 2;
 // look round.
 constexpr float kRim = 0.4f;
 
+// Place of the newest age in the range of colours, whose beginning is too dark to see.
+constexpr float kYoungest = 0.2f;
+
 /// A sphere that a ray meets.
 struct SphereHit {
   float distance;  // [m]
@@ -143,7 +146,7 @@ vec3 color_of(const IrradianceField& field, ProbeAspect aspect, const SphereHit&
     case ProbeAspect::age:
       break;
   }
-  return round * linear_from_srgb(sequential_color(age_share(field, record)));
+  return round * linear_from_srgb(sequential_color(mix(kYoungest, 1.0f, age_share(field, record))));
 }
 
 }  // namespace

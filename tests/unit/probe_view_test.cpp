@@ -70,15 +70,20 @@ TEST_F(ProbeView, SpheresStandWhereProbesDo) {
 }
 
 TEST_F(ProbeView, ScenesHideSpheresBehindThem) {
-  // From behind the back wall nothing of the room shows
-  Camera behind = look_at({0.0f, 1.0f, -30.0f}, {0.0f, 1.0f, 0.0f}, 0.2f);
+  // Small enough not to pass through the wall that they stand before
+  constexpr float kInside = 0.05f;
+  // From behind the back wall, opposite the open side, nothing of the room shows
+  const Bounds room = world_bounds(stage.scene);
+  const glm::vec3 middle = 0.5f * (room.min + room.max);
+  const glm::vec3 eye(camera().world_from_view[3]);
+  const Camera behind = look_at(2.0f * middle - eye, middle, 0.2f);
   LayeredImage image{32, 32, {{"", Image(32, 32, 3)}}};
-  draw_probes(stage.world, field, behind, {ProbeAspect::state, 0.2f}, image);
+  draw_probes(stage.world, field, behind, {ProbeAspect::state, kInside}, image);
   for (const float value : image.find("probes")->pixels) EXPECT_EQ(value, 0.0f);
 
   const Scene nothing;
   const World open(nothing);
-  draw_probes(open, field, behind, {ProbeAspect::state, 0.2f}, image);
+  draw_probes(open, field, behind, {ProbeAspect::state, kInside}, image);
   float covered = 0.0f;
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 32; ++x) covered += image.find("probes")->at(x, y)[3];
