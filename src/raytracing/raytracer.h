@@ -63,7 +63,7 @@ struct GeometryEdits {
   std::vector<std::int32_t> previous;
   std::vector<std::uint32_t> moved;     ///< Old instances whose transform differs.
   std::vector<std::uint32_t> masked;    ///< Old instances whose mask differs.
-  std::vector<std::uint32_t> deformed;  ///< Meshes whose vertices moved; their number is the same.
+  std::vector<std::uint32_t> deformed;  ///< Meshes of as many vertices and triangles as before.
   /// Meshes to be built anew: other triangles, or from opaque to see-through or back.
   std::vector<std::uint32_t> remade;
 };

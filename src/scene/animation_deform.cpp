@@ -3,6 +3,7 @@
 #include "scene/animation_deform.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <utility>
 
@@ -72,9 +73,10 @@ bool finite(const glm::vec3& v) {
 /// Scales normals to unit length; those without direction stay as they were.
 void repair_bent_normals(const std::vector<glm::vec3>& before, Mesh& bent) {
   for (std::size_t v = 0; v < bent.normals.size(); ++v) {
-    const float length = glm::length(bent.normals[v]);
-    const glm::vec3 unit = bent.normals[v] / length;
-    bent.normals[v] = finite(unit) && length > 0.0f ? unit : before[v];
+    // Shorter or longer vectors cannot be scaled to unit length in float arithmetic
+    const float squared = glm::dot(bent.normals[v], bent.normals[v]);
+    const bool has_direction = squared > FLT_MIN && std::isfinite(squared);
+    bent.normals[v] = has_direction ? bent.normals[v] / std::sqrt(squared) : before[v];
   }
 }
 

@@ -355,23 +355,6 @@ TEST(GltfAnimation, KeepsTheOtherChannelsOfABadOne) {
   EXPECT_THAT(loaded(builder).source.warnings, Contains(HasSubstr("not a list")));
 }
 
-TEST(GltfNodes, FlagsOfInstancesStandInTheirExtras) {
-  GltfBuilder builder;
-  builder.show(builder.triangle());
-  builder.root["nodes"][0]["extras"] = {{"lambent_casts_gi", false},
-                                        {"lambent_receives_gi", false},
-                                        {"lambent_ignored_by_probes", true}};
-  builder.show_node({{"mesh", 0}, {"extras", {{"lambent_casts_gi", "no"}}}});
-  builder.show_node({{"mesh", 0}, {"extras", 3}});
-  const Scene scene = loaded(builder);
-  EXPECT_FALSE(scene.instances[0].casts_gi);
-  EXPECT_FALSE(scene.instances[0].receives_gi);
-  EXPECT_TRUE(scene.instances[0].ignored_by_probes);
-  EXPECT_TRUE(scene.instances[1].casts_gi);
-  EXPECT_TRUE(scene.instances[2].receives_gi);
-  EXPECT_THAT(scene.source.warnings, Contains(HasSubstr("nodes[1].extras.lambent_casts_gi")));
-}
-
 TEST(GltfAnimation, OfABuiltInSceneIsTheSameFromItsFile) {
   const scenes::AnimatedScene made = scenes::make_atrium(16);
   const std::string path = testing::TempDir() + "lambent_animated_atrium.glb";

@@ -270,5 +270,24 @@ TEST(LookAt, StraightDownHasAFrameToo) {
   EXPECT_NEAR(glm::determinant(glm::mat3(camera.world_from_view)), 1.0f, 1e-5f);
 }
 
+TEST(GltfNodes, FlagsOfInstancesStandInTheirExtras) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.root["nodes"][0]["extras"] = {{"lambent_casts_gi", false},
+                                        {"lambent_receives_gi", false},
+                                        {"lambent_ignored_by_probes", true}};
+  builder.show_node({{"mesh", 0}, {"extras", {{"lambent_casts_gi", "no"}}}});
+  builder.show_node({{"mesh", 0}, {"extras", 3}});
+  const Expected<Scene> loaded = builder.load();
+  ASSERT_TRUE(loaded) << error_of(loaded);
+  const Scene& scene = *loaded;
+  EXPECT_FALSE(scene.instances[0].casts_gi);
+  EXPECT_FALSE(scene.instances[0].receives_gi);
+  EXPECT_TRUE(scene.instances[0].ignored_by_probes);
+  EXPECT_TRUE(scene.instances[1].casts_gi);
+  EXPECT_TRUE(scene.instances[2].receives_gi);
+  EXPECT_THAT(scene.source.warnings, Contains(HasSubstr("nodes[1].extras.lambent_casts_gi")));
+}
+
 }  // namespace
 }  // namespace lambent

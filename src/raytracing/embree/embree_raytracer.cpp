@@ -289,8 +289,9 @@ void EmbreeRayTracer::refit(const GeometryEdits& edits, const std::vector<std::u
     if (!deforming.scene) continue;
     const Mesh& source = slots_.scene->meshes[mesh];
     const float area = half_area(source);
-    if (area > deforming.half_area * kMaxAreaChange ||
-        area * kMaxAreaChange < deforming.half_area) {
+    const bool grew =
+        area > deforming.half_area * kMaxAreaChange || area * kMaxAreaChange < deforming.half_area;
+    if (grew || !embree::has_triangles_of(deforming.geometry.get(), source)) {
       deforming.scene.reset();
       continue;
     }

@@ -72,6 +72,12 @@ Geometry make_mesh(RTCDevice device, const Mesh& mesh, const Slots& slots,
   return geometry;
 }
 
+bool has_triangles_of(RTCGeometry geometry, const Mesh& mesh) {
+  const auto* triangles =
+      static_cast<const glm::uvec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_INDEX, 0));
+  return std::equal(mesh.triangles.begin(), mesh.triangles.end(), triangles);
+}
+
 void move_vertices(RTCGeometry geometry, const Mesh& mesh) {
   auto* vertices =
       static_cast<glm::vec3*>(rtcGetGeometryBufferData(geometry, RTC_BUFFER_TYPE_VERTEX, 0));

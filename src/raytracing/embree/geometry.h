@@ -47,6 +47,9 @@ struct Slots {
 Geometry make_mesh(RTCDevice device, const Mesh& mesh, const Slots& slots,
                    const glm::mat4* world_from_object);
 
+/// Whether the geometry of a mesh still has its triangles; their number is the same.
+bool has_triangles_of(RTCGeometry geometry, const Mesh& mesh);
+
 /// Copies vertices that moved into the geometry of their mesh; the caller commits its scene.
 void move_vertices(RTCGeometry geometry, const Mesh& mesh);
 
