@@ -62,6 +62,10 @@ Expected<void> save_field(const std::string& path, const IrradianceField& field,
   volume.irradiance_format = store.irradiance_format();
   volume.distance_format = store.distance_format();
   volume.records = state.records;
+  for (ProbeRecord& record : volume.records) {
+    // What waits to follow an edit has averaged another light than the world's
+    if (record.revision != world.revision()) record.samples = 0.0f;
+  }
   volume.offsets.assign(store.offset_words().begin(), store.offset_words().end());
   volume.irradiance.assign(store.irradiance_words().begin(), store.irradiance_words().end());
   volume.distance.assign(store.distance_words().begin(), store.distance_words().end());

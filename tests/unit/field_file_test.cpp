@@ -312,6 +312,21 @@ TEST_F(SavedField, FollowsEditsThatCameBeforeItsFirstUpdate) {
   EXPECT_NEAR(test::look_up(loaded->field, queries)[7].g / before, 3.0f, 0.75f);
 }
 
+TEST_F(SavedField, DoesNotPassOffLightFromBeforeAnEditAsTheWorldsOwn) {
+  Scene scene = stage.scene;
+  World world(scene);
+  IrradianceField field = make_field(stage, small_field(), 8);
+  for (Material& material : scene.materials) material.emission *= 3.0f;
+  ASSERT_TRUE(world.update());
+  ASSERT_TRUE(save_field(path, field, world));
+  const FieldFile waiting = read_field_file(path).value();
+  EXPECT_EQ(waiting.volumes[0].records[0].samples, 0.0f);
+  field.update(world);
+  ASSERT_TRUE(save_field(path, field, world));
+  const FieldFile followed = read_field_file(path).value();
+  EXPECT_GE(followed.volumes[0].records[0].samples, 1.0f);
+}
+
 TEST_F(SavedField, IsRefusedInAnotherScene) {
   ASSERT_TRUE(save_field(path, make_field(stage, small_field(), 1), stage.world));
   const Stage rooms("two-rooms");
