@@ -21,6 +21,7 @@ constexpr std::array kRecipes{
     Recipe{"furnace-sky", make_furnace_sky},
     Recipe{"two-rooms", make_two_rooms},
     Recipe{"two-rooms-sealed", make_two_rooms_sealed},
+    Recipe{"house", make_house},
     Recipe{"cube", make_cube},
     Recipe{"squares-parallel", make_squares_parallel},
     Recipe{"squares-perpendicular", make_squares_perpendicular},

@@ -6,6 +6,7 @@
 //   furnace-sky            a sphere that reflects a radiance of exactly its albedo, 0.5
 //   two-rooms              a lit and a dark room, a 5 cm wall between them, a gap in it
 //   two-rooms-sealed       the same without the gap: the second room is exactly black
+//   house                  sixteen rooms joined by doorways, a lamp in each
 //   cube                   a 10 m cube around a point light, with solved radiosity
 //   squares-parallel       unit squares one metre apart: form factor 0.1998249
 //   squares-perpendicular  unit squares that share an edge: form factor 0.2000438

@@ -235,6 +235,9 @@ class Document {
         const float* m = glm::value_ptr(instance.world_from_object);
         node["matrix"] = std::vector<float>(m, m + 16);
       }
+      if (!instance.casts_gi) node["extras"]["lambent_casts_gi"] = false;
+      if (!instance.receives_gi) node["extras"]["lambent_receives_gi"] = false;
+      if (instance.ignored_by_probes) node["extras"]["lambent_ignored_by_probes"] = true;
       instance_nodes_.push_back(add_node(std::move(node)));
     }
     for (const Light& light : scene_.lights) light_nodes_.push_back(write_light(light));

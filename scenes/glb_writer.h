@@ -4,6 +4,8 @@
 // What has no place in glTF is kept where load_scene finds it again:
 //   - Material::lambert becomes KHR_materials_specular with specularFactor 0 on a non-metal: no
 //   coat at all
+//   - what an instance says of global illumination becomes "lambent_casts_gi" and the like in the
+//   extras of its node
 //   - the constant sky becomes "lambent_sky_radiance": [r, g, b] in the extras of the glTF scene
 #pragma once
 

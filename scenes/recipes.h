@@ -11,6 +11,7 @@ AnimatedScene make_furnace();
 AnimatedScene make_furnace_sky();
 AnimatedScene make_two_rooms();
 AnimatedScene make_two_rooms_sealed();
+AnimatedScene make_house();
 AnimatedScene make_cube();
 AnimatedScene make_squares_parallel();
 AnimatedScene make_squares_perpendicular();

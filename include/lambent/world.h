@@ -15,7 +15,8 @@ namespace lambent {
 class RayTracer;
 class EmissiveTriangles;
 
-/// What World::update found to differ from the update before.
+/// What World::update found to differ from the update before. That an instance has come to stand at
+/// another place in the scene's list is no change.
 struct WorldChanges {
   /// A light before and after; none before: it was added, none after: it was removed.
   struct LightChange {

@@ -23,9 +23,9 @@
 namespace lambent {
 namespace {
 
-// Light that edits changed by less than this share of a probe's is not worth losing history for: a
-// quarter of what can be seen.
-constexpr float kTouchedShare = 0.0025f;
+// Light that edits changed by less than this share of a probe's is not worth losing history for:
+// half of what can be seen.
+constexpr float kTouchedShare = 0.005f;
 
 // Holding a probe's surfels against edits costs about as much as tracing so many rays, even where
 // nothing need be traced.

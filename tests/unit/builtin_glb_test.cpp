@@ -133,6 +133,20 @@ TEST(BuiltinGlb, KeepsTheSkyInTheExtrasOfTheScene) {
               HasSubstr(R"("extras":{"lambent_sky_radiance":[0.25,0.5,1.0]})"));
 }
 
+TEST(BuiltinGlb, KeepsWhatInstancesSayOfGlobalIllumination) {
+  AnimatedScene made = make_animated("cornell").value();
+  made.scene.instances[1].casts_gi = false;
+  made.scene.instances[2].receives_gi = false;
+  made.scene.instances[3].ignored_by_probes = true;
+  const Scene back = round_trip(made, "flags");
+  ASSERT_EQ(back.instances.size(), made.scene.instances.size());
+  for (std::size_t i = 0; i < back.instances.size(); ++i) {
+    EXPECT_EQ(back.instances[i].casts_gi, i != 1) << i;
+    EXPECT_EQ(back.instances[i].receives_gi, i != 2) << i;
+    EXPECT_EQ(back.instances[i].ignored_by_probes, i == 3) << i;
+  }
+}
+
 TEST(BuiltinGlb, RefusesWhatGltfCannotHold) {
   Scene scene = make("cornell").value();
   scene.environment.map = Image(2, 1, 3);

@@ -93,5 +93,17 @@ TEST(Validate, NamesTheFirstThingWrong) {
   }
 }
 
+TEST(Bounds, AreEmptyAsSoonAsOneAxisIs) {
+  EXPECT_TRUE(Bounds{}.empty());
+  for (int axis = 0; axis < 3; ++axis) {
+    Bounds bounds{glm::vec3(0.0f), glm::vec3(1.0f)};
+    EXPECT_FALSE(bounds.empty());
+    bounds.max[axis] = 0.0f;
+    EXPECT_FALSE(bounds.empty());
+    bounds.max[axis] = -1.0f;
+    EXPECT_TRUE(bounds.empty()) << axis;
+  }
+}
+
 }  // namespace
 }  // namespace lambent

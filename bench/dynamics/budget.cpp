@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a budget of rays buys.
+#include <cstdio>
+
+#include "bench/dynamics/subject.h"
+
+namespace lambent::dynamics {
+namespace {
+
+constexpr int kPixels = 64;
+constexpr int kReferenceSamples = 1024;
+
+/// Rays that a full update traces, of all kinds.
+std::uint64_t full_rays(Subject& subject) {
+  const UpdateStatistics statistics = subject.field.update(subject.world);
+  return statistics.probe_rays + statistics.shadow_rays;
+}
+
+void print_curve(const std::string& name) {
+  Subject subject(name, {});
+  std::uint64_t full = 0;
+  for (int i = 0; i < 16; ++i) full = full_rays(subject);
+  for (Light& light : subject.scene.lights) light.intensity *= 3.0f;
+  subject.apply_edits();
+  const std::vector<FieldQuery> points = seen_points(subject, kPixels);
+  const std::vector<double> truth =
+      reference_light_at(World(subject.scene), points, kReferenceSamples);
+  const UpdateRequest request{full / 4, 0.0, subject.scene.cameras.front().world_from_view[3]};
+  for (int frame = 0; frame <= 12; ++frame) {
+    UpdateStatistics statistics;
+    if (frame > 0) statistics = subject.field.update(subject.world, request);
+    const Difference difference = compare(light_at(subject.field, points), truth);
+    std::printf("| %s | %d | %llu | %.4f | %.4f |\n", name.c_str(), frame,
+                static_cast<unsigned long long>(statistics.probe_rays + statistics.shadow_rays),
+                difference.mean_ratio, difference.relative_rmse);
+  }
+}
+
+/// The first number of probe rays at which the error against what the field settles to is not
+/// above `target`.
+std::uint64_t rays_to_error(Subject& subject, const FieldSettings& settings,
+                            const UpdateRequest& request, std::span<const FieldQuery> points,
+                            std::span<const double> settled, double target) {
+  IrradianceField field = subject.fresh_field(settings);
+  constexpr std::uint64_t kTooMany = 1ull << 32;
+  std::uint64_t rays = 0;
+  while (rays < kTooMany) {
+    rays += field.update(subject.world, request).probe_rays;
+    if (compare(light_at(field, points), settled).relative_rmse <= target) return rays;
+  }
+  return rays;
+}
+
+void compare_adaptive(const std::string& name) {
+  Subject subject(name, {});
+  const std::vector<FieldQuery> points = seen_points(subject, kPixels);
+  const std::vector<double> settled = light_at(subject.settled_field(), points);
+  for (const double target : {0.08, 0.04, 0.02}) {
+    const glm::vec3 viewer = subject.scene.cameras.front().world_from_view[3];
+    const FieldSettings& settings = subject.field.settings();
+    const std::uint64_t uniform = rays_to_error(subject, settings, {}, points, settled, target);
+    const std::uint64_t adaptive =
+        rays_to_error(subject, settings, {100000, 0.0, viewer}, points, settled, target);
+    std::printf("| %s | %.2f | %.2f | %.2f | %.2f |\n", name.c_str(), target,
+                static_cast<double>(uniform) * 1e-6, static_cast<double>(adaptive) * 1e-6,
+                static_cast<double>(uniform) / static_cast<double>(adaptive));
+  }
+}
+
+}  // namespace
+
+void measure_curve() {
+  std::printf(
+      "### Light step (three times as bright) at a quarter of the full budget: E against the "
+      "reference\n");
+  std::printf("| scene | frame | rays | mean ratio | relative RMSE |\n|---|---|---|---|---|\n");
+  print_curve("two-rooms");
+  print_curve("atrium");
+}
+
+void measure_adaptive() {
+  std::printf(
+      "### Probe rays to equal error from darkness [millions], adaptive (100,000 a frame) against "
+      "uniform\n");
+  std::printf("| scene | relative RMSE | uniform | adaptive | ratio |\n|---|---|---|---|---|\n");
+  compare_adaptive("two-rooms");
+  compare_adaptive("atrium");
+}
+
+void measure_moving() {
+  std::printf("### One moving object: probe rays of the schedule against those of full updates\n");
+  std::printf("| updates | probe rays a frame | relative RMSE of E against the settled light |\n");
+  std::printf("|---|---|---|\n");
+  constexpr int kFrames = 32;
+  for (const bool scheduled : {false, true}) {
+    Subject atrium("atrium", {});
+    for (int i = 0; i < 16; ++i) atrium.field.update(atrium.world);
+    std::uint64_t rays = 0;
+    UpdateRequest request;
+    if (scheduled) request = {60000, 0.0, atrium.scene.cameras.front().world_from_view[3]};
+    for (int i = 0; i < kFrames; ++i) {
+      atrium.move("", {0.03f, 0.0f, 0.0f});
+      atrium.apply_edits();
+      rays += atrium.field.update(atrium.world, request).probe_rays;
+    }
+    const std::vector<FieldQuery> points = seen_points(atrium, kPixels);
+    const Difference difference =
+        compare(light_at(atrium.field, points), light_at(atrium.settled_field(), points));
+    std::printf("| %s | %.0f | %.4f |\n", scheduled ? "schedule" : "all probes, 144 rays",
+                static_cast<double>(rays) / kFrames, difference.relative_rmse);
+  }
+}
+
+}  // namespace lambent::dynamics

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What updates cost beside one another.
+#include <algorithm>
+#include <cstdio>
+
+#include "bench/dynamics/subject.h"
+#include "core/stopwatch.h"
+
+namespace lambent::dynamics {
+namespace {
+
+constexpr int kUpdatesBefore = 4;
+constexpr int kRepetitions = 15;
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+void compare_costs(const std::string& name, const std::string& label, FieldSettings settings) {
+  Subject subject(name, settings);
+  for (int i = 0; i < kUpdatesBefore; ++i) subject.field.update(subject.world);
+  std::vector<double> ratios, shares;
+  for (int i = 0; i < kRepetitions; ++i) {
+    // Up and down in turn; the update after an edit that follows no other traces no probe ray
+    const float factor = i % 2 == 0 ? 1.5f : 1.0f / 1.5f;
+    for (Light& light : subject.scene.lights) light.intensity *= factor;
+    for (Material& material : subject.scene.materials) material.emission *= factor;
+    subject.apply_edits();
+    Stopwatch watch;
+    subject.field.update(subject.world);
+    const double lights_only = watch.lap();
+    subject.field.update(subject.world);
+    ratios.push_back(lights_only / watch.lap());
+  }
+  std::printf("| %s | %.2f |\n", label.c_str(), median(ratios));
+}
+
+}  // namespace
+
+void measure_cost() {
+  std::printf(
+      "### Cost of an update in which only lights changed, against a full one (median of %d)\n",
+      kRepetitions);
+  std::printf("| scene | ratio |\n|---|---|\n");
+  FieldSettings nine;
+  nine.probe_count = glm::ivec3(9);
+  nine.rays_per_probe = 256;
+  compare_costs("cornell", "cornell, 9x9x9 probes, 256 rays", nine);
+  compare_costs("two-rooms", "two-rooms", {});
+  compare_costs("atrium", "atrium", {});
+}
+
+void measure_growth() {
+  std::printf("### Cost of a frame as the world grows, house, budget 100,000 rays\n");
+  std::printf("| probes | ms a frame | over the first |\n|---|---|---|\n");
+  constexpr std::uint64_t kBudget = 100000;
+  constexpr int kFrames = 24;
+  double first = 0.0;
+  for (const int probes : {4096, 16384, 65536, 262144}) {
+    FieldSettings settings;
+    settings.probe_budget = probes;
+    Subject house("house", settings);
+    // Serve every probe once, so that frames are as in the middle of things
+    const UpdateRequest request{kBudget, 0.0, house.scene.cameras[0].world_from_view[3]};
+    for (std::uint64_t rays = 0; rays < 33ull * house.field.grid().probes(); rays += kBudget) {
+      house.field.update(house.world, request);
+    }
+    std::vector<double> ms;
+    for (int i = 0; i < kFrames; ++i) {
+      Stopwatch watch;
+      house.field.update(house.world, request);
+      ms.push_back(watch.lap());
+    }
+    if (first == 0.0) first = median(ms);
+    std::printf("| %d | %.1f | %.2f |\n", house.field.grid().probes(), median(ms),
+                median(ms) / first);
+  }
+}
+
+}  // namespace lambent::dynamics
