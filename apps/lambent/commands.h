@@ -16,7 +16,9 @@ namespace lambent::cli {
 /// What the chosen subcommand does once all arguments are known to be well formed.
 using Run = std::function<Expected<void>()>;
 
+void add_bake(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
+void add_field(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_make_scene(CLI::App& app, Run& run);
 void add_picture(CLI::App& app, Run& run);

@@ -24,7 +24,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
 
   lambent::cli::Run run;
+  lambent::cli::add_bake(app, run);
   lambent::cli::add_compare(app, run);
+  lambent::cli::add_field(app, run);
   lambent::cli::add_info(app, run);
   lambent::cli::add_make_scene(app, run);
   lambent::cli::add_picture(app, run);

@@ -2,8 +2,10 @@
 #include "lambent/painter.h"
 
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "compose/probe_view.h"
 #include "core/metrics.h"
 #include "lambent/progress_bar.h"
 #include "lambent/renderer.h"
@@ -14,11 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Light is called settled when an update changes the field by less than this share of it ...
-constexpr double kConvergedChange = 0.002;
-// ... or after so many updates.
-constexpr int kMaxConvergeUpdates = 256;
-
 // Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, keeps
 // structure.
 constexpr int kVerifyBlock = 8;
@@ -27,42 +24,23 @@ constexpr int kVerifyBlock = 8;
 constexpr int kFieldSamples = 4;
 constexpr int kReferenceSamples = 64;
 
-/// Updates the field as often as asked, and books what it cost.
-void update_field(const World& world, int most, bool converge, IrradianceField& field,
-                  const ProgressFn& progress, Json& stats) {
-  UpdateStatistics last, sum;
-  int updates = 0;
-  while (updates < most) {
-    last = field.update(world);
-    ++updates;
-    sum.trace_ms += last.trace_ms;
-    sum.shade_ms += last.shade_ms;
-    sum.relight_ms += last.relight_ms;
-    sum.blend_ms += last.blend_ms;
-    sum.probe_rays += last.probe_rays;
-    sum.shadow_rays += last.shadow_rays;
-    if (progress) progress("field", static_cast<double>(updates) / most);
-    if (converge && last.change < kConvergedChange) break;
+const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAspect::irradiance},
+                                                          {"distance", ProbeAspect::distance},
+                                                          {"state", ProbeAspect::state},
+                                                          {"age", ProbeAspect::age}};
+
+/// The field that the options ask for, as yet without updates.
+Expected<IrradianceField> open_field(const RenderOptions& options, const World& world) {
+  const auto settings = field_settings(options.field, options.seed, options.bounces);
+  if (!settings) return tl::unexpected(settings.error());
+  if (options.field_file.empty()) return IrradianceField::make(*settings, open_bounds(world));
+  Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
+  if (!loaded) return tl::unexpected(loaded.error());
+  if (!loaded->same_light) {
+    std::fprintf(stderr, "lambent: %s was made under other light than the scene's\n",
+                 options.field_file.c_str());
   }
-  const FieldGrid& grid = field.grid();
-  stats["updates"] = updates;
-  stats["probes"] = grid.probes();
-  stats["probe_spacing_x_m"] = grid.spacing.x;
-  stats["probe_spacing_y_m"] = grid.spacing.y;
-  stats["probe_spacing_z_m"] = grid.spacing.z;
-  stats["rays_per_probe"] = field.settings().rays_per_probe;
-  stats["field_bytes"] = field.store_bytes();
-  stats["bytes_per_probe"] = static_cast<double>(field.store_bytes()) / grid.probes();
-  stats["surfel_bytes"] = field.surfel_bytes();
-  stats["probe_rays"] = sum.probe_rays;
-  stats["surfel_shadow_rays"] = sum.shadow_rays;
-  stats["relights_last_update"] = last.relights;
-  stats["relight_residual"] = last.residual;
-  stats["field_change_last_update"] = last.change;
-  stats["trace_ms"] = sum.trace_ms;
-  stats["shade_ms"] = sum.shade_ms;
-  stats["relight_ms"] = sum.relight_ms;
-  stats["blend_ms"] = sum.blend_ms;
+  return std::move(loaded->field);
 }
 
 ReferenceSettings reference_settings(const RenderOptions& options, const glm::ivec2& size,
@@ -81,26 +59,29 @@ ReferenceSettings reference_settings(const RenderOptions& options, const glm::iv
 Painter::Painter(const RenderOptions& options, const glm::ivec2& size)
     : options_(options), size_(size), progress_(terminal_progress()) {}
 
-/// Brings the field up to date with the world: the first time from nothing.
-Expected<void> Painter::follow(const World& world, Json& stats) {
+/// Brings the field up to date with the world: the first time from nothing, or from a file.
+Expected<void> Painter::follow(const World& world, const Camera& camera, Json& stats) {
   if (field_) {
-    update_field(world, options_.frame_updates, false, *field_, progress_, stats);
+    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms,
+                                glm::vec3(camera.world_from_view[3])};
+    update_field(world, options_.frame_updates, request, *field_, progress_, stats);
     return {};
   }
-  const auto settings = field_settings(options_);
-  if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> made = IrradianceField::make(*settings, open_bounds(world));
-  if (!made) return tl::unexpected(made.error());
-  field_.emplace(std::move(*made));
-  const int updates = options_.converge ? kMaxConvergeUpdates : options_.updates;
-  update_field(world, updates, options_.converge, *field_, progress_, stats);
+  Expected<IrradianceField> opened = open_field(options_, world);
+  if (!opened) return tl::unexpected(opened.error());
+  field_.emplace(std::move(*opened));
+  if (options_.converge) {
+    settle_field(world, *field_, progress_, stats);
+  } else {
+    update_field(world, options_.updates, {}, *field_, progress_, stats);
+  }
   return {};
 }
 
 Expected<LayeredImage> Painter::paint(const World& world, const Camera& camera, Json& stats) {
   if (options_.method == "reference") return paint_by_reference(world, camera, stats);
   if (options_.method == "field") {
-    if (const auto done = follow(world, stats); !done) return tl::unexpected(done.error());
+    if (const auto done = follow(world, camera, stats); !done) return tl::unexpected(done.error());
   }
   FrameSettings frame;
   frame.width = size_.x;
@@ -112,6 +93,10 @@ Expected<LayeredImage> Painter::paint(const World& world, const Camera& camera, 
       render_frame(world, field_ ? &*field_ : nullptr, camera, frame, progress_);
   for (const PassTime& pass : rendered.passes) stats[pass.name + "_ms"] = pass.ms;
   stats["camera_rays"] = rendered.rays;
+  if (!options_.show_probes.empty()) {
+    const ProbeViewSettings view{.aspect = kProbeAspects.at(options_.show_probes)};
+    draw_probes(world, *field_, camera, view, rendered.image);
+  }
   return std::move(rendered.image);
 }
 

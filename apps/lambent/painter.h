@@ -30,7 +30,7 @@ class Painter {
                         nlohmann::ordered_json& stats) const;
 
  private:
-  Expected<void> follow(const World& world, nlohmann::ordered_json& stats);
+  Expected<void> follow(const World& world, const Camera& camera, nlohmann::ordered_json& stats);
   LayeredImage paint_by_reference(const World& world, const Camera& camera,
                                   nlohmann::ordered_json& stats) const;
 

@@ -3,28 +3,23 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <map>
 
 #include "lambent/parse.h"
 #include "lambent/render_output.h"
+#include "lambent/threads.h"
 
 namespace lambent::cli {
 namespace {
 
-// Typing errors are caught before they cost days: more samples leave no noise to see, and after so
-// many bounces no surface that we accept has light left to send on.
+// Typing errors are caught before they cost days: more samples leave no noise to see.
 constexpr int kMaxSamples = 1 << 20;
-constexpr int kMaxBounces = 1000;
-constexpr int kMaxThreads = 1024;
 
-const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
-    {"rgb9e5", IrradianceFormat::rgb9e5},
-    {"r11g11b10f", IrradianceFormat::r11g11b10f},
-    {"float32", IrradianceFormat::float32}};
-const std::map<std::string, Visibility> kVisibilities = {
-    {"moments", Visibility::moments}, {"hybrid", Visibility::hybrid}, {"exact", Visibility::exact}};
-const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
-                                                                {"rg32f", DistanceFormat::rg32f}};
+// One probe's fewest rays; more rays than a probe has for as many probes as there can be.
+constexpr std::uint64_t kMinRayBudget = 32;
+constexpr std::uint64_t kMaxRayBudget = 1ull << 32;
+// From what a clock can tell to an hour [ms].
+constexpr double kMinTimeBudget = 0.1;
+constexpr double kMaxTimeBudget = 3.6e6;
 
 // A day at 24 frames a second has two million: more is a typing error.
 constexpr int kMaxFrames = 10'000'000;
@@ -47,53 +42,39 @@ void add_sequence_options(CLI::App& command, RenderOptions& o) {
                      ->capture_default_str();
 }
 
-void add_field_options(CLI::App& command, RenderOptions& o) {
+void add_light_options(CLI::App& command, RenderOptions& o) {
   const std::size_t others = command.get_options().size();
   command
       .add_option("--gather", o.gather_rays,
                   "Rays a sample gathers indirect light with (0: look the field up)")
       ->check(CLI::Range(0, 4096))
       ->capture_default_str();
-  command.add_option("--probes", o.probes, "Probes along each axis, XxYxZ");
-  command.add_option("--probe-spacing", o.field.probe_spacing, "Distance between probes [m]")
-      ->check([](const std::string& text) {
-        float spacing = 0.0f;
-        const bool fine = CLI::detail::lexical_cast(text, spacing) && spacing > 0.0f;
-        return fine ? std::string() : "'" + text + "' is not a number above 0";
-      });
-  command.add_option("--volume", o.volume, "Box of the probes, x0,y0,z0,x1,y1,z1 [m]");
-  command.add_option("--rays", o.field.rays_per_probe, "Rays a probe and update")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
+  add_field_options(command, o.field);
+  command.add_option("--field", o.field_file, "Start from the field in this file");
   command.add_option("--updates", o.updates, "Updates of the field before the frame")
-      ->check(CLI::Range(1, 100000))
+      ->check(CLI::Range(0, kMaxUpdates))
       ->capture_default_str();
   command.add_flag("--converge", o.converge, "Update until the field has settled")
       ->excludes("--updates");
   command
       .add_option("--frame-updates", o.frame_updates,
                   "Updates of the field before each frame of a sequence after the first")
-      ->check(CLI::Range(0, 100000))
+      ->check(CLI::Range(0, kMaxUpdates))
       ->capture_default_str();
-  command.add_option("--hysteresis", o.field.hysteresis, "Share of the old light an update keeps")
-      ->check(CLI::Range(0.0f, 0.999f))
-      ->capture_default_str();
-  command.add_option("--irradiance-format", o.irradiance_format, "rgb9e5, r11g11b10f or float32")
-      ->check(CLI::IsMember(kIrradianceFormats))
-      ->capture_default_str();
-  command.add_option("--distance-format", o.distance_format, "rg16f or rg32f")
-      ->check(CLI::IsMember(kDistanceFormats))
-      ->capture_default_str();
-  command.add_flag("!--no-relocation", o.field.relocation, "Keep the probes on the grid");
-  command.add_option("--visibility", o.field.visibility, "Of probes: moments, hybrid or exact")
-      ->transform(CLI::CheckedTransformer(kVisibilities))
-      ->default_str("moments");
-  command.add_option("--irradiance-texels", o.field.irradiance_texels, "Of a tile's edge, even")
-      ->check(CLI::Range(2, 16))
-      ->capture_default_str();
-  command.add_option("--distance-texels", o.field.distance_texels, "Of a tile's edge")
-      ->check(CLI::Range(4, 32))
-      ->capture_default_str();
+  o.of_sequences.push_back(
+      command
+          .add_option("--ray-budget", o.ray_budget,
+                      "Rays an update after the first frame's may trace (as many as it takes)")
+          ->check(CLI::Range(kMinRayBudget, kMaxRayBudget)));
+  o.of_sequences.push_back(
+      command
+          .add_option("--time-budget", o.time_budget_ms,
+                      "Time it may take [ms], which the field learns to keep (as long as it takes)")
+          ->check(CLI::Range(kMinTimeBudget, kMaxTimeBudget)));
+  command
+      .add_option("--show-probes", o.show_probes,
+                  "Draw the probes as spheres of their irradiance, distance, state or age")
+      ->check(CLI::IsMember({"irradiance", "distance", "state", "age"}));
   const std::vector<CLI::Option*> all = command.get_options();
   o.of_the_field.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
 }
@@ -108,11 +89,25 @@ Expected<void> check_options(const RenderOptions& options) {
     if (options.method == "field" || option->count() == 0) continue;
     return fail(option->get_name(), "", "goes with --method field alone");
   }
+  for (const CLI::Option* option : options.field.of_shape) {
+    if (options.field_file.empty() || option->count() == 0) continue;
+    return fail(option->get_name(), "", "is what the file of --field decides");
+  }
+  if (options.updates == 0 && options.field_file.empty()) {
+    return fail("--updates", "", "without any, the field's light must come from --field");
+  }
+  if (!options.show_probes.empty() && options.verify_samples > 0) {
+    return fail("--verify", "", "compares pictures without --show-probes");
+  }
   if (options.time_s && !std::isfinite(*options.time_s)) {
     return fail("--time", "", "is not a finite number of seconds");
   }
   if (!options.animation.empty() && !options.time_s && options.frames == 0) {
     return fail("--animation", "", "goes with --time or --frames");
+  }
+  for (const CLI::Option* option : options.of_sequences) {
+    if (options.frames > 0 || option->count() == 0) continue;
+    return fail(option->get_name(), "", "goes with --frames");
   }
   if (options.frames == 0 && options.fps_option->count() > 0) {
     return fail("--fps", "", "goes with --frames");
@@ -124,28 +119,6 @@ Expected<void> check_options(const RenderOptions& options) {
     return fail("--bounces", "", "--method direct has none");
   }
   return {};
-}
-
-Expected<FieldSettings> field_settings(const RenderOptions& options) {
-  FieldSettings settings = options.field;
-  settings.seed = options.seed;
-  settings.max_bounces = options.bounces;
-  settings.irradiance_format = kIrradianceFormats.at(options.irradiance_format);
-  settings.distance_format = kDistanceFormats.at(options.distance_format);
-  if (!options.probes.empty()) {
-    if (settings.probe_spacing > 0.0f) {
-      return fail("--probes", "", "give either --probes or --probe-spacing");
-    }
-    const auto counts = parse_counts("--probes", options.probes);
-    if (!counts) return tl::unexpected(counts.error());
-    settings.probe_count = *counts;
-  }
-  if (!options.volume.empty()) {
-    const auto box = parse_box("--volume", options.volume);
-    if (!box) return tl::unexpected(box.error());
-    settings.volume = *box;
-  }
-  return settings;
 }
 
 void add_render_options(CLI::App& command, RenderOptions& o) {
@@ -186,7 +159,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
                   "Also path-trace so many samples a pixel and print the error")
       ->check(CLI::Range(2, kMaxSamples));
   add_sequence_options(command, o);
-  add_field_options(command, o);
+  add_light_options(command, o);
 }
 
 }  // namespace lambent::cli

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "lambent/error.h"
-#include "lambent/field.h"
+#include "lambent/field_options.h"
 #include "lambent/stage.h"
 
 namespace CLI {
@@ -40,15 +40,17 @@ struct RenderOptions {
   std::string animation;        // by index or name; empty: all at once
   int frames = 0;               // 0: one picture
   float fps = 24.0f;
-  int frame_updates = 1;  // of the field, before each frame after the first
+  std::uint64_t ray_budget = 0;  // of an update between frames; 0: none
+  double time_budget_ms = 0.0;   // likewise
+  int frame_updates = 1;         // of the field, before each frame after the first
 
-  FieldSettings field;
-  std::string probes, volume;
+  FieldOptions field;
+  std::string field_file;  // to start from; empty: nothing
   int updates = 8;
   bool converge = false;
-  std::string irradiance_format = "rgb9e5";
-  std::string distance_format = "rg16f";
+  std::string show_probes;  // which aspect; empty: not
   const CLI::Option* fps_option = nullptr;
+  std::vector<const CLI::Option*> of_sequences;  // what means nothing to one picture
   std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
 };
 
@@ -57,8 +59,5 @@ void add_render_options(CLI::App& command, RenderOptions& options);
 
 /// Fails on options that each make sense, but not together.
 Expected<void> check_options(const RenderOptions& options);
-
-/// What the options say of the field.
-Expected<FieldSettings> field_settings(const RenderOptions& options);
 
 }  // namespace lambent::cli

@@ -144,15 +144,9 @@ Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
 
 }  // namespace
 
-void add_stage_options(CLI::App& command, StageOptions& o) {
+void add_scene_options(CLI::App& command, StageOptions& o) {
   command.add_option("scene", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
       ->required();
-  command.add_option("--camera", o.camera, "Camera of the scene, by index or name");
-  command.add_option("--eye", o.eye, "Look from here, x,y,z [m]; needs --target");
-  command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
-  command
-      .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
-      ->check(CLI::Range(1.0f, 170.0f));
   command.add_option("--sun", o.sun, "Add a sun whose light travels along x,y,z");
   command.add_option("--sun-irradiance", o.sun_irradiance, "Of the sun, r,g,b [W/m^2]");
   command.add_option("--sky", o.sky, "Constant sky, r,g,b [W/(m^2 sr)]");
@@ -162,6 +156,16 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
       ->check(CLI::IsMember({"gltf", "lambert"}))
       ->capture_default_str();
   command.add_flag("--no-normal-maps", o.no_normal_maps, "Ignore normal maps");
+}
+
+void add_stage_options(CLI::App& command, StageOptions& o) {
+  add_scene_options(command, o);
+  command.add_option("--camera", o.camera, "Camera of the scene, by index or name");
+  command.add_option("--eye", o.eye, "Look from here, x,y,z [m]; needs --target");
+  command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
+  command
+      .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
+      ->check(CLI::Range(1.0f, 170.0f));
 }
 
 Expected<Scene> open_stage(const StageOptions& options) {

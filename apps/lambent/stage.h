@@ -30,6 +30,9 @@ struct StageOptions {
   bool no_normal_maps = false;
 };
 
+/// What is there and in which light, without from where.
+void add_scene_options(CLI::App& command, StageOptions& options);
+/// All of it.
 void add_stage_options(CLI::App& command, StageOptions& options);
 
 /// The scene with the lights that the options ask for. Tells on stderr of the loader's warnings,

@@ -5,6 +5,9 @@
 
 namespace lambent::cli {
 
+// More is a typing error.
+inline constexpr int kMaxThreads = 1024;
+
 /// Limits all parallel work to a number of threads while it lives; 0: no limit.
 class ThreadLimit {
  public:

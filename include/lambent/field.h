@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "lambent/error.h"
 #include "lambent/scene.h"
@@ -15,6 +16,8 @@ namespace lambent {
 
 class World;
 class ProbeStore;
+struct ProbeRecord;
+struct LoadedField;
 
 /// How a probe's irradiance is stored. All three conserve light: they round without bias.
 enum class IrradianceFormat : std::uint8_t {
@@ -201,13 +204,38 @@ class IrradianceField {
   std::size_t store_bytes() const;
   /// Bytes of the last update's surfels, kept for relighting.
   std::size_t surfel_bytes() const;
-  /// The probes' store, for tools that look inside.
+  /// The probes' store, and what else is known of each, for tools that look inside.
   const ProbeStore& store() const;
+  std::span<const ProbeRecord> records() const;
 
  private:
+  friend Expected<void> save_field(const std::string& path, const IrradianceField& field,
+                                   const World& world);
+  friend Expected<LoadedField> load_field(const std::string& path, const FieldSettings& settings,
+                                          const World& world);
   struct State;
   explicit IrradianceField(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;
 };
+
+/// Writes all that a field has learned to a file (docs/field-format.md), whole or not at all. The
+/// world is the one that the field was last brought up to date with.
+Expected<void> save_field(const std::string& path, const IrradianceField& field,
+                          const World& world);
+
+/// A field from a file.
+struct LoadedField {
+  IrradianceField field;
+  /// The world's light is what the field was made under. false: lights, materials, what moves or
+  /// how far light is followed differ; updates start from the field's light but let none of it
+  /// stay.
+  bool same_light = true;
+};
+
+/// Reads a field that updates go on from: what it has averaged counts. Grid, tiles and formats are
+/// the file's, whatever `settings` say of them; all else is theirs. Fails on files that are cut
+/// short, broken, of another version, or of another scene: one whose still geometry differs.
+Expected<LoadedField> load_field(const std::string& path, const FieldSettings& settings,
+                                 const World& world);
 
 }  // namespace lambent

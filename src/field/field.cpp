@@ -72,6 +72,7 @@ void IrradianceField::reset() {
   s.sights = ProbeSights(s.store.grid());
   s.edits = {};
   s.followed_last = false;
+  s.placed = false;
   s.updates = 0;
 }
 
@@ -105,6 +106,9 @@ std::size_t IrradianceField::surfel_bytes() const {
 }
 const ProbeStore& IrradianceField::store() const {
   return state_->store;
+}
+std::span<const ProbeRecord> IrradianceField::records() const {
+  return state_->records;
 }
 
 }  // namespace lambent

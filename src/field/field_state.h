@@ -18,6 +18,8 @@
 
 namespace lambent {
 
+struct FieldVolume;
+
 /// Edits of the world that some probes have been held against and others not yet.
 struct OpenEdits {
   std::uint64_t revision = 0;  ///< Of the world.
@@ -45,6 +47,7 @@ struct IrradianceField::State {
   RayCost ray_cost;
   int updates = 0;
   float mean_light = 0.0f;     ///< Luminance that probes hold on average, when last traced.
+  bool placed = false;         ///< Places and reaches of all probes are known.
   bool followed_last = false;  ///< The last update followed edits and traced nothing else.
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
@@ -58,7 +61,7 @@ struct IrradianceField::State {
   }
 
   /// Moves probes to where they are needed and finds what they reach. Those that moved forget all.
-  void place(const World& world, std::span<const int> probes);
+  void place(const World& world, std::span<const int> probes, bool relocate);
   /// Says what each probe is for, with what moves where it is now.
   void classify(const World& world);
   VisibilityRays visibility(const World& world) const {
@@ -78,6 +81,8 @@ struct IrradianceField::State {
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
+  /// Takes over what a file holds. The world is at `revision`.
+  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, std::uint64_t revision);
 };
 
 }  // namespace lambent

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "field/probe_grid.h"
 #include "lambent/field.h"
 
 namespace lambent {
@@ -21,8 +22,6 @@ constexpr int kMinProbes = kMinProbesPerAxis * kMinProbesPerAxis * kMinProbesPer
 constexpr float kCellRounding = 1e-4f;
 // More cells along an axis than any budget allows, and few enough to count in an int.
 constexpr float kUncountableCells = 1e6f;
-// Above this a grid is a typing error: it would take 1.2 GB for the store alone.
-constexpr double kMaxProbes = 1 << 20;
 // Flat scenes still get a volume: no side is thinner than this share of the longest.
 constexpr float kMinThickness = 1e-2f;
 // A scene without extent gets a cell of this size [m].

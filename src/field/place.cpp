@@ -30,9 +30,9 @@ Bounds instance_bounds(const Scene& scene, const Instance& instance) {
 
 }  // namespace
 
-void IrradianceField::State::place(const World& world, std::span<const int> probes) {
+void IrradianceField::State::place(const World& world, std::span<const int> probes, bool relocate) {
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
-  if (settings.relocation) {
+  if (relocate) {
     const std::vector<int> moved =
         relocate_probes(world.scene(), world.tracer(), probes, moving, store);
     const std::vector<vec2> nothing(

@@ -7,6 +7,9 @@
 
 LAMBENT_BEGIN
 
+// Above this a grid is a typing error: it would take 1.2 GB for the store alone.
+const int kMaxProbes = 1048576;
+
 // The longest distance counts between 2^6 and 2^7 units: squares reach almost to the largest half,
 // so that those of short distances stay above the smallest.
 const int kDistanceUnitBits = 6;

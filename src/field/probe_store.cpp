@@ -91,6 +91,15 @@ void ProbeStore::clear() {
   std::fill(offsets_.begin(), offsets_.end(), 0u);
 }
 
+void ProbeStore::restore(std::span<const uint> offsets, std::span<const uint> irradiance,
+                         std::span<const uint> distance) {
+  assert(offsets.size() == offsets_.size());
+  assert(irradiance.size() == irradiance_.size() && distance.size() == distance_.size());
+  std::copy(offsets.begin(), offsets.end(), offsets_.begin());
+  std::copy(irradiance.begin(), irradiance.end(), irradiance_.begin());
+  std::copy(distance.begin(), distance.end(), distance_.begin());
+}
+
 vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {
   const std::size_t index = texel_index(probe, with_gutter, irradiance_texels_);
   switch (irradiance_format_) {

@@ -64,6 +64,11 @@ class ProbeStore {
   }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 
+  /// Puts back what offset_words, irradiance_words and distance_words told of a store of the same
+  /// shape.
+  void restore(std::span<const uint> offsets, std::span<const uint> irradiance,
+               std::span<const uint> distance);
+
   /// Forgets everything: no light, distances of 0, and probes on the grid.
   void clear();
 

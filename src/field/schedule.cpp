@@ -18,9 +18,6 @@ constexpr std::array kRayClasses = {32, 64, 128, 256, 512};
 // of eight.
 constexpr float kSettledError = 0.01f;
 
-// Updates after which a probe is served in any case, where the budget allows: two seconds at 60 Hz.
-constexpr std::uint32_t kMaxAge = 128;
-
 // A probe is worth half as much so many cells away from the camera.
 constexpr float kHalfWorthCells = 16.0f;
 
@@ -111,7 +108,7 @@ Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> r
     if (!is_live(record)) continue;
     const int probe = static_cast<int>(i);
     const std::uint32_t age = update - record.served;
-    const bool old = record.served == 0 || age >= kMaxAge;
+    const bool old = record.served == 0 || age >= kMaxProbeAge;
     const float noise = std::sqrt(noise_around(store.grid(), records, probe));
     const float error = noise / std::sqrt(std::max(record.samples, 1.0f));
     if (!old && (error < kSettledError || record.samples >= longest)) continue;

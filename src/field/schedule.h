@@ -19,6 +19,10 @@
 
 namespace lambent {
 
+/// Updates after which a probe is served in any case, where the budget allows: two seconds at 60
+/// Hz.
+inline constexpr std::uint32_t kMaxProbeAge = 128;
+
 /// Learns what a ray costs.
 class RayCost {
  public:

@@ -157,7 +157,12 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   const std::uint64_t revision = world.revision();
   std::vector<int> all, waiting;
   for (int probe = 0; probe < store.probes(); ++probe) {
-    if (!traces[probe].rays) continue;
+    if (!traces[probe].rays) {
+      // Of a file, and without surfels to hold against edits: what it has averaged is of the past
+      if (records[probe].revision != revision) records[probe].samples = 0.0f;
+      records[probe].revision = revision;
+      continue;
+    }
     all.push_back(probe);
     if (records[probe].revision != revision) waiting.push_back(probe);
   }

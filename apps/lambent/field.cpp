@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// lambent field: what a field's file holds, for people and for other programs.
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "core/atomic_file.h"
+#include "field/field_file.h"
+#include "lambent/commands.h"
+#include "lambent/image.h"
+
+namespace lambent::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kIrradianceFormats[] = {"rgb9e5", "r11g11b10f", "float32"};
+constexpr const char* kDistanceFormats[] = {"rg16f", "rg32f"};
+constexpr std::array kStates = {"off",   "sleeping",       "newly_awake",
+                                "awake", "newly_vigilant", "vigilant"};
+
+/// What a volume's probes are like on the whole.
+struct Summary {
+  std::array<int, kStates.size()> states{};
+  double samples = 0.0;        // on average
+  glm::dvec3 irradiance{0.0};  // likewise, over probes and directions [W/m^2]
+  int relocated = 0;           // off the grid
+};
+
+Summary summarize(const FieldVolume& volume) {
+  Summary summary;
+  const ProbeStore store = volume.store();
+  const int n = volume.irradiance_texels;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    const ProbeRecord& record = volume.records[probe];
+    ++summary.states[static_cast<std::size_t>(record.state)];
+    summary.samples += record.samples;
+    if (volume.offsets[probe] != 0) ++summary.relocated;
+    for (int t = 0; t < n * n; ++t) {
+      summary.irradiance += glm::dvec3(store.irradiance_texel(probe, ivec2(t % n, t / n) + 1));
+    }
+  }
+  summary.samples /= store.probes();
+  summary.irradiance /= static_cast<double>(store.probes()) * n * n;
+  return summary;
+}
+
+Json array_of(const glm::vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json json_of(const FieldFile& field) {
+  Json json;
+  json["version"] = kFieldFileVersion;
+  json["updates"] = field.updates;
+  json["scene_triangles"] = field.scene.triangles;
+  json["scene_vertices"] = field.scene.vertices;
+  json["scene_instances"] = field.scene.instances;
+  json["volumes"] = field.volumes.size();
+  for (const FieldVolume& volume : field.volumes) {
+    const Summary summary = summarize(volume);
+    const FieldGrid& grid = volume.grid;
+    json["probes"].push_back(grid.probes());
+    json["probe_counts"].push_back(Json::array({grid.count.x, grid.count.y, grid.count.z}));
+    json["origins_m"].push_back(array_of(grid.origin));
+    json["spacings_m"].push_back(array_of(grid.spacing));
+    json["irradiance_formats"].push_back(
+        kIrradianceFormats[static_cast<int>(volume.irradiance_format)]);
+    json["distance_formats"].push_back(kDistanceFormats[static_cast<int>(volume.distance_format)]);
+    json["irradiance_texels"].push_back(volume.irradiance_texels);
+    json["distance_texels"].push_back(volume.distance_texels);
+    json["mean_samples"].push_back(summary.samples);
+    json["mean_irradiances"].push_back(array_of(summary.irradiance));
+    json["probes_relocated"].push_back(summary.relocated);
+    for (std::size_t s = 0; s < kStates.size(); ++s) {
+      json[std::string("probes_") + kStates[s]].push_back(summary.states[s]);
+    }
+  }
+  return json;
+}
+
+void print_volume(const FieldVolume& volume) {
+  const Summary summary = summarize(volume);
+  const FieldGrid& grid = volume.grid;
+  const vec3 far = grid.origin + grid.spacing * vec3(grid.count - 1);
+  std::printf("probes       %d: %d x %d x %d, %g x %g x %g m apart, %d moved off the grid\n",
+              grid.probes(), grid.count.x, grid.count.y, grid.count.z, grid.spacing.x,
+              grid.spacing.y, grid.spacing.z, summary.relocated);
+  std::printf("place        %g %g %g to %g %g %g m\n", grid.origin.x, grid.origin.y, grid.origin.z,
+              far.x, far.y, far.z);
+  std::printf("irradiance   %d x %d texels, %s; %.4g %.4g %.4g W/m^2 on average\n",
+              volume.irradiance_texels, volume.irradiance_texels,
+              kIrradianceFormats[static_cast<int>(volume.irradiance_format)], summary.irradiance.x,
+              summary.irradiance.y, summary.irradiance.z);
+  std::printf("distances    %d x %d texels, %s\n", volume.distance_texels, volume.distance_texels,
+              kDistanceFormats[static_cast<int>(volume.distance_format)]);
+  std::printf("samples      %.4g updates a probe on average\n", summary.samples);
+  std::printf("states      ");
+  const char* separator = " ";
+  for (std::size_t s = 0; s < kStates.size(); ++s) {
+    if (summary.states[s] == 0) continue;
+    std::printf("%s%d %s", separator, summary.states[s], kStates[s]);
+    separator = ", ";
+  }
+  std::printf("\n");
+}
+
+Expected<void> info(const std::string& path, bool as_json) {
+  const Expected<FieldFile> field = read_field_file(path);
+  if (!field) return tl::unexpected(field.error());
+  if (as_json) {
+    std::printf("%s\n", json_of(*field).dump(2).c_str());
+    return {};
+  }
+  std::printf("updates      %u\n", field->updates);
+  std::printf("scene        %llu triangles in %u instances\n",
+              static_cast<unsigned long long>(field->scene.triangles), field->scene.instances);
+  for (const FieldVolume& volume : field->volumes) print_volume(volume);
+  return {};
+}
+
+/// Calls texel(x, y, probe, texel of the tile) for each pixel of an atlas of tiles with gutter:
+/// count.x of them in a row, in the order of the probes.
+template <class Texel>
+void for_atlas(const FieldVolume& volume, int texels, Texel texel) {
+  const int width = texels + 2;
+  for (int probe = 0; probe < volume.grid.probes(); ++probe) {
+    const ivec2 corner = ivec2(probe % volume.grid.count.x, probe / volume.grid.count.x) * width;
+    for (int t = 0; t < width * width; ++t) {
+      const ivec2 within(t % width, t / width);
+      texel(corner.x + within.x, corner.y + within.y, probe, within);
+    }
+  }
+}
+
+/// An image as large as a volume's atlas.
+LayeredImage blank_atlas(const FieldVolume& volume, int texels) {
+  const ivec3 count = volume.grid.count;
+  return {count.x * (texels + 2), count.y * count.z * (texels + 2), {}};
+}
+
+Expected<void> export_volume(const FieldVolume& volume, const std::string& prefix) {
+  const ProbeStore store = volume.store();
+  LayeredImage irradiance = blank_atlas(volume, volume.irradiance_texels);
+  Image& light = irradiance.require("", 3);
+  for_atlas(volume, volume.irradiance_texels, [&](int x, int y, int probe, ivec2 texel) {
+    const vec3 value = store.irradiance_texel(probe, texel);
+    for (int c = 0; c < 3; ++c) light.at(x, y)[c] = value[c];
+  });
+  if (auto done = write_exr(prefix + ".irradiance.exr", irradiance); !done) return done;
+
+  LayeredImage distance = blank_atlas(volume, volume.distance_texels);
+  distance.require("", 1);
+  Image& squares = distance.require("mean_square", 1);
+  Image& means = *distance.find("");
+  for_atlas(volume, volume.distance_texels, [&](int x, int y, int probe, ivec2 texel) {
+    const vec2 moments = store.moments_texel(probe, texel);
+    *means.at(x, y) = moments.x;
+    *squares.at(x, y) = moments.y;
+  });
+  return write_exr(prefix + ".distance.exr", distance);
+}
+
+Expected<void> export_atlases(const std::string& path, const std::string& prefix) {
+  if (const auto fine = check_writable(prefix + ".irradiance.exr"); !fine) return fine;
+  const Expected<FieldFile> field = read_field_file(path);
+  if (!field) return tl::unexpected(field.error());
+  for (std::size_t i = 0; i < field->volumes.size(); ++i) {
+    const bool one = field->volumes.size() == 1;
+    const std::string name = one ? prefix : prefix + "." + std::to_string(i);
+    if (auto done = export_volume(field->volumes[i], name); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace
+
+void add_field(CLI::App& app, Run& run) {
+  CLI::App* command = app.add_subcommand("field", "Look into a field file, or export it");
+  command->require_subcommand(1);
+
+  struct Options {
+    std::string file, prefix;
+    bool json = false;
+  };
+  const auto o = std::make_shared<Options>();
+  CLI::App* print = command->add_subcommand("info", "Print what a field file holds");
+  print->add_option("file", o->file, "Field file, of lambent bake")->required();
+  print->add_flag("--json", o->json, "One flat JSON object");
+  print->callback([o, &run] { run = [o] { return info(o->file, o->json); }; });
+
+  CLI::App* atlases = command->add_subcommand("export", "Write the atlases of a field as .exr");
+  atlases->add_option("file", o->file, "Field file, of lambent bake")->required();
+  atlases
+      ->add_option("-o,--output", o->prefix,
+                   "Write this and .irradiance.exr, and this and .distance.exr")
+      ->required();
+  atlases->callback([o, &run] { run = [o] { return export_atlases(o->file, o->prefix); }; });
+}
+
+}  // namespace lambent::cli

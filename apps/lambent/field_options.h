@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a field is like, and how it is brought to its light: shared by subcommands that make fields.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/field.h"
+#include "lambent/progress.h"
+#include "lambent/world.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace lambent::cli {
+
+// After so many bounces no surface that we accept has light left to send on.
+inline constexpr int kMaxBounces = 1000;
+inline constexpr int kMaxUpdates = 100'000;
+
+struct FieldOptions {
+  FieldSettings settings;  // without what the others say
+  std::string probes, volume;
+  std::string irradiance_format = "rgb9e5";
+  std::string distance_format = "rg16f";
+  std::vector<const CLI::Option*> of_shape;  // what a field's file has decided
+};
+
+/// Declares the options on `command`; `options` must outlive it.
+void add_field_options(CLI::App& command, FieldOptions& options);
+
+/// What the options say.
+Expected<FieldSettings> field_settings(const FieldOptions& options, std::uint32_t seed,
+                                       int bounces);
+
+/// Where updates of a field led.
+struct FieldProgress {
+  int updates = 0;
+  double change = 0.0;   ///< Of the light, by the last of them.
+  bool settled = false;  ///< It changed less than what counts as settled.
+};
+
+/// Updates the field so often, each time as requested, and books what it cost in `stats`.
+FieldProgress update_field(const World& world, int updates, const UpdateRequest& request,
+                           IrradianceField& field, const ProgressFn& progress,
+                           nlohmann::ordered_json& stats);
+
+/// Likewise, until an update changes the field by less than 0.2 %, at most 256 times.
+FieldProgress settle_field(const World& world, IrradianceField& field, const ProgressFn& progress,
+                           nlohmann::ordered_json& stats);
+
+}  // namespace lambent::cli

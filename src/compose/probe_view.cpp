@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/probe_view.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/color_map.h"
+#include "core/metrics.h"
+#include "core/parallel.h"
+#include "field/probe_store.h"
+#include "field/schedule.h"
+#include "raytracing/camera_rays.h"
+#include "raytracing/raytracer.h"
+#include "shared/color.h"
+#include "shared/constants.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kRowsPerTask = 4;
+
+// Rays through a pixel, a square of them: smooth edges.
+constexpr int kSamplesAcross = 2;
+
+// Share of a sphere's colour that is left at its rim, where it shows the same all over: it should
+// look round.
+constexpr float kRim = 0.4f;
+
+// Place of the newest age in the range of colours, whose beginning is too dark to see.
+constexpr float kYoungest = 0.2f;
+
+/// A sphere that a ray meets.
+struct SphereHit {
+  float distance;  // [m]
+  int probe;
+  vec3 normal_ws;
+};
+
+/// Finds the nearest sphere along a ray by walking through the cells of the grid. A sphere may
+/// leave its probe's place by less than a cell: it lies within the eight cells around that.
+class SphereFinder {
+ public:
+  SphereFinder(const ProbeStore& store, float radius)
+      : store_(store),
+        grid_(store.grid()),
+        radius_(radius * min(grid_.spacing.x, min(grid_.spacing.y, grid_.spacing.z))) {
+    assert(radius > 0.0f && radius <= 0.5f);
+  }
+
+  std::optional<SphereHit> nearest(const Ray& ray) const {
+    // Enter the grid, one cell larger on each side than where probes stand; in units of cells
+    const vec3 origin = (ray.origin - grid_.origin_ws) / grid_.spacing;
+    const vec3 per_metre = ray.direction / grid_.spacing;
+    const vec3 last(grid_.count);
+    float enter = 0.0f, leave = ray.t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (per_metre[axis] == 0.0f) {
+        if (origin[axis] < -1.0f || origin[axis] > last[axis]) return std::nullopt;
+        continue;
+      }
+      const float a = (-1.0f - origin[axis]) / per_metre[axis];
+      const float b = (last[axis] - origin[axis]) / per_metre[axis];
+      enter = max(enter, min(a, b));
+      leave = min(leave, max(a, b));
+    }
+    if (!(enter < leave)) return std::nullopt;
+
+    // Walk from cell to cell (Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray
+    // Tracing", Eurographics 1987)
+    const vec3 start = origin + enter * per_metre;
+    ivec3 cell = clamp(ivec3(floor(start)), ivec3(-1), grid_.count - 1);
+    ivec3 step(0);
+    vec3 next(std::numeric_limits<float>::infinity()), stride(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (per_metre[axis] == 0.0f) continue;
+      step[axis] = per_metre[axis] > 0.0f ? 1 : -1;
+      stride[axis] = std::abs(1.0f / per_metre[axis]);
+      const int face = cell[axis] + (step[axis] > 0 ? 1 : 0);
+      next[axis] = (static_cast<float>(face) - origin[axis]) / per_metre[axis];
+    }
+    SphereHit best{leave, -1, vec3(0.0f)};
+    while (true) {
+      test_cell(ray, cell, best);
+      const int axis = next.x < next.y ? (next.x < next.z ? 0 : 2) : (next.y < next.z ? 1 : 2);
+      if (next[axis] >= best.distance) break;
+      cell[axis] += step[axis];
+      if (cell[axis] < -1 || cell[axis] >= grid_.count[axis]) break;
+      next[axis] += stride[axis];
+    }
+    return best.probe < 0 ? std::nullopt : std::optional(best);
+  }
+
+ private:
+  /// Tests the spheres of a cell's corners.
+  void test_cell(const Ray& ray, const ivec3& cell, SphereHit& best) const {
+    for (int corner = 0; corner < 8; ++corner) {
+      const ivec3 coords = cell + cell_corner(corner);
+      if (glm::any(glm::lessThan(coords, ivec3(0))) ||
+          glm::any(glm::greaterThanEqual(coords, grid_.count))) {
+        continue;
+      }
+      const int probe = probe_index(grid_, coords);
+      const vec3 centre = store_.probe_position_ws(probe);
+      const vec3 to_centre = centre - ray.origin;
+      const float along = dot(to_centre, ray.direction);
+      const vec3 off = to_centre - along * ray.direction;
+      const float square = radius_ * radius_ - dot(off, off);
+      if (square <= 0.0f) continue;
+      const float distance = along - std::sqrt(square);
+      // Whoever looks from inside a sphere looks through it
+      if (distance <= ray.t_min || distance >= best.distance) continue;
+      best = {distance, probe, (ray.origin + distance * ray.direction - centre) / radius_};
+    }
+  }
+
+  const ProbeStore& store_;
+  ProbeGrid grid_;
+  float radius_;  // [m]
+};
+
+/// Share of the way from new to the oldest that a probe becomes.
+float age_share(const IrradianceField& field, const ProbeRecord& record) {
+  if (record.served == 0) return 1.0f;
+  const auto age = static_cast<float>(field.updates()) - static_cast<float>(record.served);
+  return std::log2(1.0f + max(age, 0.0f)) / std::log2(1.0f + static_cast<float>(kMaxProbeAge));
+}
+
+vec3 color_of(const IrradianceField& field, ProbeAspect aspect, const SphereHit& hit,
+              const vec3& to_viewer_ws) {
+  const ProbeStore& store = field.store();
+  const ProbeRecord& record = field.records()[hit.probe];
+  const float round = mix(kRim, 1.0f, max(dot(hit.normal_ws, to_viewer_ws), 0.0f));
+  switch (aspect) {
+    case ProbeAspect::irradiance:
+      return store.irradiance(hit.probe, hit.normal_ws) * kInvPi;
+    case ProbeAspect::distance: {
+      const float seen = store.moments(hit.probe, hit.normal_ws).x;
+      return linear_from_srgb(sequential_color(seen / max_probe_distance(store.grid())));
+    }
+    case ProbeAspect::state:
+      return round * probe_state_color(record.state);
+    case ProbeAspect::age:
+      break;
+  }
+  return round * linear_from_srgb(sequential_color(mix(kYoungest, 1.0f, age_share(field, record))));
+}
+
+}  // namespace
+
+vec3 probe_state_color(ProbeState state) {
+  switch (state) {
+    case ProbeState::off:
+      return vec3(0.08f);
+    case ProbeState::sleeping:
+      return {0.03f, 0.08f, 0.6f};
+    case ProbeState::newly_awake:
+      return {0.9f, 0.7f, 0.02f};
+    case ProbeState::awake:
+      return {0.8f, 0.05f, 0.03f};
+    case ProbeState::newly_vigilant:
+      return {0.05f, 0.6f, 0.55f};
+    case ProbeState::vigilant:
+      break;
+  }
+  return {0.05f, 0.5f, 0.05f};
+}
+
+void draw_probes(const World& world, const IrradianceField& field, const Camera& camera,
+                 const ProbeViewSettings& settings, LayeredImage& frame) {
+  Image& probes = frame.require("probes", 4);
+  Image& picture = *frame.find("");
+  const SphereFinder finder(field.store(), settings.radius);
+  const float brightness = settings.aspect == ProbeAspect::irradiance
+                               ? 1.0f
+                               : static_cast<float>(1.0 / auto_exposure(picture));
+  const auto width = static_cast<std::size_t>(frame.width);
+  constexpr float kShare = 1.0f / (kSamplesAcross * kSamplesAcross);
+
+  const auto draw_row = [&](int y, std::vector<Ray>& rays, std::vector<Hit>& hits) {
+    for (int sample = 0; sample < kSamplesAcross * kSamplesAcross; ++sample) {
+      const float dx = (static_cast<float>(sample % kSamplesAcross) + 0.5f) / kSamplesAcross;
+      const float dy = (static_cast<float>(sample / kSamplesAcross) + 0.5f) / kSamplesAcross;
+      for (int x = 0; x < frame.width; ++x) {
+        rays[x] = camera_ray(camera, frame.width, frame.height, static_cast<float>(x) + dx,
+                             static_cast<float>(y) + dy);
+      }
+      world.tracer().closest_hits(rays, hits);
+      for (int x = 0; x < frame.width; ++x) {
+        rays[x].t_max = min(rays[x].t_max, hits[x].distance);
+        const std::optional<SphereHit> hit = finder.nearest(rays[x]);
+        if (!hit) continue;
+        const vec3 color = color_of(field, settings.aspect, *hit, -rays[x].direction);
+        float* pixel = probes.at(x, y);
+        for (int c = 0; c < 3; ++c) pixel[c] += kShare * color[c];
+        pixel[3] += kShare;
+      }
+    }
+    for (int x = 0; x < frame.width; ++x) {
+      const float* over = probes.at(x, y);
+      float* under = picture.at(x, y);
+      for (int c = 0; c < 3; ++c) under[c] = (1.0f - over[3]) * under[c] + brightness * over[c];
+    }
+  };
+  parallel_chunks(static_cast<std::size_t>(frame.height), kRowsPerTask,
+                  [&](std::size_t begin, std::size_t end) {
+                    std::vector<Ray> rays(width);
+                    std::vector<Hit> hits(width);
+                    for (std::size_t y = begin; y < end; ++y) {
+                      draw_row(static_cast<int>(y), rays, hits);
+                    }
+                  });
+}
+
+}  // namespace lambent

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace lambent {
+
+/// The CRC-32 of zlib, PNG and Ethernet. `before` is that of the bytes that came before these; 0:
+/// none.
+std::uint32_t crc32_of(std::span<const std::byte> bytes, std::uint32_t before = 0);
+
+}  // namespace lambent

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where things stand in a field's file (docs/field-format.md).
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "lambent/field.h"
+
+namespace lambent {
+
+inline constexpr std::array<char, 8> kFieldMagic = {'L', 'A', 'M', 'B', 'E', 'N', 'T', 'F'};
+
+// Offsets and sizes [bytes].
+inline constexpr std::size_t kChecksumOffset = 12;
+inline constexpr std::size_t kSizeOffset = 16;  // and where what the checksum covers begins
+inline constexpr std::size_t kHeaderBytes = 64;
+inline constexpr std::size_t kVolumeHeaderBytes = 64;
+inline constexpr std::size_t kRecordBytes = 24;
+
+// Volumes of one field: more are not a field but a broken file.
+inline constexpr std::uint32_t kMaxVolumes = 64;
+
+/// Words that the tiles of all probes take.
+inline std::uint64_t tile_words(std::uint64_t probes, int texels, int words_per_texel) {
+  const auto edge = static_cast<std::uint64_t>(texels) + 2;
+  return probes * edge * edge * static_cast<std::uint64_t>(words_per_texel);
+}
+
+inline int words_per_texel(IrradianceFormat format) {
+  return format == IrradianceFormat::float32 ? 3 : 1;
+}
+inline int words_per_texel(DistanceFormat format) {
+  return format == DistanceFormat::rg32f ? 2 : 1;
+}
+
+}  // namespace lambent
