@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/cross_bilateral.h"
+#include "core/simd_levels.h"
 #include "lambent/rsm.h"
 #include "rsm/pattern.h"
 
@@ -32,6 +33,13 @@ void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
 /// of sub-maps, or the row be gathered in pieces of kLanes pixels with tables of their own.
 void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count);
+
+/// Floats of a texel that a gather reads: position, normal, softening, flux over pi.
+inline constexpr int kTexelFields = 10;
+
+/// Adds one texel to each of kLanes pixels of a row from `first` on, of which the caller has
+/// fetched the fields.
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]);
 
 /// Samples of a disk around each pixel's projection, for pixels of different sub-maps.
 struct DiskGather {

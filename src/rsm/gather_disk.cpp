@@ -3,13 +3,11 @@
 #include <algorithm>
 
 #include "rsm/deinterleave.h"
-#include "rsm/gather_kernel.h"
+#include "rsm/gather.h"
 #include "rsm/projection.h"
 
 namespace lambent {
 namespace {
-
-constexpr int kFields = 10;  // of a texel: position, normal, softening, flux
 
 /// Where a point lies in the map [texels]; points that the map does not show, at its edge.
 vec2 project(const RsmProjection& p, const vec3& position_ws, int resolution) {
@@ -53,12 +51,6 @@ LaneMaps lane_maps(const DiskGather& disk, int first_column, int column_step, in
   return lanes;
 }
 
-LAMBENT_SIMD_CLONES void add_samples(GatherLanes& pixels, const float (*fields)[kLanes]) {
-  Lanes f[kFields];
-  for (int k = 0; k < kFields; ++k) load(f[k], fields[k]);
-  add_texel<Lanes>(pixels, f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]);
-}
-
 /// Reads one sample of a lane's texels into its column of the fields.
 void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub_row,
                  const vec2& place, float weight, float (*fields)[kLanes]) {
@@ -70,7 +62,7 @@ void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub
   const int y = static_cast<int>(
       floor((place.y - 0.5f - static_cast<float>(sub_row)) / static_cast<float>(n) + 0.5f));
   if (x < 0 || y < 0 || x >= maps.width[lane] || y >= height) {
-    for (int k = 0; k < kFields; ++k) fields[k][lane] = 0.0f;
+    for (int k = 0; k < kTexelFields; ++k) fields[k][lane] = 0.0f;
     fields[6][lane] = 1.0f;  // any softening, so that nothing is divided by 0
     return;
   }
@@ -113,8 +105,6 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
   const int n = disk.sub_maps, subs = n * n;
   for (int i = 0; i < row.count; i += kLanes) {
     const LaneMaps maps = lane_maps(disk, first_column + i * column_step, column_step, sub_row);
-    GatherLanes pixels;
-    load_pixels(pixels, row, i);
     vec2 middle[kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const ConstPlanes3& at = row.guide.position;
@@ -122,7 +112,7 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
                           disk.map->resolution);
     }
     for (int k = 0; k < static_cast<int>(disk.samples.size()) / subs; ++k) {
-      float fields[kFields][kLanes];
+      float fields[kTexelFields][kLanes];
       for (int l = 0; l < kLanes; ++l) {
         // Sub-maps share the disk's samples, and each stands for all of them
         const DiskSample& sample =
@@ -130,9 +120,8 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
         read_sample(disk, maps, l, sub_row, middle[l] + sample.offset,
                     sample.weight * static_cast<float>(subs), fields);
       }
-      add_samples(pixels, fields);
+      gather_fetched(row, i, fields);
     }
-    store_light(pixels, row, i);
   }
 }
 

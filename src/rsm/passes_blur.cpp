@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "core/lanes.h"
 #include "core/parallel.h"
 #include "rsm/deinterleave.h"
 #include "rsm/passes.h"
@@ -53,8 +52,9 @@ void blur_along_row(Mosaic& mosaic, int i, int j, int row, int unit, std::span<c
                             mosaic.light(LightPlanes::current, i, j, row, dx, 0), tap.weight});
     }
   }
-  cross_bilateral_row({mosaic.guide(i, j, row), mosaic.light(LightPlanes::current, i, j, row), 1.0f},
-                      neighbours, out, mosaic.layout().width, tolerance);
+  cross_bilateral_row(
+      {mosaic.guide(i, j, row), mosaic.light(LightPlanes::current, i, j, row), 1.0f}, neighbours,
+      out, mosaic.layout().width, tolerance);
 }
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "core/lanes.h"
 #include "core/parallel.h"
 #include "rsm/deinterleave.h"
 #include "rsm/gather.h"
