@@ -44,6 +44,12 @@ void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
   kernel(row, texels, places, count);
 }
 
+void sum_squared_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+                       float* sums) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(add_squares);
+  kernel(points, count, texels.data(), texels.size(), sums);
+}
+
 void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_fetched);
   kernel(row, first, fields);

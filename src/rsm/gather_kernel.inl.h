@@ -9,13 +9,17 @@ struct GatherLanes {
   Lanes red, green, blue;
 };
 
+LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const GuidePlanes& guide, int i) {
+  load(p.x, guide.position.at[0] + i);
+  load(p.y, guide.position.at[1] + i);
+  load(p.z, guide.position.at[2] + i);
+  load(p.nx, guide.normal.at[0] + i);
+  load(p.ny, guide.normal.at[1] + i);
+  load(p.nz, guide.normal.at[2] + i);
+}
+
 LAMBENT_FORCE_INLINE void load_pixels(GatherLanes& p, const GatherRow& row, int i) {
-  load(p.x, row.guide.position.at[0] + i);
-  load(p.y, row.guide.position.at[1] + i);
-  load(p.z, row.guide.position.at[2] + i);
-  load(p.nx, row.guide.normal.at[0] + i);
-  load(p.ny, row.guide.normal.at[1] + i);
-  load(p.nz, row.guide.normal.at[2] + i);
+  load_points(p, row.guide, i);
   load(p.red, row.light.at[0] + i);
   load(p.green, row.light.at[1] + i);
   load(p.blue, row.light.at[2] + i);
@@ -27,12 +31,12 @@ LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row
   store(row.light.at[2] + i, p.blue);
 }
 
-/// Adds what texels bring to the pixels. `T` is a float where all pixels ask the same texel, or
-/// Lanes where each asks one of its own.
+/// bounded_geometry_term times pi. `T` is a float where all pixels ask the same texel, or Lanes
+/// where each asks one of its own.
 template <class T>
-LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const T& x, const T& y, const T& z, const T& nx,
-                                    const T& ny, const T& nz, const T& softening, const T& red,
-                                    const T& green, const T& blue) {
+LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const T& x, const T& y,
+                                     const T& z, const T& nx, const T& ny, const T& nz,
+                                     const T& softening) {
   const Lanes dx = x - p.x, dy = y - p.y, dz = z - p.z;
   const Lanes below_texel = nx * dx + ny * dy + nz * dz;
   const Lanes above_point = p.nx * dx + p.ny * dy + p.nz * dz;
@@ -40,8 +44,17 @@ LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const T& x, const T& y, cons
   const Lanes square = dx * dx + dy * dy + dz * dz + softening;
   const Lanes compensation =
       kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
-  Lanes term = (softening * compensation - below_texel * above_point) / (square * square);
+  term = (softening * compensation - below_texel * above_point) / (square * square);
   keep(term, (below_texel < 0.0f) & (above_point > 0.0f));
+}
+
+/// Adds what texels bring to the pixels; flux is over pi.
+template <class T>
+LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const T& x, const T& y, const T& z, const T& nx,
+                                    const T& ny, const T& nz, const T& softening, const T& red,
+                                    const T& green, const T& blue) {
+  Lanes term;
+  texel_term<T>(term, p, x, y, z, nx, ny, nz, softening);
   p.red += term * red;
   p.green += term * green;
   p.blue += term * blue;
@@ -115,4 +128,24 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
   add_texel<Lanes>(pixels, f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]);
   store_light(pixels, row, first);
+}
+
+/// Sum over points of the squared terms of a texel.
+static void add_squares(const GuidePlanes& points, int count, const RsmTexel* texels,
+                        std::size_t texel_count, float* sums) {
+  for (std::size_t k = 0; k < texel_count; ++k) {
+    const RsmTexel& t = texels[k];
+    Lanes sum = Lanes{};
+    for (int i = 0; i < count; i += kLanes) {
+      Lanes term;
+      GatherLanes p;
+      load_points(p, points, i);
+      texel_term(term, p, t.position_ws.x, t.position_ws.y, t.position_ws.z, t.normal_ws.x,
+                 t.normal_ws.y, t.normal_ws.z, t.softening);
+      sum += term * term;
+    }
+    float total = 0.0f;
+    for (int l = 0; l < kLanes; ++l) total += sum[l];
+    sums[k] = total * (kInvPi * kInvPi);
+  }
 }

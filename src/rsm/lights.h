@@ -13,7 +13,7 @@ namespace lambent {
 /// The texels that are gathered, twice: where they were rendered, and restructured.
 struct RsmLights {
   /// All texels of all maps, one map after the other, where they were rendered, and at the end one
-  /// that brings nothing. Those that are chosen hold the light of those that are not.
+  /// that brings nothing. Those that stand for a cluster hold the light of all of it.
   std::vector<RsmTexel> rendered;
   /// The chosen ones, sub-map after sub-map, each contiguous and all of one length.
   std::vector<RsmTexel> restructured;
@@ -25,11 +25,10 @@ struct RsmLights {
   std::uint32_t count(int sub_map) const { return starts[sub_map + 1] - starts[sub_map]; }
 };
 
-/// Chooses settings.texels of each map (rounded up to fill all sub-maps alike), with probability in
-/// proportion to their power and, if asked for, to what they bring to the view; those chosen stand
-/// for all: the light's expected value is that of all texels. All texels where settings.texels is
-/// 0. Each chosen texel lands in exactly one sub-map, and every sub-map alone holds an estimate of
-/// all light.
+/// Brings the texels of each map together in settings.texels clusters (rounded up to fill all
+/// sub-maps alike), more of them where they matter to the view, if that is asked for: no light is
+/// lost. All texels, as they are, where settings.texels is 0. Each lands in exactly one sub-map, and
+/// every sub-map alone stands for all light.
 RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                         const RsmSettings& settings);
 
