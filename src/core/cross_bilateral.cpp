@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/cross_bilateral.h"
 
-#include <cstdlib>
 #include "core/simd_levels.h"
 #include "shared/cross_bilateral.h"
 
 namespace lambent {
 namespace {
 
-static int g_pow = getenv("POW") ? atoi(getenv("POW")) : 0;
 namespace baseline {
 #include "core/cross_bilateral_kernel.inl.h"
 }  // namespace baseline

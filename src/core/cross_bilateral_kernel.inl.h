@@ -26,9 +26,9 @@ LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
       here.nx * (here.x - there.x) + here.ny * (here.y - there.y) + here.nz * (here.z - there.z);
   const Lanes beyond = distance * inverse_tolerance;
   const Lanes near = 1.0f - beyond * beyond;
-  Lanes pw = fourth * fourth;
-  for (int q = 0; q < g_pow; ++q) pw = pw * pw;
-  weight = pw * near;
+  const Lanes sixteenth = (fourth * fourth) * (fourth * fourth);
+  const Lanes power = (sixteenth * sixteenth) * (sixteenth * sixteenth);
+  weight = power * near;
   keep(weight, (cosine > 0.0f) & (near > 0.0f));
 }
 

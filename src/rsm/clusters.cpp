@@ -21,7 +21,7 @@ constexpr int kSurfaces = 3;
 // plane by less than this share of the block's edge.
 constexpr float kSameNormal = 0.8f, kSamePlane = 0.25f;
 // A right angle between normals parts clusters as much as this share of the scene's size does.
-constexpr float kNormalScale = 0.1f;
+constexpr float kNormalScale = 0.3f;
 // A map is merged by several threads once that many clusters are left to each.
 constexpr std::size_t kParallelClusters = 2048;
 
@@ -75,7 +75,7 @@ void cluster_block(const ReflectiveShadowMap& map, std::vector<std::uint32_t>& l
     // In the order of the map, so that sums do not depend on how the library partitions
     std::sort(left.begin(), others);
     for (auto i = left.begin(); i != others; ++i) sum.add(map.texels[*i]);
-    result.push_back({sum.texel(), seed, 0.0f});
+    result.push_back({sum.texel(), seed, 0.0f, 0.0f});
     left.erase(left.begin(), others);
     std::sort(left.begin(), left.end());
   }
@@ -117,18 +117,22 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
   if (clusters.size() == 1) {
     // Part its light among its places
     Cluster part = clusters.front();
-    part.texel.flux /= static_cast<float>(result.size());
+    const float share = 1.0f / static_cast<float>(result.size());
+    part.texel.flux *= share;
+    part.brought *= share;
     std::fill(result.begin(), result.end(), part);
     return;
   }
   if (result.size() == 1) {
     Sum sum;
     const Cluster* brightest = &clusters.front();
+    float brought = 0.0f;
     for (const Cluster& cluster : clusters) {
       sum.add(cluster.texel);
+      brought += cluster.brought;
       if (power_of(cluster.texel.flux) > power_of(brightest->texel.flux)) brightest = &cluster;
     }
-    result.front() = {sum.texel(), brightest->place, 0.0f};
+    result.front() = {sum.texel(), brightest->place, 0.0f, brought};
     return;
   }
 
@@ -149,8 +153,8 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
   }
   // Places go with the weight, which a heavy cluster keeps from being parted evenly
   const double fair = total > 0.0 ? sum / total * static_cast<double>(result.size()) : 1.0;
-  const auto places = std::clamp<std::size_t>(static_cast<std::size_t>(fair + 0.5), 1,
-                                              result.size() - 1);
+  const auto places =
+      std::clamp<std::size_t>(static_cast<std::size_t>(fair + 0.5), 1, result.size() - 1);
   const auto half = [&](std::size_t i) {
     merge(i == 0 ? clusters.first(split) : clusters.subspan(split), normal_scale,
           i == 0 ? result.first(places) : result.subspan(places));

@@ -15,6 +15,7 @@ struct Cluster {
   RsmTexel texel;
   std::uint32_t place = 0;  ///< In the map, of the brightest of them.
   float weight = 0.0f;      ///< How much it matters to the picture; see lights.cpp.
+  float brought = 0.0f;     ///< To the view by all of them; see lights.cpp.
 };
 
 /// The lit texels of a map by blocks of a few texels; where a block shows several surfaces, a

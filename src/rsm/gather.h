@@ -34,10 +34,14 @@ void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
 void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count);
 
-/// For each texel, the sum over points of the squared bounded_geometry_term. `count` is a multiple of
-/// kLanes; a point without a normal adds nothing.
-void sum_squared_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
-                       float* sums);
+/// Sums over points of a texel's bounded_geometry_term, and of its square.
+struct TermSums {
+  float terms, squares;
+};
+
+/// One for each texel. `count` is a multiple of kLanes; a point without a normal adds nothing.
+void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+               TermSums* sums);
 
 /// Floats of a texel that a gather reads: position, normal, softening, flux over pi.
 inline constexpr int kTexelFields = 10;

@@ -44,9 +44,9 @@ void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
   kernel(row, texels, places, count);
 }
 
-void sum_squared_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
-                       float* sums) {
-  static const auto kernel = LAMBENT_BEST_LEVEL(add_squares);
+void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+               TermSums* sums) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(add_terms);
   kernel(points, count, texels.data(), texels.size(), sums);
 }
 

@@ -130,22 +130,25 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   store_light(pixels, row, first);
 }
 
-/// Sum over points of the squared terms of a texel.
-static void add_squares(const GuidePlanes& points, int count, const RsmTexel* texels,
-                        std::size_t texel_count, float* sums) {
+/// For each texel, the sums over points of its term and of the term's square.
+static void add_terms(const GuidePlanes& points, int count, const RsmTexel* texels,
+                      std::size_t texel_count, TermSums* sums) {
   for (std::size_t k = 0; k < texel_count; ++k) {
     const RsmTexel& t = texels[k];
-    Lanes sum = Lanes{};
+    Lanes terms = Lanes{}, squares = Lanes{};
     for (int i = 0; i < count; i += kLanes) {
       Lanes term;
       GatherLanes p;
       load_points(p, points, i);
       texel_term(term, p, t.position_ws.x, t.position_ws.y, t.position_ws.z, t.normal_ws.x,
                  t.normal_ws.y, t.normal_ws.z, t.softening);
-      sum += term * term;
+      terms += term;
+      squares += term * term;
     }
-    float total = 0.0f;
-    for (int l = 0; l < kLanes; ++l) total += sum[l];
-    sums[k] = total * (kInvPi * kInvPi);
+    sums[k] = {0.0f, 0.0f};
+    for (int l = 0; l < kLanes; ++l) {
+      sums[k].terms += terms[l] * kInvPi;
+      sums[k].squares += squares[l] * (kInvPi * kInvPi);
+    }
   }
 }

@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "rsm/clusters.h"
 #include "rsm/gather.h"
+#include "shared/color.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 
@@ -23,6 +24,12 @@ namespace {
 constexpr int kViewPoints = 1024;
 constexpr uint kViewPointDraws = 8192;
 constexpr std::size_t kClustersPerTask = 256;
+// Clusters matter by their power times this power of the sum of squares of what a watt brings to
+// the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
+// their error falls with their size.
+constexpr float kBroughtExponent = 0.4f;
+// Clusters are scaled by at most this factor to bring what their texels brought.
+constexpr float kMostScale = 2.0f;
 // Weight that power alone has beside what is brought to the points: light that none of them sees is
 // not left to a few huge clusters.
 constexpr float kPowerShare = 0.1f;
@@ -33,7 +40,9 @@ constexpr uint kViewSalt = 0x56494557u, kDealSalt = 0x4445414cu;
 struct ViewPoints {
   explicit ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
   GuidePlanes planes() const {
-    const auto plane = [&](int i) { return floats.data() + static_cast<std::ptrdiff_t>(i) * capacity; };
+    const auto plane = [&](int i) {
+      return floats.data() + static_cast<std::ptrdiff_t>(i) * capacity;
+    };
     GuidePlanes result;
     result.position.at = {plane(0), plane(1), plane(2)};
     result.normal.at = {plane(3), plane(4), plane(5)};
@@ -62,21 +71,28 @@ ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
   return points;
 }
 
-/// Tells each cluster how much it matters: its power, times the root mean square over the points of
-/// what a watt of it brings.
-void weigh(const ViewPoints& points, std::vector<Cluster>& clusters) {
+/// What each cluster brings to the points; all 1 where there are none.
+std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Cluster>& clusters) {
+  std::vector<TermSums> sums(clusters.size(), TermSums{1.0f, 1.0f});
+  if (points.count == 0) return sums;
   parallel_chunks(clusters.size(), kClustersPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<RsmTexel> texels;
-    std::vector<float> sums(end - begin, 1.0f);
     for (std::size_t i = begin; i < end; ++i) texels.push_back(clusters[i].texel);
-    if (points.count > 0) {
-      sum_squared_terms(points.planes(), points.capacity, texels, sums.data());
-    }
-    for (std::size_t i = begin; i < end; ++i) {
-      const vec3& flux = texels[i - begin].flux;
-      clusters[i].weight = std::max({flux.x, flux.y, flux.z}) * std::sqrt(sums[i - begin]);
-    }
+    sum_terms(points.planes(), points.capacity, texels, &sums[begin]);
   });
+  return sums;
+}
+
+/// Tells each cluster how much it matters, and what it brings.
+void weigh(const ViewPoints& points, std::vector<Cluster>& clusters) {
+  const std::vector<TermSums> sums = brought_to(points, clusters);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    Cluster& cluster = clusters[i];
+    const vec3& flux = cluster.texel.flux;
+    cluster.weight =
+        std::max({flux.x, flux.y, flux.z}) * std::pow(sums[i].squares, kBroughtExponent);
+    cluster.brought = luminance(flux) * sums[i].terms;
+  }
 
   // Mix with power alone, both of the same sum
   double power = 0.0, brought = 0.0;
@@ -96,7 +112,7 @@ void weigh(const ViewPoints& points, std::vector<Cluster>& clusters) {
 std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
   std::vector<Cluster> chosen;
   for (const std::uint32_t i : morton_order(map.resolution)) {
-    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f});
+    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
   }
   return chosen;
 }
@@ -105,7 +121,18 @@ std::vector<Cluster> choose(const ReflectiveShadowMap& map, const ViewPoints& po
                             std::uint32_t count) {
   std::vector<Cluster> clusters = cluster_blocks(map);
   weigh(points, clusters);
-  return merge_clusters(std::move(clusters), count);
+  clusters = merge_clusters(std::move(clusters), count);
+
+  // One normal and one place do not bring quite what many did: scale each cluster to do so
+  const std::vector<TermSums> sums = brought_to(points, clusters);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    RsmTexel& texel = clusters[i].texel;
+    const float brings = luminance(texel.flux) * sums[i].terms;
+    if (!(brings > 0.0f) || points.count == 0) continue;
+    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMostScale, kMostScale);
+    texel.flux *= scale;
+  }
+  return clusters;
 }
 
 }  // namespace

@@ -27,8 +27,8 @@ struct RsmLights {
 
 /// Brings the texels of each map together in settings.texels clusters (rounded up to fill all
 /// sub-maps alike), more of them where they matter to the view, if that is asked for: no light is
-/// lost. All texels, as they are, where settings.texels is 0. Each lands in exactly one sub-map, and
-/// every sub-map alone stands for all light.
+/// lost. All texels, as they are, where settings.texels is 0. Each lands in exactly one sub-map,
+/// and every sub-map alone stands for all light.
 RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                         const RsmSettings& settings);
 

@@ -12,15 +12,17 @@ LAMBENT_BEGIN
 /// Weight, 0 to 1, of a pixel for another one. `offset` leads from the other one's point to its
 /// own; `inverse_tolerance` is one over the distance [1/m] from the other one's plane at which it
 /// counts for nothing. The plane, not depth alone: a floor seen at a grazing angle is one surface.
-/// The eighth power of the cosine halves the weight at 24 degrees. Pixels that see nothing have a
-/// normal of 0 and count for nothing.
+/// The 64th power of the cosine halves the weight at 8 degrees: light on bumps differs that much.
+/// Pixels that see nothing have a normal of 0 and count for nothing.
 LAMBENT_FN float cross_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
                                         float inverse_tolerance) {
   float cosine = max(0.0f, dot(normal, other_normal));
   float square = cosine * cosine;
   float fourth = square * square;
   float beyond = dot(normal, offset) * inverse_tolerance;
-  return fourth * fourth * max(0.0f, 1.0f - beyond * beyond);
+  float sixteenth = (fourth * fourth) * (fourth * fourth);
+  float power = (sixteenth * sixteenth) * (sixteenth * sixteenth);
+  return power * max(0.0f, 1.0f - beyond * beyond);
 }
 
 LAMBENT_END
