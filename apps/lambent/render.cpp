@@ -14,6 +14,7 @@
 #include "lambent/field.h"
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
+#include "lambent/render_rsm.h"
 #include "lambent/renderer.h"
 #include "lambent/stage.h"
 #include "lambent/threads.h"
@@ -51,6 +52,7 @@ struct Options {
   bool converge = false;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
+  RsmOptions rsm;
   std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
 };
 
@@ -76,6 +78,10 @@ const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", Distan
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
 using Json = nlohmann::ordered_json;
+
+bool uses_field(const Options& options) {
+  return options.method == "field" || options.method == "rsm+field";
+}
 
 /// Fails early on outputs that could not be written after minutes of work.
 Expected<void> check_outputs(const Options& options) {
@@ -185,16 +191,28 @@ Expected<LayeredImage> render_by_field(const Options& options, const World& worl
   frame.gather_rays = options.gather_rays;
   frame.seed = options.seed;
 
-  std::optional<IrradianceField> field;
-  if (options.method == "field") {
+  const auto rsm = rsm_settings(options.rsm, options.method, options.seed);
+  if (!rsm) return tl::unexpected(rsm.error());
+  IndirectSources sources;
+  sources.rsm = uses_rsm(options.method) ? &*rsm : nullptr;
+  sources.rsm_stages = options.layers;
+  std::optional<IrradianceField> field, first_bounce;
+  if (uses_field(options)) {
     const auto settings = field_settings(options);
     if (!settings) return tl::unexpected(settings.error());
     Expected<IrradianceField> made = IrradianceField::make(*settings, open_bounds(world));
     if (!made) return tl::unexpected(made.error());
     field.emplace(std::move(*made));
+    if (options.method == "rsm+field") {
+      first_bounce = *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world));
+      Json ignored;
+      update_field(options, FirstBounce(world.scene()).world(), *first_bounce, progress, ignored);
+      sources.taken_out = &*first_bounce;
+    }
     update_field(options, world, *field, progress, stats);
+    sources.field = &*field;
   }
-  RenderedFrame rendered = render_frame(world, field ? &*field : nullptr, camera, frame, progress);
+  RenderedFrame rendered = render_frame(world, sources, camera, frame, progress);
   for (const PassTime& pass : rendered.passes) stats[pass.name + "_ms"] = pass.ms;
   stats["camera_rays"] = rendered.rays;
   return rendered.image;
@@ -257,8 +275,21 @@ Expected<void> check_numbers(const Options& options) {
     return tl::unexpected(exposure.error());
   }
   for (const CLI::Option* option : options.of_the_field) {
-    if (options.method == "field" || option->count() == 0) continue;
-    return fail(option->get_name(), "", "goes with --method field alone");
+    if (uses_field(options) || option->count() == 0) continue;
+    return fail(option->get_name(), "", "goes with --method field and rsm+field alone");
+  }
+  const auto rsm = rsm_settings(options.rsm, options.method, options.seed);
+  if (!rsm) return tl::unexpected(rsm.error());
+  if (uses_rsm(options.method) && options.gather_rays > 0) {
+    return fail("--gather", "", "goes with --method field alone");
+  }
+  if (options.method == "rsm" && options.bounces >= 0 && options.bounces != 1) {
+    return fail("--bounces", "", "--method rsm has one");
+  }
+  if (options.method == "rsm+field" && (options.bounces == 0 || options.converge)) {
+    return fail(options.converge ? "--converge" : "--bounces", "",
+                options.converge ? "goes with --method field alone"
+                                 : "--method rsm+field has at least one");
   }
   if (options.method == "direct" && options.bounces > 0) {
     return fail("--bounces", "", "--method direct has none");
@@ -353,8 +384,8 @@ void add_render(CLI::App& app, Run& run) {
   add_stage_options(*command, o->stage);
   command->add_option("-o,--output", o->output, "The .exr (linear) or .png file to write")
       ->required();
-  command->add_option("--method", o->method, "field, direct or reference")
-      ->check(CLI::IsMember({"field", "direct", "reference"}))
+  command->add_option("--method", o->method, "field, rsm, rsm+field, direct or reference")
+      ->check(CLI::IsMember({"field", "rsm", "rsm+field", "direct", "reference"}))
       ->capture_default_str();
   command->add_option("--backend", o->backend, "cpu")
       ->check(CLI::IsMember({"cpu"}))
@@ -381,6 +412,7 @@ void add_render(CLI::App& app, Run& run) {
                    "Also path-trace so many samples a pixel and print the error")
       ->check(CLI::Range(2, kMaxSamples));
   add_field_options(*command, *o);
+  add_rsm_options(*command, o->rsm);
   command->callback([o, &run] { run = [o] { return render(*o); }; });
 }
 
