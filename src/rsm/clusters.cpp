@@ -29,22 +29,32 @@ float power_of(const vec3& flux) {
   return std::max({flux.x, flux.y, flux.z});
 }
 
-/// Sums up texels, or clusters.
+/// Whether two texels show one surface, on the scale of `edge` [m].
+bool same_surface(const RsmTexel& a, const RsmTexel& b, float edge) {
+  return dot(a.normal_ws, b.normal_ws) > kSameNormal &&
+         std::abs(dot(a.position_ws - b.position_ws, b.normal_ws)) <= kSamePlane * edge;
+}
+
+/// Sums up texels, or clusters, around one that tells which surface they stand for: others' light
+/// counts, but not where they are, or the sum would hang in mid-air.
 class Sum {
  public:
+  Sum(const RsmTexel& seed, float edge) : seed_(seed), edge_(edge) {}
   void add(const RsmTexel& texel) {
+    flux_ += texel.flux;
+    area_ += texel.area;
+    if (!same_surface(texel, seed_, edge_)) return;
     const float power = power_of(texel.flux);
     power_ += power;
     position_ += power * texel.position_ws;
     normal_ += power * texel.normal_ws;
-    flux_ += texel.flux;
-    area_ += texel.area;
   }
   RsmTexel texel() const {
-    RsmTexel result;
-    result.position_ws = position_ / power_;
-    const float length_squared = dot(normal_, normal_);
-    if (length_squared > 0.0f) result.normal_ws = normal_ / std::sqrt(length_squared);
+    RsmTexel result = seed_;
+    if (power_ > 0.0f) {
+      result.position_ws = position_ / power_;
+      result.normal_ws = normalize(normal_);
+    }
     result.flux = flux_;
     result.area = area_;
     result.softening = kSofteningPerArea * area_;
@@ -52,6 +62,8 @@ class Sum {
   }
 
  private:
+  const RsmTexel& seed_;
+  float edge_;
   vec3 position_{0.0f}, normal_{0.0f}, flux_{0.0f};
   float power_ = 0.0f, area_ = 0.0f;
 };
@@ -64,13 +76,10 @@ void cluster_block(const ReflectiveShadowMap& map, std::vector<std::uint32_t>& l
       return power_of(map.texels[a].flux) < power_of(map.texels[b].flux);
     });
     const RsmTexel& first = map.texels[seed];
-    const float tolerance = kSamePlane * kBlock * std::sqrt(first.area);
-    Sum sum;
+    const float edge = kBlock * std::sqrt(first.area);
+    Sum sum(first, edge);
     const auto others = std::partition(left.begin(), left.end(), [&](std::uint32_t i) {
-      const RsmTexel& texel = map.texels[i];
-      if (s + 1 == kSurfaces) return true;
-      return dot(texel.normal_ws, first.normal_ws) > kSameNormal &&
-             std::abs(dot(texel.position_ws - first.position_ws, first.normal_ws)) <= tolerance;
+      return s + 1 == kSurfaces || same_surface(map.texels[i], first, edge);
     });
     // In the order of the map, so that sums do not depend on how the library partitions
     std::sort(left.begin(), others);
@@ -124,13 +133,17 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
     return;
   }
   if (result.size() == 1) {
-    Sum sum;
     const Cluster* brightest = &clusters.front();
+    float area = 0.0f;
+    for (const Cluster& cluster : clusters) {
+      area += cluster.texel.area;
+      if (power_of(cluster.texel.flux) > power_of(brightest->texel.flux)) brightest = &cluster;
+    }
+    Sum sum(brightest->texel, std::sqrt(area));
     float brought = 0.0f;
     for (const Cluster& cluster : clusters) {
       sum.add(cluster.texel);
       brought += cluster.brought;
-      if (power_of(cluster.texel.flux) > power_of(brightest->texel.flux)) brightest = &cluster;
     }
     result.front() = {sum.texel(), brightest->place, 0.0f, brought};
     return;
