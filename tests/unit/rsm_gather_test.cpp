@@ -19,10 +19,11 @@ using test::Stage;
 
 /// Points of a wall, some of which see nothing.
 struct WallView {
-  WallView(int w, int h) : width(w), height(h) {
+  WallView(int w, int h, float spacing = 0.1f) : width(w), height(h) {
     for (int y = 0; y < h; ++y) {
       for (int x = 0; x < w; ++x) {
-        positions.emplace_back(0.1f * static_cast<float>(x), 0.1f * static_cast<float>(y), 0.0f);
+        positions.emplace_back(spacing * static_cast<float>(x), spacing * static_cast<float>(y),
+                               0.0f);
         const bool seen = (x * 7 + y * 3) % 11 != 0;
         normals.push_back(seen ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.0f));
         depths.push_back(seen ? 2.0f : 0.0f);
@@ -72,6 +73,7 @@ TEST(RsmGather, OfASingleTexelIsTheClosedForm) {
   for (const RsmLayout layout : {RsmLayout::full, RsmLayout::restructured}) {
     RsmSettings settings = plain();
     settings.layout = layout;
+    settings.texels = 1;
     const RsmIrradiance light = gather({&map, 1}, wall.view(), settings);
     for (std::size_t i = 0; i < wall.positions.size(); ++i) {
       // E = flux / pi * cos * cos / d^2
@@ -131,7 +133,7 @@ TEST(RsmGather, IsTheSameToTheBitInEveryLayout) {
 
 TEST(RsmGather, ComesNearTheExhaustiveOneWithFewTexelsAPixel) {
   const ReflectiveShadowMap map = floor_map(128);
-  WallView wall(64, 48);
+  WallView wall(64, 48, 0.02f);
   for (vec3& normal : wall.normals) normal = vec3(0.0f, 0.0f, 1.0f);
   for (float& depth : wall.depths) depth = 2.0f;
   RsmSettings all = plain();
