@@ -92,9 +92,8 @@ struct Variant {
     }
     total.add(sum);
   }
-  double gathering() const {
-    return passes.at("rsm.restructure").value() + passes.at("rsm.gather").value();
-  }
+  /// Restructuring the picture included.
+  double gathering() const { return passes.at("rsm.gather").value(); }
   RsmSettings settings;
   RsmGatherer gatherer;
   RsmIrradiance result;

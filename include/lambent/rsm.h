@@ -130,7 +130,7 @@ struct RsmView {
   int width = 0, height = 0;
   std::span<const glm::vec3> positions_ws;  ///< [m]
   std::span<const glm::vec3> normals_ws;    ///< Unit, towards the camera; 0 where nothing is seen.
-  std::span<const float> depths;            ///< Along the axis of view [m], > 0.
+  std::span<const float> depths;  ///< Along the axis of view [m], > 0; 0 where nothing is seen.
 };
 
 /// One bounce of light at each pixel of a view.

@@ -14,6 +14,27 @@ int floor_div(int value, int divisor) {
   return value >= 0 ? value / divisor : -((divisor - 1 - value) / divisor);
 }
 
+/// Copies every `step`-th vector to three planes.
+void copy_strided(const glm::vec3* from, int step, int count, float* __restrict to,
+                  std::size_t plane) {
+  float* __restrict x = to;
+  float* __restrict y = to + plane;
+  float* __restrict z = to + 2 * plane;
+  for (int k = 0; k < count; ++k, from += step) {
+    x[k] = from->x;
+    y[k] = from->y;
+    z[k] = from->z;
+  }
+}
+
+/// One over every `step`-th depth; 0 for a depth of 0, where nothing is seen.
+void invert_strided(const float* from, int step, int count, float* __restrict to) {
+  for (int k = 0; k < count; ++k) {
+    const float depth = from[static_cast<std::ptrdiff_t>(k) * step];
+    to[k] = depth > 0.0f ? 1.0f / depth : 0.0f;
+  }
+}
+
 }  // namespace
 
 void Mosaic::reshape(int width, int height, int sub_images, int reach) {
@@ -59,17 +80,9 @@ void Mosaic::fill_row(const RsmView& view, int i, int j, int row) {
   const std::size_t first = static_cast<std::size_t>(y) * width_ + i;
   float* const start = floats_.data() + place(i, j, row, 0, 0, 0);
   const std::size_t size = layout_.size;
-  for (int x = 0; x < count; ++x) {
-    const std::size_t pixel = first + static_cast<std::size_t>(x) * sub_images_;
-    const glm::vec3& position = view.positions_ws[pixel];
-    const glm::vec3& normal = view.normals_ws[pixel];
-    for (int c = 0; c < 3; ++c) {
-      start[c * size + x] = position[c];
-      start[(3 + c) * size + x] = normal[c];
-    }
-    const bool seen = normal != glm::vec3(0.0f);
-    start[kInverseDepth * size + x] = seen ? 1.0f / view.depths[pixel] : 0.0f;
-  }
+  copy_strided(view.positions_ws.data() + first, sub_images_, count, start, size);
+  copy_strided(view.normals_ws.data() + first, sub_images_, count, start + 3 * size, size);
+  invert_strided(view.depths.data() + first, sub_images_, count, start + kInverseDepth * size);
 }
 
 }  // namespace lambent

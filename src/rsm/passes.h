@@ -12,16 +12,16 @@
 
 namespace lambent {
 
-/// Copies the view into the mosaic, which is restructured where it has more than one sub-image.
-void restructure_view(const RsmView& view, Mosaic& mosaic);
+/// Copies the view into the mosaic, which restructures it where there is more than one sub-image,
+/// and gathers `lights` at every pixel: RsmPattern::whole. Both row by row, so that what was copied
+/// is still in the cache. Returns the rays traced for visibility.
+std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
+                           const RsmSettings& settings, Mosaic& mosaic);
 
-/// Gathers `lights` at every pixel: RsmPattern::whole. Returns the rays traced for visibility.
-std::uint64_t gather_whole(const World& world, const RsmLights& lights, const RsmSettings& settings,
-                           Mosaic& mosaic);
-
-/// Gathers each map's texels around every pixel's projection: RsmPattern::disk.
-void gather_disks(std::span<const ReflectiveShadowMap> maps, const RsmSettings& settings,
-                  Mosaic& mosaic);
+/// Copies the view likewise, and gathers each map's texels around every pixel's projection:
+/// RsmPattern::disk.
+void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+                  const RsmSettings& settings, Mosaic& mosaic);
 
 /// Blurs the light inside each of m x m sub-images, horizontally, then vertically.
 void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings, Mosaic& mosaic);

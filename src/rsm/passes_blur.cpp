@@ -70,11 +70,13 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
     const int last = std::min(rows, first + kRowsPerTask);
     const int from = std::max(0, first - margin), to = std::min(rows, last + margin);
     BandLight band(from, to - from, mosaic.layout().stride);
-    for (int row = from; row < to; ++row) {
-      blur_along_row(mosaic, i, j, row, unit, taps, band.row(row), settings.plane_tolerance);
-    }
     std::vector<BlurSource> neighbours;
+    int ready = from;
     for (int row = first; row < last; ++row) {
+      // Blur rows horizontally just before they are needed: their guides stay in the cache
+      for (; ready < std::min(to, row + margin + 1); ++ready) {
+        blur_along_row(mosaic, i, j, ready, unit, taps, band.row(ready), settings.plane_tolerance);
+      }
       neighbours.clear();
       for (const BlurTap& tap : taps) {
         for (const int dy : {-apart * tap.distance, apart * tap.distance}) {
@@ -92,13 +94,17 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
 
 namespace {
 
-/// Writes a row of a sub-image to the picture.
-void scatter_row(const Mosaic& mosaic, int i, int y, const ConstPlanes3& from,
-                 std::span<glm::vec3> picture) {
-  const int p = mosaic.sub_images(), count = sub_image_size(mosaic.width(), i, p);
-  glm::vec3* to = picture.data() + static_cast<std::size_t>(y) * mosaic.width() + i;
-  for (int x = 0; x < count; ++x) {
-    to[static_cast<std::ptrdiff_t>(x) * p] = {from.at[0][x], from.at[1][x], from.at[2][x]};
+/// Writes a row of the picture, given as a row of each of its sub-images.
+void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes3> subs,
+                    std::span<glm::vec3> picture) {
+  glm::vec3* to = picture.data() + static_cast<std::size_t>(y) * mosaic.width();
+  const int p = mosaic.sub_images();
+  for (int x = 0, place = 0; x < mosaic.width(); x += p, ++place) {
+    const int count = std::min(p, mosaic.width() - x);
+    for (int i = 0; i < count; ++i) {
+      const ConstPlanes3& from = subs[i];
+      to[x + i] = {from.at[0][place], from.at[1][place], from.at[2][place]};
+    }
   }
 }
 
@@ -109,15 +115,18 @@ void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings,
   const int from = std::max(0, first - margin), to = std::min(mosaic.height(), last + margin);
   // A row of the picture is p rows of sub-images, one after the other
   BandLight band(from * p, (to - from) * p, stride);
-  for (int y = from; y < to; ++y) {
-    for (int i = 0; i < p; ++i) {
-      blur_along_row(mosaic, i, y % p, y / p, 1, taps, band.row(y * p + i),
-                     settings.plane_tolerance);
-    }
-  }
   std::vector<BlurSource> neighbours;
-  BandLight blurred(0, 1, stride);
+  BandLight blurred(0, p, stride);
+  std::vector<ConstPlanes3> subs;
+  int ready = from;
   for (int y = first; y < last; ++y) {
+    for (; ready < std::min(to, y + margin + 1); ++ready) {
+      for (int i = 0; i < p; ++i) {
+        blur_along_row(mosaic, i, ready % p, ready / p, 1, taps, band.row(ready * p + i),
+                       settings.plane_tolerance);
+      }
+    }
+    subs.clear();
     for (int i = 0; i < p; ++i) {
       neighbours.clear();
       for (const BlurTap& tap : taps) {
@@ -128,9 +137,10 @@ void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings,
         }
       }
       cross_bilateral_row({mosaic.guide(i, y % p, y / p), band.row(y * p + i), 1.0f}, neighbours,
-                          blurred.row(0), mosaic.layout().width, settings.plane_tolerance);
-      scatter_row(mosaic, i, y, blurred.row(0), picture);
+                          blurred.row(i), mosaic.layout().width, settings.plane_tolerance);
+      subs.push_back(blurred.row(i));
     }
+    interleave_row(mosaic, y, subs, picture);
   }
 }
 
@@ -142,10 +152,13 @@ void interleave(std::span<const BlurTap> taps, const RsmSettings& settings, Mosa
   parallel_chunks(mosaic.height(), kRowsPerTask, [&](std::size_t begin, std::size_t end) {
     const int first = static_cast<int>(begin), last = static_cast<int>(end);
     if (!taps.empty()) return interleave_band(taps, settings, mosaic, first, last, picture);
+    std::vector<ConstPlanes3> subs;
     for (int y = first; y < last; ++y) {
+      subs.clear();
       for (int i = 0; i < p; ++i) {
-        scatter_row(mosaic, i, y, mosaic.light(LightPlanes::current, i, y % p, y / p), picture);
+        subs.push_back(mosaic.light(LightPlanes::current, i, y % p, y / p));
       }
+      interleave_row(mosaic, y, subs, picture);
     }
   });
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <optional>
 
 #include "core/parallel.h"
 #include "rsm/deinterleave.h"
@@ -12,7 +13,7 @@ namespace {
 
 using LightPlanes = Mosaic::Light;
 
-// Rows of a sub-image that a task works on: they stay in the second-level cache between passes.
+// Rows of the picture that a task works on.
 constexpr std::size_t kRowsPerTask = 16;
 
 /// A row of a sub-image.
@@ -20,18 +21,17 @@ struct RowOf {
   int i, j, row;
 };
 
-/// Calls body(RowOf) for every row of every sub-image, on all cores.
+/// Calls body(RowOf) for every row of every sub-image, on all cores. Rows that hold pixels of one
+/// row of the picture follow each other, so that it is read from the nearest cache.
 template <class Body>
 void for_each_row(const Mosaic& mosaic, Body body) {
-  const int p = mosaic.sub_images();
+  const auto p = static_cast<std::size_t>(mosaic.sub_images());
   const auto rows = static_cast<std::size_t>(mosaic.layout().height);
-  const std::size_t bands = (rows + kRowsPerTask - 1) / kRowsPerTask;
-  // Bands of one height lie next to each other, so that tasks near in time read the same rows
-  parallel_chunks(bands * p * p, 1, [&](std::size_t task, std::size_t) {
-    const int sub = static_cast<int>(task % (p * p));
-    const std::size_t first = task / (p * p) * kRowsPerTask;
-    for (std::size_t row = first; row < std::min(rows, first + kRowsPerTask); ++row) {
-      body(RowOf{sub % p, sub / p, static_cast<int>(row)});
+  parallel_chunks(rows * p, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      for (std::size_t i = 0; i < p; ++i) {
+        body(RowOf{static_cast<int>(i), static_cast<int>(y % p), static_cast<int>(y / p)});
+      }
     }
   });
 }
@@ -106,23 +106,21 @@ std::span<const RsmTexel> sub_map(const RsmLights& lights, int index) {
 
 }  // namespace
 
-void restructure_view(const RsmView& view, Mosaic& mosaic) {
-  for_each_row(mosaic, [&](const RowOf& at) { mosaic.fill_row(view, at.i, at.j, at.row); });
-}
-
-std::uint64_t gather_whole(const World& world, const RsmLights& lights, const RsmSettings& settings,
-                           Mosaic& mosaic) {
+std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
+                           const RsmSettings& settings, Mosaic& mosaic) {
   const int p = mosaic.sub_images(), n = settings.sub_maps;
   // Where the picture is not restructured, neighbouring pixels ask different sub-maps
   const bool mixed = p == 1 && n > 1;
-  const PlaceTables tables(lights, settings);
+  std::optional<PlaceTables> tables;
+  if (mixed) tables.emplace(lights, settings);
   std::atomic<std::uint64_t> rays = 0;
   for_each_row(mosaic, [&](const RowOf& at) {
+    mosaic.fill_row(view, at.i, at.j, at.row);
     const GatherRow row = gather_row(mosaic, at);
     clear(row);
     const int sub = sub_map_of({at.i, at.j}, n);
     if (mixed) {
-      gather_mixed_row(row, at.row, lights, settings, tables);
+      gather_mixed_row(row, at.row, lights, settings, *tables);
     } else if (settings.layout == RsmLayout::full) {
       gather_scattered(row, lights.rendered.data(), lights.places);
     } else {
@@ -140,11 +138,14 @@ std::uint64_t gather_whole(const World& world, const RsmLights& lights, const Rs
   return rays;
 }
 
-void gather_disks(std::span<const ReflectiveShadowMap> maps, const RsmSettings& settings,
-                  Mosaic& mosaic) {
+void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+                  const RsmSettings& settings, Mosaic& mosaic) {
   const int n = settings.sub_maps, p = mosaic.sub_images();
   const auto count = static_cast<uint>((settings.texels + n * n - 1) / (n * n) * n * n);
-  for_each_row(mosaic, [&](const RowOf& at) { clear(gather_row(mosaic, at)); });
+  for_each_row(mosaic, [&](const RowOf& at) {
+    mosaic.fill_row(view, at.i, at.j, at.row);
+    clear(gather_row(mosaic, at));
+  });
   for (const ReflectiveShadowMap& map : maps) {
     const float radius = settings.disk_radius * static_cast<float>(map.resolution);
     std::vector<DiskSample> samples(count);

@@ -138,7 +138,7 @@ void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap
     keep(name);
   };
 
-  // Choose the lights, and lay light and picture out as they will be read
+  // Choose the lights and lay them out as they will be read
   Mosaic& mosaic = buffers_->mosaic;
   const bool whole = settings.pattern == RsmPattern::whole;
   const RsmLights lights = whole ? choose_lights(maps, view, settings) : RsmLights();
@@ -146,13 +146,11 @@ void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap
   const bool restructured = settings.layout == RsmLayout::restructured;
   mosaic.reshape(view.width, view.height, restructured ? settings.sub_images : 1,
                  blur_reach(settings));
-  restructure_view(view, mosaic);
-  finish("rsm.restructure");
 
   if (whole) {
-    result.rays = gather_whole(world, lights, settings, mosaic);
+    result.rays = gather_whole(world, view, lights, settings, mosaic);
   } else {
-    gather_disks(maps, settings, mosaic);
+    gather_disks(view, maps, settings, mosaic);
   }
   finish("rsm.gather");
   keep_current("rsm.gathered");

@@ -32,6 +32,13 @@ struct NumberedView {
   std::vector<float> depths;
 };
 
+void restructure_view(const RsmView& view, Mosaic& mosaic) {
+  const int m = mosaic.sub_images();
+  for (int y = 0; y < mosaic.layout().height * m; ++y) {
+    for (int i = 0; i < m; ++i) mosaic.fill_row(view, i, y % m, y / m);
+  }
+}
+
 TEST(RsmDeinterleave, MapsEveryPixelToAPlaceOfItsOwnAndBack) {
   for (const int m : {1, 2, 3, 4, 7, 16}) {
     for (const ivec2 size : {ivec2(1, 1), ivec2(3, 2), ivec2(37, 23), ivec2(16, 16)}) {
