@@ -157,17 +157,6 @@ void rsm_by_sub_images(benchmark::State& state) {
   measure(state, rsm_workload(), settings);
 }
 
-// One gather in one layout and nothing else, for cachegrind.
-void rsm_gather_once(benchmark::State& state) {
-  RsmSettings settings = with_layout(static_cast<RsmLayout>(state.range(0)));
-  settings.sub_blur_radius = 0;
-  settings.final_blur = false;
-  Variant variant(settings);
-  for (auto _ : state) {
-    state.SetIterationTime(time_ms([&] { variant.run(rsm_workload()); }) * 1e-3);
-  }
-}
-
 BENCHMARK(rsm)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
 BENCHMARK(rsm_by_height)
     ->UseManualTime()
@@ -191,12 +180,5 @@ BENCHMARK(rsm_by_sub_images)
     ->Arg(4)
     ->Arg(8)
     ->Unit(benchmark::kMillisecond);
-BENCHMARK(rsm_gather_once)
-    ->UseManualTime()
-    ->Iterations(1)
-    ->Arg(static_cast<int>(RsmLayout::restructured))
-    ->Arg(static_cast<int>(RsmLayout::full))
-    ->Unit(benchmark::kMillisecond);
-
 }  // namespace
 }  // namespace lambent::bench

@@ -15,22 +15,22 @@ using LightPlanes = Mosaic::Light;
 // second-level cache.
 constexpr int kRowsPerTask = 32;
 
-/// Light of rows around a band, blurred horizontally; rows are found by where they lie in a
-/// sub-image, or in the picture.
-class BandLight {
+/// The last few rows of light that were blurred horizontally, found by their number. Few enough to
+/// stay in the cache until they were blurred vertically, too.
+class RowRing {
  public:
-  BandLight(int first_row, int rows, int stride)
-      : first_row_(first_row),
+  RowRing(int rows, int stride)
+      : rows_(rows),
         stride_(stride),
         plane_(static_cast<std::size_t>(rows) * stride),
         floats_(std::make_unique_for_overwrite<float[]>(3 * plane_)) {}
   Planes3 row(int y) {
-    float* first = floats_.get() + static_cast<std::size_t>(y - first_row_) * stride_;
+    float* first = floats_.get() + static_cast<std::size_t>(y % rows_) * stride_;
     return {{first, first + plane_, first + 2 * plane_}};
   }
 
  private:
-  int first_row_, stride_;
+  int rows_, stride_;
   std::size_t plane_;
   std::unique_ptr<float[]> floats_;
 };
@@ -69,7 +69,7 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
     const int first = static_cast<int>(task) / (p * p) * kRowsPerTask;
     const int last = std::min(rows, first + kRowsPerTask);
     const int from = std::max(0, first - margin), to = std::min(rows, last + margin);
-    BandLight band(from, to - from, mosaic.layout().stride);
+    RowRing band(2 * margin + 1, mosaic.layout().stride);
     std::vector<BlurSource> neighbours;
     int ready = from;
     for (int row = first; row < last; ++row) {
@@ -114,9 +114,9 @@ void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings,
   const int p = mosaic.sub_images(), stride = mosaic.layout().stride, margin = reach(taps);
   const int from = std::max(0, first - margin), to = std::min(mosaic.height(), last + margin);
   // A row of the picture is p rows of sub-images, one after the other
-  BandLight band(from * p, (to - from) * p, stride);
+  RowRing band((2 * margin + 1) * p, stride);
   std::vector<BlurSource> neighbours;
-  BandLight blurred(0, p, stride);
+  RowRing blurred(p, stride);
   std::vector<ConstPlanes3> subs;
   int ready = from;
   for (int y = first; y < last; ++y) {
