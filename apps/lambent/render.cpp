@@ -278,18 +278,10 @@ Expected<void> check_numbers(const Options& options) {
     if (uses_field(options) || option->count() == 0) continue;
     return fail(option->get_name(), "", "goes with --method field and rsm+field alone");
   }
-  const auto rsm = rsm_settings(options.rsm, options.method, options.seed);
-  if (!rsm) return tl::unexpected(rsm.error());
-  if (uses_rsm(options.method) && options.gather_rays > 0) {
-    return fail("--gather", "", "goes with --method field alone");
-  }
-  if (options.method == "rsm" && options.bounces >= 0 && options.bounces != 1) {
-    return fail("--bounces", "", "--method rsm has one");
-  }
-  if (options.method == "rsm+field" && (options.bounces == 0 || options.converge)) {
-    return fail(options.converge ? "--converge" : "--bounces", "",
-                options.converge ? "goes with --method field alone"
-                                 : "--method rsm+field has at least one");
+  if (const auto fine = check_rsm_use(options.rsm, options.method, options.bounces,
+                                      options.gather_rays, options.converge);
+      !fine) {
+    return fine;
   }
   if (options.method == "direct" && options.bounces > 0) {
     return fail("--bounces", "", "--method direct has none");

@@ -92,6 +92,23 @@ Expected<RsmSettings> rsm_settings(const RsmOptions& options, const std::string&
   return settings;
 }
 
+Expected<void> check_rsm_use(const RsmOptions& options, const std::string& method, int bounces,
+                             int gather_rays, bool converge) {
+  constexpr std::uint32_t kAnySeed = 1;
+  const auto settings = rsm_settings(options, method, kAnySeed);
+  if (!settings) return tl::unexpected(settings.error());
+  if (!uses_rsm(method)) return {};
+  if (gather_rays > 0) return fail("--gather", "", "goes with --method field alone");
+  if (converge) return fail("--converge", "", "goes with --method field alone");
+  if (method == "rsm" && bounces >= 0 && bounces != 1) {
+    return fail("--bounces", "", "--method rsm has one");
+  }
+  if (method == "rsm+field" && bounces == 0) {
+    return fail("--bounces", "", "--method rsm+field has at least one");
+  }
+  return {};
+}
+
 FirstBounce::FirstBounce(const Scene& scene) : scene_(without_other_light(scene)), world_(scene_) {}
 
 FieldSettings FirstBounce::settings(FieldSettings settings) {

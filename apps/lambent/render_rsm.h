@@ -34,6 +34,12 @@ bool uses_rsm(const std::string& method);
 Expected<RsmSettings> rsm_settings(const RsmOptions& options, const std::string& method,
                                    std::uint32_t seed);
 
+/// Fails where rsm_settings does, and where the method contradicts options that are not its own:
+/// bounces of indirect light (-1: all), rays of a gather, whether to update until the field
+/// settles.
+Expected<void> check_rsm_use(const RsmOptions& options, const std::string& method, int bounces,
+                             int gather_rays, bool converge);
+
 /// The first bounce of directional, point and spot lights alone, for the field of a whole scene to
 /// be freed of: a field over a copy of the scene without other light. Updated as often as the
 /// other, with the same rays, it shares the other's noise.
