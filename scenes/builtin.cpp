@@ -17,6 +17,7 @@ struct Recipe {
 
 constexpr std::array kRecipes{
     Recipe{"cornell", make_cornell},
+    Recipe{"cornell-spot", make_cornell_spot},
     Recipe{"furnace", make_furnace},
     Recipe{"furnace-sky", make_furnace_sky},
     Recipe{"two-rooms", make_two_rooms},

@@ -2,6 +2,7 @@
 // The scenes that the project makes itself, by name.
 //
 //   cornell                the Cornell box from its published measurements; one unit is 100 mm
+//   cornell-spot           the same with a spot light in place of its lamp
 //   furnace                a closed room whose radiance is 1 everywhere and in every direction
 //   furnace-sky            a sphere that reflects a radiance of exactly its albedo, 0.5
 //   two-rooms              a lit and a dark room, a 5 cm wall between them, a gap in it

@@ -17,6 +17,12 @@ constexpr glm::vec3 kGreen{0.14f, 0.45f, 0.091f};
 constexpr glm::vec3 kLampReflectance{0.78f};
 constexpr glm::vec3 kLampRadiance{17.0f, 12.0f, 4.0f};
 
+/// In place of the lamp: about its power, in a cone that lights the floor, both blocks and the feet
+/// of the walls, so that the upper half of the box has indirect light alone.
+constexpr glm::vec3 kSpotIntensity{60.0f, 52.0f, 40.0f};  // [W/sr]
+constexpr float kSpotInnerCone = 0.52359878f;             // 30 degrees [rad]
+constexpr float kSpotOuterCone = 0.69813170f;             // 40 degrees [rad]
+
 /// The published vertical field of view: a 25 mm film at 35 mm focal length, 2 atan(12.5 / 35)
 /// [rad].
 constexpr float kFieldOfView = 0.686047881f;
@@ -34,14 +40,13 @@ Mesh quads(std::initializer_list<Corners> list, const char* name, int material) 
   return builder.take(name, material);
 }
 
-}  // namespace
-
-AnimatedScene make_cornell() {
+/// The box, its lamp sending out this radiance.
+Scene make_box(const glm::vec3& lamp_radiance) {
   Scene scene;
   const int white = add_lambert(scene, "white", kWhite);
   const int red = add_lambert(scene, "red", kRed);
   const int green = add_lambert(scene, "green", kGreen);
-  const int lamp = add_lambert(scene, "light", kLampReflectance, kLampRadiance);
+  const int lamp = add_lambert(scene, "light", kLampReflectance, lamp_radiance);
 
   add_object(
       scene,
@@ -86,6 +91,26 @@ AnimatedScene make_cornell() {
             "tall_block", white));
 
   add_camera(scene, "cornell", mm(278, 273, -800), mm(278, 273, 0), kFieldOfView, 1.0f);
+  return scene;
+}
+
+}  // namespace
+
+AnimatedScene make_cornell() {
+  return {make_box(kLampRadiance), {}};
+}
+
+AnimatedScene make_cornell_spot() {
+  Scene scene = make_box(glm::vec3(0.0f));
+  Light spot;
+  spot.name = "spot";
+  spot.type = Light::Type::spot;
+  spot.position_ws = mm(278, 547, 279.5f);
+  spot.direction_ws = {0.0f, -1.0f, 0.0f};
+  spot.intensity = kSpotIntensity;
+  spot.inner_cone_angle = kSpotInnerCone;
+  spot.outer_cone_angle = kSpotOuterCone;
+  scene.lights.push_back(spot);
   return {std::move(scene), {}};
 }
 

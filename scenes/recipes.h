@@ -7,6 +7,7 @@
 namespace lambent::scenes {
 
 AnimatedScene make_cornell();
+AnimatedScene make_cornell_spot();
 AnimatedScene make_furnace();
 AnimatedScene make_furnace_sky();
 AnimatedScene make_two_rooms();

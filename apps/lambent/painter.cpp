@@ -78,19 +78,44 @@ Expected<void> Painter::follow(const World& world, const Camera& camera, Json& s
   return {};
 }
 
+/// Makes the fields of one frame anew: all light, and the first bounce of the lights that the maps
+/// bring, which is taken out. Both trace the same rays, so that noise goes with it.
+Expected<void> Painter::split_bounces(const World& world, Json& stats) {
+  const auto settings = field_settings(options_.field, options_.seed, options_.bounces);
+  if (!settings) return tl::unexpected(settings.error());
+  Expected<IrradianceField> all = IrradianceField::make(*settings, open_bounds(world));
+  if (!all) return tl::unexpected(all.error());
+  field_.emplace(std::move(*all));
+  first_bounce_.emplace(
+      *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world)));
+  const FirstBounce lights_alone(world.scene());
+  Json ignored;
+  update_field(lights_alone.world(), options_.updates, {}, *first_bounce_, progress_, ignored);
+  update_field(world, options_.updates, {}, *field_, progress_, stats);
+  return {};
+}
+
 Expected<LayeredImage> Painter::paint(const World& world, const Camera& camera, Json& stats) {
   if (options_.method == "reference") return paint_by_reference(world, camera, stats);
-  if (options_.method == "field") {
-    if (const auto done = follow(world, camera, stats); !done) return tl::unexpected(done.error());
+  if (uses_field(options_)) {
+    const auto done =
+        options_.method == "rsm+field" ? split_bounces(world, stats) : follow(world, camera, stats);
+    if (!done) return tl::unexpected(done.error());
   }
+  const auto rsm = rsm_settings(options_.rsm, options_.method, options_.seed);
+  if (!rsm) return tl::unexpected(rsm.error());
+  IndirectSources sources;
+  sources.rsm = uses_rsm(options_.method) ? &*rsm : nullptr;
+  sources.rsm_stages = options_.layers;
+  sources.field = field_ ? &*field_ : nullptr;
+  sources.taken_out = first_bounce_ ? &*first_bounce_ : nullptr;
   FrameSettings frame;
   frame.width = size_.x;
   frame.height = size_.y;
   frame.samples = options_.samples > 0 ? options_.samples : kFieldSamples;
   frame.gather_rays = options_.gather_rays;
   frame.seed = options_.seed;
-  RenderedFrame rendered =
-      render_frame(world, field_ ? &*field_ : nullptr, camera, frame, progress_);
+  RenderedFrame rendered = render_frame(world, sources, camera, frame, progress_);
   for (const PassTime& pass : rendered.passes) stats[pass.name + "_ms"] = pass.ms;
   stats["camera_rays"] = rendered.rays;
   if (!options_.show_probes.empty()) {

@@ -31,13 +31,15 @@ class Painter {
 
  private:
   Expected<void> follow(const World& world, const Camera& camera, nlohmann::ordered_json& stats);
+  Expected<void> split_bounces(const World& world, nlohmann::ordered_json& stats);
   LayeredImage paint_by_reference(const World& world, const Camera& camera,
                                   nlohmann::ordered_json& stats) const;
 
   const RenderOptions& options_;
   glm::ivec2 size_;
   ProgressFn progress_;
-  std::optional<IrradianceField> field_;  // after the first picture
+  std::optional<IrradianceField> field_;         // after the first picture
+  std::optional<IrradianceField> first_bounce_;  // what is taken out of it, of rsm+field
 };
 
 }  // namespace lambent::cli

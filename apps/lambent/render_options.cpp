@@ -56,11 +56,13 @@ void add_light_options(CLI::App& command, RenderOptions& o) {
       ->capture_default_str();
   command.add_flag("--converge", o.converge, "Update until the field has settled")
       ->excludes("--updates");
-  command
-      .add_option("--frame-updates", o.frame_updates,
-                  "Updates of the field before each frame of a sequence after the first")
-      ->check(CLI::Range(0, kMaxUpdates))
-      ->capture_default_str();
+  CLI::Option* const frame_updates =
+      command
+          .add_option("--frame-updates", o.frame_updates,
+                      "Updates of the field before each frame of a sequence after the first")
+          ->check(CLI::Range(0, kMaxUpdates))
+          ->capture_default_str();
+  o.of_running_fields.push_back(frame_updates);
   o.of_sequences.push_back(
       command
           .add_option("--ray-budget", o.ray_budget,
@@ -71,6 +73,8 @@ void add_light_options(CLI::App& command, RenderOptions& o) {
           .add_option("--time-budget", o.time_budget_ms,
                       "Time it may take [ms], which the field learns to keep (as long as it takes)")
           ->check(CLI::Range(kMinTimeBudget, kMaxTimeBudget)));
+  o.of_running_fields.insert(o.of_running_fields.end(), o.of_sequences.begin(),
+                             o.of_sequences.end());
   command
       .add_option("--show-probes", o.show_probes,
                   "Draw the probes as spheres of their irradiance, distance, state or age")
@@ -81,13 +85,32 @@ void add_light_options(CLI::App& command, RenderOptions& o) {
 
 }  // namespace
 
+bool uses_field(const RenderOptions& options) {
+  return options.method == "field" || options.method == "rsm+field";
+}
+
 Expected<void> check_options(const RenderOptions& options) {
   if (const auto exposure = parse_exposure(options.exposure); !exposure) {
     return tl::unexpected(exposure.error());
   }
   for (const CLI::Option* option : options.of_the_field) {
-    if (options.method == "field" || option->count() == 0) continue;
-    return fail(option->get_name(), "", "goes with --method field alone");
+    if (uses_field(options) || option->count() == 0) continue;
+    return fail(option->get_name(), "", "goes with --method field and rsm+field alone");
+  }
+  if (const auto fine = check_rsm_use(options.rsm, options.method, options.bounces,
+                                      options.gather_rays, options.converge);
+      !fine) {
+    return fine;
+  }
+  if (options.method == "rsm+field" && !options.field_file.empty()) {
+    return fail("--field", "", "goes with --method field alone: a file holds no light by bounces");
+  }
+  if (options.method == "rsm+field" && options.frames > 0) {
+    for (const CLI::Option* option : options.of_running_fields) {
+      if (option->count() == 0) continue;
+      return fail(option->get_name(), "",
+                  "goes with --method field alone: each frame of rsm+field has fields of its own");
+    }
   }
   for (const CLI::Option* option : options.field.of_shape) {
     if (options.field_file.empty() || option->count() == 0) continue;
@@ -129,8 +152,8 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
           "The .exr (linear) or .png file to write; in a sequence, #### stands for the frame's "
           "number (without it, out.png becomes out.0000.png, ...)")
       ->required();
-  command.add_option("--method", o.method, "field, direct or reference")
-      ->check(CLI::IsMember({"field", "direct", "reference"}))
+  command.add_option("--method", o.method, "field, rsm, rsm+field, direct or reference")
+      ->check(CLI::IsMember({"field", "rsm", "rsm+field", "direct", "reference"}))
       ->capture_default_str();
   command.add_option("--backend", o.backend, "cpu")
       ->check(CLI::IsMember({"cpu"}))
@@ -158,6 +181,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
       .add_option("--verify", o.verify_samples,
                   "Also path-trace so many samples a pixel and print the error")
       ->check(CLI::Range(2, kMaxSamples));
+  add_rsm_options(command, o.rsm);
   add_sequence_options(command, o);
   add_light_options(command, o);
 }

@@ -9,6 +9,7 @@
 
 #include "lambent/error.h"
 #include "lambent/field_options.h"
+#include "lambent/render_rsm.h"
 #include "lambent/stage.h"
 
 namespace CLI {
@@ -36,6 +37,8 @@ struct RenderOptions {
   std::string tone_map = "aces";
   int verify_samples = 0;
 
+  RsmOptions rsm;
+
   std::optional<float> time_s;  // none: the rest pose, or the start of a sequence
   std::string animation;        // by index or name; empty: all at once
   int frames = 0;               // 0: one picture
@@ -50,9 +53,13 @@ struct RenderOptions {
   bool converge = false;
   std::string show_probes;  // which aspect; empty: not
   const CLI::Option* fps_option = nullptr;
-  std::vector<const CLI::Option*> of_sequences;  // what means nothing to one picture
-  std::vector<const CLI::Option*> of_the_field;  // what means nothing to other methods
+  std::vector<const CLI::Option*> of_running_fields;  // what a field that frames share is asked
+  std::vector<const CLI::Option*> of_sequences;       // what means nothing to one picture
+  std::vector<const CLI::Option*> of_the_field;       // what means nothing to other methods
 };
+
+/// Whether the method looks a field up ("field", "rsm+field").
+bool uses_field(const RenderOptions& options);
 
 /// Declares all options on `command`; `options` must outlive it.
 void add_render_options(CLI::App& command, RenderOptions& options);

@@ -137,13 +137,13 @@ struct ProbeCounts {
 
 /// What an update did. Times are wall-clock [ms].
 struct UpdateStatistics {
-  double place_ms = 0.0;          ///< Moving probes off the grid, and finding out what they are for.
-  double follow_ms = 0.0;         ///< Finding what edits of the world changed.
-  double trace_ms = 0.0;          ///< Closest hits of the probe rays.
-  double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
-  double relight_ms = 0.0;        ///< Multi-bounce solve.
-  double blend_ms = 0.0;          ///< Distances and irradiance into the store.
-  std::uint64_t probe_rays = 0;   ///< Traced from probes.
+  double place_ms = 0.0;         ///< Moving probes off the grid, and finding out what they are for.
+  double follow_ms = 0.0;        ///< Finding what edits of the world changed.
+  double trace_ms = 0.0;         ///< Closest hits of the probe rays.
+  double shade_ms = 0.0;         ///< Surfaces, direct light with shadow rays, and lookup weights.
+  double relight_ms = 0.0;       ///< Multi-bounce solve.
+  double blend_ms = 0.0;         ///< Distances and irradiance into the store.
+  std::uint64_t probe_rays = 0;  ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
   int probes_followed = 0;        ///< Held against what was edited in the world.

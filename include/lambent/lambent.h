@@ -12,5 +12,6 @@
 #include "lambent/image.h"
 #include "lambent/progress.h"
 #include "lambent/renderer.h"
+#include "lambent/rsm.h"
 #include "lambent/scene.h"
 #include "lambent/world.h"

@@ -13,6 +13,7 @@ namespace lambent {
 
 class World;
 class IrradianceField;
+struct RsmSettings;
 
 /// Settings of a frame.
 struct FrameSettings {
@@ -42,6 +43,24 @@ struct RenderedFrame {
   std::vector<PassTime> passes;  ///< In the order of the frame.
   std::uint64_t rays = 0;        ///< Traced: primary, gathered and shadow rays.
 };
+
+/// Where a frame's indirect light comes from, all of it added up.
+struct IndirectSources {
+  const IrradianceField* field = nullptr;  ///< Null: none.
+  /// The part of `field`'s light that another source brings, as a field of its own: it is taken out
+  /// of what pixels receive. Null: nothing is.
+  const IrradianceField* taken_out = nullptr;
+  /// One bounce of directional, point and spot lights from reflective shadow maps, in range; null:
+  /// none. Not together with FrameSettings::gather_rays.
+  const RsmSettings* rsm = nullptr;
+  bool rsm_stages = false;  ///< Also keep the layers "rsm.flux", "rsm.mosaic", ... (docs/rsm.md).
+};
+
+/// Renders what the camera sees: direct light with shadow rays, and indirect light from the
+/// sources. What shines by its coat alone reflects the field, or without one, the maps' light.
+/// Settings must be in range. Runs on all cores; the same bits on any number of threads.
+RenderedFrame render_frame(const World& world, const IndirectSources& sources, const Camera& camera,
+                           const FrameSettings& settings, const ProgressFn& progress = {});
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the field.
 /// A null field gives direct light and emission alone. Settings must be in range. Runs on all

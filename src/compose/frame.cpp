@@ -2,8 +2,10 @@
 // The order of a frame, written once.
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "compose/gbuffer.h"
+#include "compose/rsm_frame.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "lambent/field.h"
@@ -81,6 +83,19 @@ void look_up(const World& world, const IrradianceField& field, const GBuffer& gb
   field.irradiance(queries, irradiance, &world);
 }
 
+/// Takes what another source brings out of the field's light, and adds that source's own.
+void replace_light(const std::vector<vec3>& taken_out, const std::vector<vec3>& added,
+                   std::vector<vec3>& irradiance) {
+  irradiance.resize(std::max({irradiance.size(), taken_out.size(), added.size()}), vec3(0.0f));
+  parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!added.empty()) irradiance[i] += added[i];
+      if (!taken_out.empty()) irradiance[i] -= taken_out[i];
+      irradiance[i] = max(irradiance[i], vec3(0.0f));
+    }
+  });
+}
+
 /// Everything that one sample of one band brings.
 struct BandLight {
   ReflectedLight direct;
@@ -134,6 +149,15 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
 
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress) {
+  IndirectSources sources;
+  sources.field = field;
+  return render_frame(world, sources, camera, settings, progress);
+}
+
+RenderedFrame render_frame(const World& world, const IndirectSources& sources, const Camera& camera,
+                           const FrameSettings& settings, const ProgressFn& progress) {
+  const IrradianceField* field = sources.field;
+  assert(sources.rsm == nullptr || settings.gather_rays == 0);
   assert(settings.width > 0 && settings.height > 0 && settings.samples > 0);
   RenderedFrame frame;
   frame.image.width = settings.width;
@@ -143,8 +167,17 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = std::max(1, kBandPixels / settings.width);
 
+  std::optional<RsmFrame> rsm;
+  if (sources.rsm != nullptr) {
+    rsm = light_by_rsm(world, camera, settings, *sources.rsm, sources.rsm_stages);
+    frame.rays += rsm->light.rays;
+    timer.finish("rsm");
+  }
+
   GBuffer gbuffer;
   BandLight light;
+  std::vector<vec3> taken_out, from_maps;
+  const auto normal_at = [&](std::size_t i) { return gbuffer.surfaces[i].normal_ws; };
   for (int row = 0; row < settings.height; row += band_rows) {
     const Band band{row, std::min(band_rows, settings.height - row)};
     for (int sample = 0; sample < settings.samples; ++sample) {
@@ -160,9 +193,10 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
           frame.rays +=
               gather_irradiance(world, *field, gbuffer, settings, band, sample, light.irradiance);
         } else {
-          look_up(
-              world, *field, gbuffer, [&](std::size_t i) { return gbuffer.surfaces[i].normal_ws; },
-              light.irradiance);
+          look_up(world, *field, gbuffer, normal_at, light.irradiance);
+        }
+        if (sources.taken_out != nullptr) {
+          look_up(world, *sources.taken_out, gbuffer, normal_at, taken_out);
         }
         timer.finish("indirect");
         look_up(
@@ -174,6 +208,14 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
         timer.finish("glossy");
       }
 
+      if (rsm) {
+        look_up_rsm(*rsm, gbuffer, camera, settings.width, band, from_maps);
+        if (field == nullptr) light.irradiance.clear();
+        replace_light(taken_out, from_maps, light.irradiance);
+        if (field == nullptr) light.mirror_irradiance = light.irradiance;
+        timer.finish("rsm.upsample");
+      }
+
       accumulate(world, camera, gbuffer, light, static_cast<std::size_t>(row) * settings.width,
                  share, layers);
       timer.finish("compose");
@@ -182,6 +224,10 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
         progress("frame", rows_done / settings.height);
       }
     }
+  }
+  if (rsm) {
+    for (Layer& layer : rsm->layers) frame.image.layers.push_back(std::move(layer));
+    frame.passes.insert(frame.passes.end(), rsm->light.passes.begin(), rsm->light.passes.end());
   }
   return frame;
 }

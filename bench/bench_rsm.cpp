@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light from reflective shadow maps, side by side in one run: the plain gather, the
+// interleaved one restructured and not, and what each stage costs. LAMBENT_BENCH_SCENE=cornell-spot
+// or Sponza's path; the picture has 1920 x 1080 pixels unless LAMBENT_BENCH_RSM_SIZE=WxH says
+// otherwise.
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+
+#include "bench/workload.h"
+#include "core/parallel.h"
+#include "lambent/rsm.h"
+#include "raytracing/camera_rays.h"
+#include "raytracing/surface.h"
+
+namespace lambent::bench {
+namespace {
+
+constexpr int kRepetitions = 7;
+
+glm::ivec2 picture_size() {
+  glm::ivec2 size(1920, 1080);
+  if (const char* asked = std::getenv("LAMBENT_BENCH_RSM_SIZE")) {
+    std::sscanf(asked, "%dx%d", &size.x, &size.y);
+  }
+  return size;
+}
+
+/// What the camera sees, and the maps of all lights.
+struct RsmWorkload {
+  explicit RsmWorkload(const glm::ivec2& picture) : size(picture) {
+    const Workload& work = workload();
+    const std::size_t pixels = static_cast<std::size_t>(size.x) * size.y;
+    positions.resize(pixels);
+    normals.assign(pixels, glm::vec3(0.0f));
+    depths.resize(pixels);
+    parallel_chunks(size.y, 1, [&](std::size_t y, std::size_t) {
+      for (int x = 0; x < size.x; ++x) {
+        const Ray ray = camera_ray(work.camera, size.x, size.y, static_cast<float>(x) + 0.5f,
+                                   static_cast<float>(y) + 0.5f);
+        const Hit hit = work.world.tracer().closest_hit(ray);
+        if (hit.missed()) continue;
+        const Surface surface = surface_at(work.scene, ray, hit);
+        const std::size_t i = y * size.x + x;
+        positions[i] = surface.position_ws;
+        normals[i] = surface.normal_ws;
+        depths[i] = view_depth(work.camera, surface.position_ws);
+      }
+    });
+    maps = render_rsms(work.world, work.camera,
+                       static_cast<float>(size.x) / static_cast<float>(size.y), {});
+  }
+  RsmView view() const { return {size.x, size.y, positions, normals, depths}; }
+
+  glm::ivec2 size;
+  std::vector<glm::vec3> positions, normals;
+  std::vector<float> depths;
+  std::vector<ReflectiveShadowMap> maps;
+};
+
+RsmWorkload& rsm_workload() {
+  static RsmWorkload work(picture_size());
+  return work;
+}
+
+RsmSettings plain_settings() {
+  RsmSettings settings;
+  settings.sub_maps = settings.sub_images = 1;
+  settings.sub_blur_radius = 0;
+  settings.final_blur = false;
+  settings.layout = RsmLayout::full;
+  return settings;
+}
+
+RsmSettings with_layout(RsmLayout layout) {
+  RsmSettings settings;
+  settings.layout = layout;
+  return settings;
+}
+
+/// Times of one variant: buffers are kept from frame to frame, as in an engine.
+struct Variant {
+  explicit Variant(const RsmSettings& chosen) : settings(chosen) {}
+  void run(const RsmWorkload& work) {
+    gatherer.gather(workload().world, work.maps, work.view(), settings, result);
+    double sum = 0.0;
+    for (const PassTime& pass : result.passes) {
+      passes[pass.name].add(pass.ms);
+      // Choosing lights is the same for all, and belongs to the making of the maps
+      if (pass.name != "rsm.choose") sum += pass.ms;
+    }
+    total.add(sum);
+  }
+  /// Restructuring the picture included.
+  double gathering() const { return passes.at("rsm.gather").value(); }
+  RsmSettings settings;
+  RsmGatherer gatherer;
+  RsmIrradiance result;
+  std::map<std::string, Median> passes;
+  Median total;
+};
+
+/// The plain gather against the interleaved one in each layout. The first run of each is not
+/// counted: it makes the buffers.
+void rsm(benchmark::State& state) {
+  const RsmWorkload& work = rsm_workload();
+  Variant plain(plain_settings()), restructured(with_layout(RsmLayout::restructured)),
+      sub_maps(with_layout(RsmLayout::sub_maps)), full(with_layout(RsmLayout::full));
+  const std::array<Variant*, 4> all = {&plain, &restructured, &sub_maps, &full};
+  for (Variant* variant : all) {
+    variant->run(work);
+    variant->passes.clear();
+    variant->total = {};
+  }
+  for (auto _ : state) {
+    const double ms = time_ms([&] {
+      for (Variant* variant : all) variant->run(work);
+    });
+    state.SetIterationTime(ms * 1e-3);
+  }
+  for (const auto& [name, ms] : restructured.passes) state.counters[name + "_ms"] = ms.value();
+  state.counters["plain_ms"] = plain.total.value();
+  state.counters["interleaved_ms"] = restructured.total.value();
+  state.counters["plain_over_interleaved"] = plain.total.value() / restructured.total.value();
+  state.counters["gather_restructured_ms"] = restructured.gathering();
+  state.counters["gather_sub_maps_ms"] = sub_maps.gathering();
+  state.counters["gather_full_ms"] = full.gathering();
+  state.counters["full_over_restructured"] = full.gathering() / restructured.gathering();
+}
+
+/// Total of one variant of the settings, for the plot.
+void measure(benchmark::State& state, const RsmWorkload& work, const RsmSettings& settings) {
+  Variant variant(settings);
+  variant.run(work);
+  variant.total = {};
+  for (auto _ : state) {
+    state.SetIterationTime(time_ms([&] { variant.run(work); }) * 1e-3);
+  }
+  state.counters["median_ms"] = variant.total.value();
+}
+
+void rsm_by_height(benchmark::State& state) {
+  const int height = static_cast<int>(state.range(0));
+  measure(state, RsmWorkload({height * 16 / 9, height}), {});
+}
+
+void rsm_by_texels(benchmark::State& state) {
+  RsmSettings settings;
+  settings.texels = static_cast<int>(state.range(0));
+  measure(state, rsm_workload(), settings);
+}
+
+void rsm_by_sub_images(benchmark::State& state) {
+  RsmSettings settings;
+  settings.sub_images = settings.sub_maps = static_cast<int>(state.range(0));
+  measure(state, rsm_workload(), settings);
+}
+
+BENCHMARK(rsm)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+BENCHMARK(rsm_by_height)
+    ->UseManualTime()
+    ->Iterations(kRepetitions)
+    ->Arg(270)
+    ->Arg(540)
+    ->Arg(1080)
+    ->Arg(2160)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(rsm_by_texels)
+    ->UseManualTime()
+    ->Iterations(kRepetitions)
+    ->RangeMultiplier(2)
+    ->Range(256, 8192)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(rsm_by_sub_images)
+    ->UseManualTime()
+    ->Iterations(kRepetitions)
+    ->Arg(1)
+    ->Arg(2)
+    ->Arg(4)
+    ->Arg(8)
+    ->Unit(benchmark::kMillisecond);
+}  // namespace
+}  // namespace lambent::bench

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light of lights without extent, one bounce of it, from reflective shadow maps that are
+// gathered in interleaved sub-images. docs/rsm.md shows each stage.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/image.h"
+#include "lambent/renderer.h"
+#include "lambent/scene.h"
+
+namespace lambent {
+
+class World;
+
+/// Which texels of its sub-map a pixel gathers.
+enum class RsmPattern : std::uint8_t {
+  whole,  ///< All of them: no light is lost. The default.
+  disk,   ///< Samples around the pixel's projection into the map, ever sparser outwards, as
+          ///< published. Sharper nearby; light from beyond the disk is lost.
+};
+
+/// How maps and pixels lie in memory while they are gathered.
+enum class RsmLayout : std::uint8_t {
+  restructured,  ///< Maps as sub-maps, pixels as sub-images. The default.
+  sub_maps,      ///< Maps as sub-maps, pixels as they lie in the picture.
+  full,          ///< Both as they were rendered. With sub_images = 1 this is the plain gather.
+};
+
+/// Settings of indirect light from reflective shadow maps (RSMs).
+struct RsmSettings {
+  /// Texels along an edge of each light's map, 1 to 4096. Each costs two rays a frame at most.
+  int resolution = 512;
+  /// Texels of each map whose light is gathered, drawn in proportion to what they bring to the
+  /// picture, 1 to 65536; 0: every texel. RsmPattern::disk takes them as the samples of the disk.
+  /// Cost is in proportion.
+  int texels = 1024;
+  /// Sub-maps along an edge, 1 to 16: a pixel gathers texels / sub_maps^2.
+  int sub_maps = 4;
+  /// Sub-images along an edge of the picture, 1 to 16, a multiple of sub_maps.
+  int sub_images = 4;
+  RsmPattern pattern = RsmPattern::whole;      ///< See RsmPattern.
+  RsmLayout layout = RsmLayout::restructured;  ///< See RsmLayout; changes no result.
+  /// RsmPattern::disk: radius as a share of the map's edge, above 0 to 2.
+  float disk_radius = 0.3f;
+  /// Draw texels for the light they bring to what the camera sees, not for their power alone.
+  bool view_importance = true;
+  /// Deal neighbouring texels to sub-maps in an irregular order: noise in place of structure.
+  bool shuffle = true;
+  /// Area over which a texel's light is spread, in areas that it stands for, 0.01 to 100. Less is
+  /// sharper in corners, and spotty there.
+  float softening = 1.0f;
+
+  /// Radius of the blur inside each sub-image [its pixels], 0 (none) to 4.
+  int sub_blur_radius = 1;
+  /// Repeat that blur with taps at irregular distances, which reach farther.
+  bool irregular_blur = false;
+  /// Blur the interleaved picture over as many pixels as there are sub-images, so that each holds
+  /// light of all sub-maps.
+  bool final_blur = true;
+  /// Distance from a pixel's plane at which another counts for nothing in a blur, as a share of its
+  /// depth, above 0 to 1.
+  float plane_tolerance = 0.02f;
+
+  /// Shadow rays a pixel and light that ask whether the gathered light arrives, 0 (all of it does)
+  /// to 64; texels that bring most are asked most.
+  int visibility_rays = 0;
+  /// The picture is gathered at 1 / downscale of its width and height, 1 to 16.
+  int downscale = 1;
+  /// One map seen from the camera, lit by all lights, in place of one from each light: also finds
+  /// the light of emissive surfaces, but knows nothing outside the picture.
+  bool from_camera = false;
+  std::uint32_t seed = 1;  ///< Of all random numbers.
+};
+
+/// Fails with the first setting that is out of range.
+Expected<void> check(const RsmSettings& settings);
+
+/// A small area light: what a texel of a map reflects, as a Lambert surface does. 48 bytes, in this
+/// order, in every buffer of texels; its last four floats are the light, so that none is split.
+struct RsmTexel {
+  glm::vec3 position_ws{0.0f};  ///< [m], a little off the surface.
+  float area = 0.0f;            ///< That it stands for [m^2]; 0: it saw nothing.
+  glm::vec3 normal_ws{0.0f};    ///< Unit, on the lit side; 0: it saw nothing.
+  float softening = 0.0f;       ///< Added to squared distances [m^2], see src/rsm/geometry.h.
+  glm::vec3 flux{0.0f};         ///< Reflected [W].
+  float unused = 0.0f;          ///< Fills up 16 bytes.
+};
+
+/// How a map's square is spread over what the light sees.
+struct RsmProjection {
+  enum class Kind : std::uint8_t { orthographic, perspective, octahedral };
+  Kind kind = Kind::octahedral;
+  glm::vec3 origin_ws{0.0f};         ///< Middle of the near side, or where the light is [m].
+  glm::mat3 world_from_light{1.0f};  ///< Orthonormal; looks along its -Z.
+  glm::vec2 half_extent{1.0f};  ///< Orthographic [m]; perspective: tangents of the half angles.
+};
+
+/// The scene as a light sees it: position, normal and reflected flux of each texel.
+struct ReflectiveShadowMap {
+  RsmProjection projection;
+  int resolution = 0;            ///< Texels along an edge.
+  std::vector<RsmTexel> texels;  ///< resolution^2, rows from the top.
+};
+
+/// The map of a light. Directional: orthographic, fitted to the scene; spot: perspective, as wide
+/// as the cone, or octahedral where that is wider than 120 degrees; point: octahedral. A light that
+/// meets nothing has a map without flux. Settings must be in range. Runs on all cores.
+ReflectiveShadowMap render_rsm(const World& world, const Light& light, const RsmSettings& settings);
+
+/// The map of what the camera sees, `aspect` its width over height, lit by all lights and emissive
+/// surfaces.
+ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float aspect,
+                               const RsmSettings& settings);
+
+/// The maps that the settings ask for: one a light, or the camera's.
+std::vector<ReflectiveShadowMap> render_rsms(const World& world, const Camera& camera, float aspect,
+                                             const RsmSettings& settings);
+
+/// What the camera sees, rows from the top; each span has width * height entries. The caller owns
+/// all of them.
+struct RsmView {
+  int width = 0, height = 0;
+  std::span<const glm::vec3> positions_ws;  ///< [m]
+  std::span<const glm::vec3> normals_ws;    ///< Unit, towards the camera; 0 where nothing is seen.
+  std::span<const float> depths;  ///< Along the axis of view [m], > 0; 0 where nothing is seen.
+};
+
+/// One bounce of light at each pixel of a view.
+struct RsmIrradiance {
+  int width = 0, height = 0;
+  std::vector<glm::vec3> irradiance;  ///< [W/m^2], rows from the top; 0 where nothing is seen.
+  std::vector<PassTime> passes;       ///< In the order of the frame.
+  std::uint64_t rays = 0;             ///< Traced for visibility.
+  /// Where asked for: "rsm.mosaic" (the sub-images side by side, as they were gathered),
+  /// "rsm.gathered" (interleaved, before any blur), "rsm.interleaved" (after the blur of
+  /// sub-images), "rsm.blurred" (after the last one).
+  std::vector<Layer> stages;
+};
+
+/// Gathers the light of maps, and keeps its buffers (52 bytes a pixel) from frame to frame.
+class RsmGatherer {
+ public:
+  RsmGatherer();
+  ~RsmGatherer();
+  RsmGatherer(RsmGatherer&&) noexcept;
+  RsmGatherer& operator=(RsmGatherer&&) noexcept;
+
+  /// Gathers the light of all maps at each pixel of the view into `result`, whose memory is used
+  /// again. The world is asked for visibility alone. Settings must be in range. Runs on all cores;
+  /// the same inputs give the same bits on any number of threads.
+  void gather(const World& world, std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+              const RsmSettings& settings, RsmIrradiance& result, bool keep_stages = false);
+
+ private:
+  struct Buffers;
+  std::unique_ptr<Buffers> buffers_;
+};
+
+/// The map's flux as a picture, each texel's divided by the brightest one's.
+Image flux_image(const ReflectiveShadowMap& map);
+
+}  // namespace lambent

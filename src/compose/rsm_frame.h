@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light from reflective shadow maps, for the pixels of a frame.
+#pragma once
+
+#include <vector>
+
+#include "compose/gbuffer.h"
+#include "lambent/rsm.h"
+
+namespace lambent {
+
+/// What the camera sees through the middle of each pixel, and one bounce of light there.
+struct RsmFrame {
+  int downscale = 1;
+  float plane_tolerance = 0.0f;
+  std::vector<glm::vec3> positions_ws, normals_ws;
+  std::vector<float> depths;
+  RsmIrradiance light;
+  std::vector<Layer> layers;  ///< Of the frame's size, where asked for; see docs/rsm.md.
+};
+
+/// Renders the maps and gathers their light at 1 / downscale of the frame's width and height,
+/// rounded up.
+RsmFrame light_by_rsm(const World& world, const Camera& camera, const FrameSettings& settings,
+                      const RsmSettings& rsm, bool keep_stages);
+
+/// Irradiance at the surfaces of a band, from the pixels around them that show the same surface
+/// (cross-bilateral upsampling: Kopf et al., "Joint Bilateral Upsampling", SIGGRAPH 2007). Where
+/// none does, from all around.
+void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
+                 const Band& band, std::vector<glm::vec3>& irradiance);
+
+}  // namespace lambent

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// kLanes floats that are worked on together, in the registers of the instruction set that this is
+// included for: see core/simd_levels.h. Without guard; included inside a namespace.
+
+// vector_size is understood by g++ and clang.
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
+using LaneInts = int __attribute__((vector_size(kLanes * sizeof(int))));
+
+/// kLanes floats from anywhere.
+LAMBENT_FORCE_INLINE void load(Lanes& lanes, const float* from) {
+  __builtin_memcpy(&lanes, from, sizeof(lanes));
+}
+
+LAMBENT_FORCE_INLINE void store(float* to, const Lanes& lanes) {
+  __builtin_memcpy(to, &lanes, sizeof(lanes));
+}
+
+/// Zeroes the lanes where the mask is not set; masks are what comparisons of lanes yield.
+LAMBENT_FORCE_INLINE void keep(Lanes& lanes, const LaneInts& mask) {
+  lanes = mask ? lanes : Lanes{};
+}

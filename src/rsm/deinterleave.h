@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Segovia et al., "Non-interleaved Deferred Shading of Interleaved Sample Patterns",
+// Graphics Hardware 2006; Gruen and Bavoil, US 9,129,443 B2, 2015. Where a pixel of a picture lies
+// among m x m sub-images, of which (i, j) holds the pixels (x, y) with x mod m = i, y mod m = j.
+#ifndef LAMBENT_RSM_DEINTERLEAVE_H
+#define LAMBENT_RSM_DEINTERLEAVE_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+/// The sub-image (i, j) of a pixel.
+LAMBENT_FN ivec2 sub_image_of(ivec2 pixel, int sub_images) {
+  return ivec2(pixel.x % sub_images, pixel.y % sub_images);
+}
+
+/// Where in its sub-image a pixel lies.
+LAMBENT_FN ivec2 place_in_sub_image(ivec2 pixel, int sub_images) {
+  return ivec2(pixel.x / sub_images, pixel.y / sub_images);
+}
+
+/// The pixel at a place of a sub-image: the inverse of the two above.
+LAMBENT_FN ivec2 pixel_of_sub_image(ivec2 sub_image, ivec2 place, int sub_images) {
+  return ivec2(place.x * sub_images + sub_image.x, place.y * sub_images + sub_image.y);
+}
+
+/// Pixels along an axis of a sub-image, `index` its place among the `sub_images` along that axis;
+/// 0 where the picture is too small to have it.
+LAMBENT_FN int sub_image_size(int size, int index, int sub_images) {
+  return (size - index + sub_images - 1) / sub_images;
+}
+
+/// First pixel of a sub-image along an axis of the mosaic, in which all lie side by side, larger
+/// ones first.
+LAMBENT_FN int sub_image_start(int size, int index, int sub_images) {
+  int larger = size % sub_images;
+  return index * (size / sub_images) + (index < larger ? index : larger);
+}
+
+/// Which of n x n sub-maps a sub-image gathers from.
+LAMBENT_FN int sub_map_of(ivec2 sub_image, int sub_maps) {
+  return (sub_image.y % sub_maps) * sub_maps + sub_image.x % sub_maps;
+}
+
+LAMBENT_END
+#endif

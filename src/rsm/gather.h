@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels that add the light of texels to pixels. All work on rows of planes, kLanes
+// neighbouring pixels at a time, and add to what is there; they differ in where texels lie.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/cross_bilateral.h"
+#include "core/simd_levels.h"
+#include "lambent/rsm.h"
+#include "rsm/pattern.h"
+
+namespace lambent {
+
+/// Pixels of a row: where they are, and the light that they gather.
+struct GatherRow {
+  GuidePlanes guide;
+  Planes3 light;
+  int count = 0;  ///< Pixels; more are touched, up to a multiple of kLanes.
+};
+
+/// Adds the same texels to every pixel of a row; they lie one after the other.
+void gather_contiguous(const GatherRow& row, std::span<const RsmTexel> texels);
+
+/// The same texels where they were rendered: `places` tells where in `rendered`.
+void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
+                      std::span<const std::uint32_t> places);
+
+/// Adds to each pixel texels of its own sub-map, which differs from that of its neighbour. `places`
+/// has kLanes entries for each of `count` texels: where in `texels` those of the pixels at places 0
+/// to kLanes - 1 of a row lie; it repeats along the row, so kLanes must be a multiple of the period
+/// of sub-maps, or the row be gathered in pieces of kLanes pixels with tables of their own.
+void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
+                      std::size_t count);
+
+/// Sums over points of a texel's bounded_geometry_term, and of its square.
+struct TermSums {
+  float terms, squares;
+};
+
+/// One for each texel. `count` is a multiple of kLanes; a point without a normal adds nothing.
+void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+               TermSums* sums);
+
+/// Floats of a texel that a gather reads: position, normal, softening, flux over pi.
+inline constexpr int kTexelFields = 10;
+
+/// Adds one texel to each of kLanes pixels of a row from `first` on, of which the caller has
+/// fetched the fields.
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]);
+
+/// Samples of a disk around each pixel's projection, for pixels of different sub-maps.
+struct DiskGather {
+  const ReflectiveShadowMap* map = nullptr;  ///< Tells how pixels are projected.
+  const RsmTexel* texels = nullptr;          ///< The map's, as rendered or restructured.
+  int sub_maps = 1;                          ///< Along an edge.
+  bool restructured = true;                  ///< Whether `texels` are.
+  std::span<const DiskSample> samples;       ///< Of the whole disk, a multiple of sub_maps^2.
+  float softening = 1.0f;                    ///< RsmSettings::softening
+};
+
+/// Adds a disk's samples to the pixels of a row. Pixel x of the row gathers from the sub-map in
+/// column (first_column + x * column_step) mod sub_maps and row `sub_row`.
+void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column, int column_step,
+                 int sub_row);
+
+/// A map's texels, sub-map after sub-map: texel (x, y) is texel (x / n, y / n) of sub-map
+/// (x mod n, y mod n). Every texel lands in exactly one.
+std::vector<RsmTexel> restructure_map(const ReflectiveShadowMap& map, int sub_maps);
+
+/// Where the texels of a sub-map start in restructure_map's result.
+std::size_t sub_map_start(int resolution, int sub_maps, int column, int row);
+
+}  // namespace lambent

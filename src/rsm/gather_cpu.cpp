@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Segovia et al., "Non-interleaved Deferred Shading of Interleaved Sample Patterns",
+// Graphics Hardware 2006; Gruen and Bavoil, US 9,129,443 B2, 2015.
+#include "rsm/gather.h"
+#include "rsm/geometry.h"
+
+namespace lambent {
+namespace {
+
+namespace baseline {
+#include "rsm/gather_kernel.inl.h"
+}  // namespace baseline
+#ifdef LAMBENT_SIMD_LEVELS
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v3")
+namespace avx2 {
+#include "rsm/gather_kernel.inl.h"
+}  // namespace avx2
+#pragma GCC pop_options
+#pragma GCC push_options
+#pragma GCC target("arch=x86-64-v4")
+namespace avx512 {
+#include "rsm/gather_kernel.inl.h"
+}  // namespace avx512
+#pragma GCC pop_options
+#endif
+
+}  // namespace
+
+void gather_contiguous(const GatherRow& row, std::span<const RsmTexel> texels) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(contiguous);
+  kernel(row, texels.data(), texels.size());
+}
+
+void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
+                      std::span<const std::uint32_t> places) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(scattered);
+  kernel(row, rendered, places.data(), places.size());
+}
+
+void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
+                      std::size_t count) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(per_pixel);
+  kernel(row, texels, places, count);
+}
+
+void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+               TermSums* sums) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(add_terms);
+  kernel(points, count, texels.data(), texels.size(), sums);
+}
+
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(add_fetched);
+  kernel(row, first, fields);
+}
+
+}  // namespace lambent

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Dachsbacher and Stamminger, "Reflective Shadow Maps", I3D 2005, sec. 3.2.
+#include <algorithm>
+
+#include "rsm/deinterleave.h"
+#include "rsm/gather.h"
+#include "rsm/projection.h"
+
+namespace lambent {
+namespace {
+
+/// Where a point lies in the map [texels]; points that the map does not show, at its edge.
+vec2 project(const RsmProjection& p, const vec3& position_ws, int resolution) {
+  const vec3 local = (position_ws - p.origin_ws) * p.world_from_light;
+  vec2 square(0.0f);
+  switch (p.kind) {
+    case RsmProjection::Kind::orthographic:
+      square = clamp(vec2(local.x, local.y) / p.half_extent, vec2(-1.0f), vec2(1.0f));
+      break;
+    case RsmProjection::Kind::perspective:
+      square = perspective_square(local, p.half_extent);
+      break;
+    case RsmProjection::Kind::octahedral:
+      if (local != vec3(0.0f)) square = octahedral_encode(local);
+      break;
+  }
+  return texel_place(square, resolution);
+}
+
+/// Which sub-map a lane gathers from, and where in the texels its own lie.
+struct LaneMaps {
+  int column[kLanes];  // of the sub-map
+  int width[kLanes];   // of the sub-map [texels]
+  std::size_t first[kLanes];
+  std::size_t step_x, step_y[kLanes];
+};
+
+LaneMaps lane_maps(const DiskGather& disk, int first_column, int column_step, int sub_row) {
+  const int n = disk.sub_maps, resolution = disk.map->resolution;
+  LaneMaps lanes{};
+  lanes.step_x = disk.restructured ? 1 : n;
+  for (int l = 0; l < kLanes; ++l) {
+    const int column = (first_column + l * column_step) % n;
+    lanes.column[l] = column;
+    lanes.width[l] = sub_image_size(resolution, column, n);
+    lanes.first[l] = disk.restructured ? sub_map_start(resolution, n, column, sub_row)
+                                       : static_cast<std::size_t>(sub_row) * resolution + column;
+    lanes.step_y[l] = disk.restructured ? static_cast<std::size_t>(lanes.width[l])
+                                        : static_cast<std::size_t>(resolution) * n;
+  }
+  return lanes;
+}
+
+/// Reads one sample of a lane's texels into its column of the fields.
+void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub_row,
+                 const vec2& place, float weight, float (*fields)[kLanes]) {
+  const int n = disk.sub_maps;
+  const int height = sub_image_size(disk.map->resolution, sub_row, n);
+  // The sub-map's texel that is nearest to the sample
+  const int x = static_cast<int>(floor(
+      (place.x - 0.5f - static_cast<float>(maps.column[lane])) / static_cast<float>(n) + 0.5f));
+  const int y = static_cast<int>(
+      floor((place.y - 0.5f - static_cast<float>(sub_row)) / static_cast<float>(n) + 0.5f));
+  if (x < 0 || y < 0 || x >= maps.width[lane] || y >= height) {
+    for (int k = 0; k < kTexelFields; ++k) fields[k][lane] = 0.0f;
+    fields[6][lane] = 1.0f;  // any softening, so that nothing is divided by 0
+    return;
+  }
+  const RsmTexel& t = disk.texels[maps.first[lane] + static_cast<std::size_t>(x) * maps.step_x +
+                                  static_cast<std::size_t>(y) * maps.step_y[lane]];
+  for (int c = 0; c < 3; ++c) {
+    fields[c][lane] = t.position_ws[c];
+    fields[3 + c][lane] = t.normal_ws[c];
+    fields[7 + c][lane] = t.flux[c] * (weight * kInvPi);
+  }
+  const float share = std::max(1.0f, weight / static_cast<float>(n * n));
+  fields[6][lane] = t.area > 0.0f ? t.softening * share * disk.softening : 1.0f;
+}
+
+}  // namespace
+
+std::size_t sub_map_start(int resolution, int sub_maps, int column, int row) {
+  const auto height = static_cast<std::size_t>(sub_image_size(resolution, row, sub_maps));
+  return static_cast<std::size_t>(sub_image_start(resolution, row, sub_maps)) * resolution +
+         static_cast<std::size_t>(sub_image_start(resolution, column, sub_maps)) * height;
+}
+
+std::vector<RsmTexel> restructure_map(const ReflectiveShadowMap& map, int sub_maps) {
+  std::vector<RsmTexel> texels;
+  texels.reserve(map.texels.size());
+  for (int j = 0; j < sub_maps; ++j) {
+    for (int i = 0; i < sub_maps; ++i) {
+      for (int y = j; y < map.resolution; y += sub_maps) {
+        for (int x = i; x < map.resolution; x += sub_maps) {
+          texels.push_back(map.texels[static_cast<std::size_t>(y) * map.resolution + x]);
+        }
+      }
+    }
+  }
+  return texels;
+}
+
+void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column, int column_step,
+                 int sub_row) {
+  const int n = disk.sub_maps, subs = n * n;
+  for (int i = 0; i < row.count; i += kLanes) {
+    const LaneMaps maps = lane_maps(disk, first_column + i * column_step, column_step, sub_row);
+    vec2 middle[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      const ConstPlanes3& at = row.guide.position;
+      middle[l] = project(disk.map->projection, {at.at[0][i + l], at.at[1][i + l], at.at[2][i + l]},
+                          disk.map->resolution);
+    }
+    for (int k = 0; k < static_cast<int>(disk.samples.size()) / subs; ++k) {
+      float fields[kTexelFields][kLanes];
+      for (int l = 0; l < kLanes; ++l) {
+        // Sub-maps share the disk's samples, and each stands for all of them
+        const DiskSample& sample =
+            disk.samples[k * subs + sub_map_of({maps.column[l], sub_row}, n)];
+        read_sample(disk, maps, l, sub_row, middle[l] + sample.offset,
+                    sample.weight * static_cast<float>(subs), fields);
+      }
+      gather_fetched(row, i, fields);
+    }
+  }
+}
+
+}  // namespace lambent

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Segovia et al., "Bidirectional Instant Radiosity", EGSR 2006: lights are worth what
+// they bring to the camera. Here that is asked of whole blocks of texels, at few points of the
+// view.
+#include "rsm/lights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "rsm/clusters.h"
+#include "rsm/gather.h"
+#include "shared/color.h"
+#include "shared/random.h"
+#include "shared/sampling.h"
+
+namespace lambent {
+namespace {
+
+// Points of the view that are asked what a block brings to them, and draws of a pixel that may be
+// made until so many see something.
+constexpr int kViewPoints = 1024;
+constexpr uint kViewPointDraws = 8192;
+constexpr std::size_t kClustersPerTask = 256;
+// Clusters matter by their power times this power of the sum of squares of what a watt brings to
+// the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
+// their error falls with their size.
+constexpr float kBroughtExponent = 0.4f;
+// Clusters are scaled by at most this factor to bring what their texels brought.
+constexpr float kMostScale = 2.0f;
+// Weight that power alone has beside what is brought to the points: light that none of them sees is
+// not left to a few huge clusters.
+constexpr float kPowerShare = 0.1f;
+// Keeps the random numbers of different uses apart.
+constexpr uint kViewSalt = 0x56494557u, kDealSalt = 0x4445414cu;
+
+/// Points of the view, as planes; those beyond the last see nothing.
+struct ViewPoints {
+  explicit ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
+  GuidePlanes planes() const {
+    const auto plane = [&](int i) {
+      return floats.data() + static_cast<std::ptrdiff_t>(i) * capacity;
+    };
+    GuidePlanes result;
+    result.position.at = {plane(0), plane(1), plane(2)};
+    result.normal.at = {plane(3), plane(4), plane(5)};
+    return result;
+  }
+  std::vector<float> floats;
+  int capacity, count = 0;
+};
+
+ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
+  ViewPoints points(kViewPoints);
+  RandomStream random = make_random_stream(0u, kViewSalt, seed);
+  const vec2 shift = next_uniform2(random);
+  const ivec2 last(view.width - 1, view.height - 1);
+  for (uint i = 0; i < kViewPointDraws && points.count < points.capacity; ++i) {
+    const vec2 place = fract(shift + plastic_sequence(i)) * vec2(view.width, view.height);
+    const ivec2 at = min(ivec2(place), last);
+    const std::size_t pixel = static_cast<std::size_t>(at.y) * view.width + at.x;
+    if (view.normals_ws[pixel] == vec3(0.0f)) continue;
+    for (int c = 0; c < 3; ++c) {
+      points.floats[c * points.capacity + points.count] = view.positions_ws[pixel][c];
+      points.floats[(3 + c) * points.capacity + points.count] = view.normals_ws[pixel][c];
+    }
+    ++points.count;
+  }
+  return points;
+}
+
+/// What each cluster brings to the points; all 1 where there are none.
+std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Cluster>& clusters) {
+  std::vector<TermSums> sums(clusters.size(), TermSums{1.0f, 1.0f});
+  if (points.count == 0) return sums;
+  parallel_chunks(clusters.size(), kClustersPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<RsmTexel> texels;
+    for (std::size_t i = begin; i < end; ++i) texels.push_back(clusters[i].texel);
+    sum_terms(points.planes(), points.capacity, texels, &sums[begin]);
+  });
+  return sums;
+}
+
+/// Tells each cluster how much it matters, and what it brings.
+void weigh(const ViewPoints& points, std::vector<Cluster>& clusters) {
+  const std::vector<TermSums> sums = brought_to(points, clusters);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    Cluster& cluster = clusters[i];
+    const vec3& flux = cluster.texel.flux;
+    cluster.weight =
+        std::max({flux.x, flux.y, flux.z}) * std::pow(sums[i].squares, kBroughtExponent);
+    cluster.brought = luminance(flux) * sums[i].terms;
+  }
+
+  // Mix with power alone, both of the same sum
+  double power = 0.0, brought = 0.0;
+  for (const Cluster& cluster : clusters) {
+    const vec3& flux = cluster.texel.flux;
+    power += std::max({flux.x, flux.y, flux.z});
+    brought += cluster.weight;
+  }
+  if (!(power > 0.0)) return;
+  const double share = brought > 0.0 ? kPowerShare * brought / power : 1.0;
+  for (Cluster& cluster : clusters) {
+    const vec3& flux = cluster.texel.flux;
+    cluster.weight += static_cast<float>(share * std::max({flux.x, flux.y, flux.z}));
+  }
+}
+
+std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
+  std::vector<Cluster> chosen;
+  for (const std::uint32_t i : morton_order(map.resolution)) {
+    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
+  }
+  return chosen;
+}
+
+std::vector<Cluster> choose(const ReflectiveShadowMap& map, const ViewPoints& points,
+                            std::uint32_t count) {
+  std::vector<Cluster> clusters = cluster_blocks(map);
+  weigh(points, clusters);
+  clusters = merge_clusters(std::move(clusters), count);
+
+  // One normal and one place do not bring quite what many did: scale each cluster to do so
+  const std::vector<TermSums> sums = brought_to(points, clusters);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    RsmTexel& texel = clusters[i].texel;
+    const float brings = luminance(texel.flux) * sums[i].terms;
+    if (!(brings > 0.0f) || points.count == 0) continue;
+    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMostScale, kMostScale);
+    texel.flux *= scale;
+  }
+  return clusters;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> morton_order(int resolution) {
+  const auto size = static_cast<std::uint32_t>(resolution);
+  const std::uint32_t edge = std::bit_ceil(size);
+  const auto every_second_bit = [](std::uint32_t v) {
+    v &= 0x55555555u;
+    v = (v | (v >> 1u)) & 0x33333333u;
+    v = (v | (v >> 2u)) & 0x0F0F0F0Fu;
+    v = (v | (v >> 4u)) & 0x00FF00FFu;
+    return (v | (v >> 8u)) & 0x0000FFFFu;
+  };
+  std::vector<std::uint32_t> order;
+  order.reserve(static_cast<std::size_t>(size) * size);
+  for (std::uint32_t code = 0; code < edge * edge; ++code) {
+    const std::uint32_t x = every_second_bit(code), y = every_second_bit(code >> 1u);
+    if (x < size && y < size) order.push_back(y * size + x);
+  }
+  return order;
+}
+
+RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+                        const RsmSettings& settings) {
+  const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
+  const std::uint32_t count =
+      (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs;
+  const ViewPoints points =
+      settings.view_importance ? view_points(view, settings.seed) : ViewPoints(0);
+
+  RsmLights lights;
+  std::vector<std::vector<std::uint32_t>> dealt(subs);
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    const ReflectiveShadowMap& map = maps[m];
+    const auto first = static_cast<std::uint32_t>(lights.rendered.size());
+    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
+    const std::vector<Cluster> chosen =
+        settings.texels == 0 ? all_texels(map) : choose(map, points, count);
+
+    // Deal each run of neighbours to all sub-maps: in order, or in one of its own
+    std::vector<std::uint32_t> deal(subs);
+    std::iota(deal.begin(), deal.end(), 0u);
+    RandomStream random = make_random_stream(static_cast<uint>(m), kDealSalt, settings.seed);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      if (settings.shuffle && k % subs == 0) {
+        for (std::uint32_t left = subs; left > 1; --left) {
+          const auto other =
+              static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
+          std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
+        }
+      }
+      // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
+      // is spread no wider for that, as the blurs bring all sub-maps together
+      const std::uint32_t place = first + chosen[k].place;
+      RsmTexel& texel = lights.rendered[place];
+      texel = chosen[k].texel;
+      texel.flux *= static_cast<float>(subs);
+      texel.softening *= settings.softening;
+      dealt[deal[k % subs]].push_back(place);
+    }
+  }
+
+  // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
+  std::size_t longest = 0;
+  for (const std::vector<std::uint32_t>& sub_map : dealt) {
+    longest = std::max(longest, sub_map.size());
+  }
+  const auto dark = static_cast<std::uint32_t>(lights.rendered.size());
+  lights.rendered.push_back({});
+  lights.rendered.back().softening = 1.0f;
+  for (std::vector<std::uint32_t>& sub_map : dealt) sub_map.resize(longest, dark);
+
+  lights.starts.push_back(0);
+  for (const std::vector<std::uint32_t>& sub_map : dealt) {
+    lights.places.insert(lights.places.end(), sub_map.begin(), sub_map.end());
+    lights.starts.push_back(static_cast<std::uint32_t>(lights.places.size()));
+  }
+  for (const std::uint32_t place : lights.places) {
+    lights.restructured.push_back(lights.rendered[place]);
+  }
+  return lights;
+}
+
+}  // namespace lambent

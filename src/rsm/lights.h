@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which texels of the maps light the picture, and how they are dealt to sub-maps.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "lambent/rsm.h"
+
+namespace lambent {
+
+/// The texels that are gathered, twice: where they were rendered, and restructured.
+struct RsmLights {
+  /// All texels of all maps, one map after the other, where they were rendered, and at the end one
+  /// that brings nothing. Those that stand for a cluster hold the light of all of it.
+  std::vector<RsmTexel> rendered;
+  /// The chosen ones, sub-map after sub-map, each contiguous and all of one length.
+  std::vector<RsmTexel> restructured;
+  /// Of each of `restructured`: where in `rendered` it came from.
+  std::vector<std::uint32_t> places;
+  /// Where in `restructured` each sub-map starts, and the end: sub_maps^2 + 1 entries.
+  std::vector<std::uint32_t> starts;
+
+  std::uint32_t count(int sub_map) const { return starts[sub_map + 1] - starts[sub_map]; }
+};
+
+/// Brings the texels of each map together in settings.texels clusters (rounded up to fill all
+/// sub-maps alike), more of them where they matter to the view, if that is asked for: no light is
+/// lost. All texels, as they are, where settings.texels is 0. Each lands in exactly one sub-map,
+/// and every sub-map alone stands for all light.
+RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+                        const RsmSettings& settings);
+
+/// The order in which a curve that keeps neighbours together (Morton 1966) visits the texels of a
+/// square map of any size.
+std::vector<std::uint32_t> morton_order(int resolution);
+
+}  // namespace lambent

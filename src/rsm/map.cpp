@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Dachsbacher and Stamminger, "Reflective Shadow Maps", I3D 2005, sec. 3.1. Maps are
+// traced, not rasterised, so that any projection may be chosen: point lights have one octahedral
+// map in place of six faces, without seams and with texels of more even solid angle.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "core/parallel.h"
+#include "lambent/rsm.h"
+#include "lambent/world.h"
+#include "raytracing/camera_rays.h"
+#include "raytracing/shade_hits.h"
+#include "raytracing/surface.h"
+#include "rsm/geometry.h"
+#include "rsm/projection.h"
+#include "scene/light_sampling.h"
+#include "shared/color.h"
+
+namespace lambent {
+namespace {
+
+using Kind = RsmProjection::Kind;
+
+// Wider cones are mapped to the octahedron: a plane's texels get too uneven.
+constexpr float kWidestPerspective = 1.04719755f;  // from the axis [rad], 60 degrees
+// Narrower ones would leave no plane to map to.
+constexpr float kNarrowestPerspective = 1e-3f;  // from the axis [rad]
+
+// Orientations about the axis that are tried for the tightest orthographic map.
+constexpr int kOrientations = 16;
+// Its sides are moved out by this share of the scene's size, so that walls seen edge-on lie within.
+constexpr float kFrustumMargin = 1e-3f;
+
+// A shading normal tilted away from its triangle changes the light on it by at most this factor:
+// beyond, the light grazes the triangle, and few texels would bring enormous light.
+constexpr float kMaxTilt = 4.0f;
+constexpr float kMinGrazingCosine = 1e-3f;  // bounds a texel's area likewise
+
+mat3 axes_along(const vec3& direction) {
+  const Frame frame = make_frame(-direction);
+  return {frame.tangent, frame.bitangent, frame.normal};
+}
+
+/// An orthographic map that holds all vertices of the scene, turned so that its area is smallest.
+RsmProjection fit_orthographic(const Scene& scene, const vec3& direction) {
+  const mat3 axes = axes_along(direction);
+  std::vector<vec3> points;
+  for (const Instance& instance : scene.instances) {
+    for (const vec3& position : scene.meshes[instance.mesh].positions) {
+      points.push_back(vec3(instance.world_from_object * vec4(position, 1.0f)) * axes);
+    }
+  }
+  RsmProjection best;
+  best.kind = Kind::orthographic;
+  best.world_from_light = axes;
+  float best_area = std::numeric_limits<float>::max();
+  for (int i = 0; i < kOrientations && !points.empty(); ++i) {
+    // A quarter turn brings the same rectangles again
+    const float angle = 0.5f * kPi * static_cast<float>(i) / kOrientations;
+    const float c = cos(angle), s = sin(angle);
+    Bounds box;
+    for (const vec3& p : points) box.add(vec3(c * p.x + s * p.y, c * p.y - s * p.x, p.z));
+    const vec3 size = box.max - box.min, middle = 0.5f * (box.min + box.max);
+    if (size.x * size.y >= best_area) continue;
+    best_area = size.x * size.y;
+    const mat3 turned(c * axes[0] + s * axes[1], c * axes[1] - s * axes[0], axes[2]);
+    const float margin = kFrustumMargin * std::max({size.x, size.y, size.z});
+    best.world_from_light = turned;
+    best.half_extent = 0.5f * vec2(size.x, size.y) + vec2(margin);
+    best.origin_ws = turned * vec3(middle.x, middle.y, box.max.z + margin);
+  }
+  return best;
+}
+
+RsmProjection fit_projection(const Scene& scene, const Light& light) {
+  if (light.type == Light::Type::directional) return fit_orthographic(scene, light.direction_ws);
+  RsmProjection projection;
+  projection.origin_ws = light.position_ws;
+  if (light.type == Light::Type::spot && light.outer_cone_angle <= kWidestPerspective) {
+    projection.kind = Kind::perspective;
+    projection.world_from_light = axes_along(light.direction_ws);
+    projection.half_extent =
+        vec2(std::tan(std::max(light.outer_cone_angle, kNarrowestPerspective)));
+  }
+  return projection;
+}
+
+Ray texel_ray(const RsmProjection& p, const vec2& square) {
+  Ray ray;
+  ray.origin = p.origin_ws;
+  switch (p.kind) {
+    case Kind::orthographic:
+      ray.origin +=
+          p.world_from_light * vec3(square.x * p.half_extent.x, square.y * p.half_extent.y, 0.0f);
+      ray.direction = -p.world_from_light[2];
+      break;
+    case Kind::perspective:
+      ray.direction = normalize(p.world_from_light * perspective_direction(square, p.half_extent));
+      break;
+    case Kind::octahedral:
+      ray.direction = p.world_from_light * octahedral_decode(square);
+      break;
+  }
+  return ray;
+}
+
+/// Area perpendicular to its ray that a texel covers at a distance [m^2].
+float perpendicular_area(const RsmProjection& p, const vec2& square, int resolution,
+                         float distance) {
+  const float share = 4.0f / (static_cast<float>(resolution) * static_cast<float>(resolution));
+  const float square_distance = distance * distance;
+  switch (p.kind) {
+    case Kind::orthographic:
+      return share * p.half_extent.x * p.half_extent.y;
+    case Kind::perspective:
+      return share * perspective_solid_angle(square, p.half_extent) * square_distance;
+    case Kind::octahedral:
+      return share * octahedral_solid_angle(square) * square_distance;
+  }
+  return 0.0f;
+}
+
+/// A texel that stands for a piece of a surface and reflects so much.
+RsmTexel make_texel(const vec3& position_ws, const vec3& normal_ws, float area, const vec3& flux) {
+  RsmTexel texel;
+  texel.position_ws = position_ws + normal_ws * (kTexelOffset * std::sqrt(area));
+  texel.normal_ws = normal_ws;
+  texel.area = area;
+  texel.softening = kSofteningPerArea * area;
+  texel.flux = flux;
+  return texel;
+}
+
+RsmTexel lit_texel(const World& world, const Light& light, const Ray& ray, const Hit& hit,
+                   float perpendicular_area) {
+  const Surface surface = surface_at(world.scene(), ray, hit);
+  const PunctualSample sample = sample_punctual(light, surface.position_ws);
+  // Reflect light as the shading normal receives it, but send it out from the triangle: texels of
+  // one bumpy wall must not light each other
+  const float grazing =
+      std::max(kMinGrazingCosine, -dot(surface.geometric_normal_ws, ray.direction));
+  const float received = std::max(0.0f, -dot(surface.normal_ws, ray.direction));
+  const vec3 albedo = effective_albedo(surface.reflectance, received);
+  const float tilt = std::min(kMaxTilt, received / grazing);
+  return make_texel(surface.position_ws, surface.geometric_normal_ws, perpendicular_area / grazing,
+                    albedo * sample.irradiance * (perpendicular_area * tilt));
+}
+
+/// Traces one ray a texel and calls make(texel, ray, hit) for those that meet a surface.
+template <class MakeRay, class Shade>
+void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, Shade shade) {
+  const auto resolution = static_cast<std::size_t>(map.resolution);
+  map.texels.assign(resolution * resolution, {});
+  parallel_chunks(resolution, 1, [&](std::size_t y, std::size_t) {
+    std::vector<Ray> rays(resolution);
+    std::vector<Hit> hits(resolution);
+    for (std::size_t x = 0; x < resolution; ++x) {
+      rays[x] = make_ray(texel_middle(static_cast<int>(x), static_cast<int>(y), map.resolution));
+    }
+    world.tracer().closest_hits(rays, hits);
+    shade(y * resolution, rays, hits);
+  });
+}
+
+}  // namespace
+
+ReflectiveShadowMap render_rsm(const World& world, const Light& light,
+                               const RsmSettings& settings) {
+  assert(check(settings));
+  ReflectiveShadowMap map;
+  map.resolution = settings.resolution;
+  map.projection = fit_projection(world.scene(), light);
+  trace_map(
+      world, map, [&](const vec2& square) { return texel_ray(map.projection, square); },
+      [&](std::size_t first, const std::vector<Ray>& rays, const std::vector<Hit>& hits) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+          if (hits[i].missed()) continue;
+          const int x = static_cast<int>(i);
+          const int y = static_cast<int>(first / rays.size());
+          const float area = perpendicular_area(map.projection, texel_middle(x, y, map.resolution),
+                                                map.resolution, hits[i].distance);
+          if (area > 0.0f) map.texels[first + i] = lit_texel(world, light, rays[i], hits[i], area);
+        }
+      });
+  return map;
+}
+
+ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float aspect,
+                               const RsmSettings& settings) {
+  assert(check(settings) && aspect > 0.0f);
+  ReflectiveShadowMap map;
+  map.resolution = settings.resolution;
+  RsmProjection& p = map.projection;
+  p.kind = camera.orthographic ? Kind::orthographic : Kind::perspective;
+  p.origin_ws = vec3(camera.world_from_view[3]);
+  for (int i = 0; i < 3; ++i) p.world_from_light[i] = normalize(vec3(camera.world_from_view[i]));
+  const float half_height =
+      camera.orthographic ? 0.5f * camera.vertical_extent : std::tan(0.5f * camera.vertical_fov);
+  p.half_extent = vec2(aspect * half_height, half_height);
+
+  ShadeHitsSettings shading;
+  shading.back_faces_count = true;
+  shading.seed = settings.seed;
+  trace_map(
+      world, map, [&](const vec2& square) { return texel_ray(p, square); },
+      [&](std::size_t first, const std::vector<Ray>& rays, const std::vector<Hit>& hits) {
+        std::vector<ShadedHit> shaded(rays.size());
+        ShadeHitsScratch scratch;
+        shade_hits(world, rays, hits, shading, first, scratch, shaded);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+          if (hits[i].missed()) continue;
+          const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
+          const vec3 normal = surface.geometric_normal_ws;
+          const float grazing = std::max(kMinGrazingCosine, -dot(normal, rays[i].direction));
+          const vec2 square = texel_middle(static_cast<int>(i),
+                                           static_cast<int>(first / rays.size()), map.resolution);
+          const float area =
+              perpendicular_area(p, square, map.resolution, hits[i].distance) / grazing;
+          const vec3 flux = shaded[i].albedo_over_pi * shaded[i].direct_irradiance * (kPi * area);
+          if (area > 0.0f) {
+            map.texels[first + i] = make_texel(surface.position_ws, normal, area, flux);
+          }
+        }
+      });
+  return map;
+}
+
+std::vector<ReflectiveShadowMap> render_rsms(const World& world, const Camera& camera, float aspect,
+                                             const RsmSettings& settings) {
+  std::vector<ReflectiveShadowMap> maps;
+  if (settings.from_camera) {
+    maps.push_back(render_rsm(world, camera, aspect, settings));
+    return maps;
+  }
+  for (const Light& light : world.scene().lights) {
+    maps.push_back(render_rsm(world, light, settings));
+  }
+  return maps;
+}
+
+Image flux_image(const ReflectiveShadowMap& map) {
+  Image image(map.resolution, map.resolution, 3);
+  float brightest = 0.0f;
+  for (const RsmTexel& texel : map.texels) brightest = std::max(brightest, luminance(texel.flux));
+  const float scale = brightest > 0.0f ? 1.0f / brightest : 0.0f;
+  for (std::size_t i = 0; i < map.texels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) image.pixels[3 * i + c] = scale * map.texels[i].flux[c];
+  }
+  return image;
+}
+
+}  // namespace lambent

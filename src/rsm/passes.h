@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of a gather over a mosaic, in their order; each runs on all cores and alone.
+#pragma once
+
+#include <atomic>
+#include <span>
+#include <vector>
+
+#include "lambent/rsm.h"
+#include "rsm/lights.h"
+#include "rsm/mosaic.h"
+
+namespace lambent {
+
+/// Copies the view into the mosaic, which restructures it where there is more than one sub-image,
+/// and gathers `lights` at every pixel: RsmPattern::whole. Both row by row, so that what was copied
+/// is still in the cache. Returns the rays traced for visibility.
+std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
+                           const RsmSettings& settings, Mosaic& mosaic);
+
+/// Copies the view likewise, and gathers each map's texels around every pixel's projection:
+/// RsmPattern::disk.
+void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+                  const RsmSettings& settings, Mosaic& mosaic);
+
+/// Blurs the light inside each of m x m sub-images, horizontally, then vertically.
+void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings, Mosaic& mosaic);
+
+/// Interleaves the light into a picture, rows from the top; with taps, blurs it at the
+/// picture's resolution on the way.
+void interleave(std::span<const BlurTap> taps, const RsmSettings& settings, Mosaic& mosaic,
+                std::span<glm::vec3> picture);
+
+}  // namespace lambent

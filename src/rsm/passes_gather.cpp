@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <optional>
+
+#include "core/parallel.h"
+#include "rsm/deinterleave.h"
+#include "rsm/gather.h"
+#include "rsm/passes.h"
+#include "rsm/visibility.h"
+
+namespace lambent {
+namespace {
+
+using LightPlanes = Mosaic::Light;
+
+// Rows of the picture that a task works on.
+constexpr std::size_t kRowsPerTask = 16;
+
+/// A row of a sub-image.
+struct RowOf {
+  int i, j, row;
+};
+
+/// Calls body(RowOf) for every row of every sub-image, on all cores. Rows that hold pixels of one
+/// row of the picture follow each other, so that it is read from the nearest cache.
+template <class Body>
+void for_each_row(const Mosaic& mosaic, Body body) {
+  const auto p = static_cast<std::size_t>(mosaic.sub_images());
+  const auto rows = static_cast<std::size_t>(mosaic.layout().height);
+  parallel_chunks(rows * p, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      for (std::size_t i = 0; i < p; ++i) {
+        body(RowOf{static_cast<int>(i), static_cast<int>(y % p), static_cast<int>(y / p)});
+      }
+    }
+  });
+}
+
+GatherRow gather_row(Mosaic& mosaic, const RowOf& at) {
+  return {mosaic.guide(at.i, at.j, at.row), mosaic.light(LightPlanes::current, at.i, at.j, at.row),
+          mosaic.layout().width};
+}
+
+void clear(const GatherRow& row) {
+  for (float* plane : row.light.at) std::fill(plane, plane + row.count, 0.0f);
+}
+
+/// A part of a row, `count` pixels from `first` on.
+GatherRow part_of(const GatherRow& row, int first, int count) {
+  GatherRow part = row;
+  for (int c = 0; c < 3; ++c) {
+    part.guide.position.at[c] += first;
+    part.guide.normal.at[c] += first;
+    part.light.at[c] += first;
+  }
+  part.guide.inverse_depth += first;
+  part.count = count;
+  return part;
+}
+
+/// For each row of sub-maps and each place of a row's first pixel among them: where the texels of
+/// kLanes neighbouring pixels lie, as gather_per_pixel reads it.
+struct PlaceTables {
+  PlaceTables(const RsmLights& lights, const RsmSettings& settings)
+      : sub_maps(settings.sub_maps), count(lights.count(0)) {
+    const bool scattered = settings.layout == RsmLayout::full;
+    tables.resize(static_cast<std::size_t>(sub_maps) * sub_maps * count * kLanes);
+    std::size_t next = 0;
+    for (int j = 0; j < sub_maps; ++j) {
+      for (int phase = 0; phase < sub_maps; ++phase) {
+        for (std::uint32_t k = 0; k < count; ++k) {
+          for (int l = 0; l < kLanes; ++l) {
+            const std::uint32_t at = lights.starts[sub_map_of({phase + l, j}, sub_maps)] + k;
+            tables[next++] = scattered ? lights.places[at] : at;
+          }
+        }
+      }
+    }
+  }
+  const std::uint32_t* of(int j, int phase) const {
+    return tables.data() + (static_cast<std::size_t>(j) * sub_maps + phase) * count * kLanes;
+  }
+  int sub_maps;
+  std::size_t count;
+  std::vector<std::uint32_t> tables;
+};
+
+/// Gathers a row of a picture that is not restructured: neighbours ask different sub-maps.
+void gather_mixed_row(const GatherRow& row, int y, const RsmLights& lights,
+                      const RsmSettings& settings, const PlaceTables& tables) {
+  const RsmTexel* texels =
+      settings.layout == RsmLayout::full ? lights.rendered.data() : lights.restructured.data();
+  const int n = settings.sub_maps;
+  if (kLanes % n == 0) {
+    gather_per_pixel(row, texels, tables.of(y % n, 0), tables.count);
+    return;
+  }
+  for (int x = 0; x < row.count; x += kLanes) {
+    gather_per_pixel(part_of(row, x, kLanes), texels, tables.of(y % n, x % n), tables.count);
+  }
+}
+
+std::span<const RsmTexel> sub_map(const RsmLights& lights, int index) {
+  return std::span(lights.restructured).subspan(lights.starts[index], lights.count(index));
+}
+
+}  // namespace
+
+std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
+                           const RsmSettings& settings, Mosaic& mosaic) {
+  const int p = mosaic.sub_images(), n = settings.sub_maps;
+  // Where the picture is not restructured, neighbouring pixels ask different sub-maps
+  const bool mixed = p == 1 && n > 1;
+  std::optional<PlaceTables> tables;
+  if (mixed) tables.emplace(lights, settings);
+  std::atomic<std::uint64_t> rays = 0;
+  for_each_row(mosaic, [&](const RowOf& at) {
+    mosaic.fill_row(view, at.i, at.j, at.row);
+    const GatherRow row = gather_row(mosaic, at);
+    clear(row);
+    const int sub = sub_map_of({at.i, at.j}, n);
+    if (mixed) {
+      gather_mixed_row(row, at.row, lights, settings, *tables);
+    } else if (settings.layout == RsmLayout::full) {
+      gather_scattered(row, lights.rendered.data(), lights.places);
+    } else {
+      gather_contiguous(row, sub_map(lights, sub));
+    }
+    if (settings.visibility_rays == 0) return;
+    const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
+    const std::size_t pixel = static_cast<std::size_t>(first.y) * mosaic.width() + first.x;
+    for (int x = 0; x < (mixed ? row.count : 1); ++x) {
+      const int own = mixed ? sub_map_of({x, at.row}, n) : sub;
+      rays += dim_by_visibility(world, mixed ? part_of(row, x, 1) : row, sub_map(lights, own),
+                                settings.visibility_rays, pixel + x, p, settings.seed);
+    }
+  });
+  return rays;
+}
+
+void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+                  const RsmSettings& settings, Mosaic& mosaic) {
+  const int n = settings.sub_maps, p = mosaic.sub_images();
+  const auto count = static_cast<uint>((settings.texels + n * n - 1) / (n * n) * n * n);
+  for_each_row(mosaic, [&](const RowOf& at) {
+    mosaic.fill_row(view, at.i, at.j, at.row);
+    clear(gather_row(mosaic, at));
+  });
+  for (const ReflectiveShadowMap& map : maps) {
+    const float radius = settings.disk_radius * static_cast<float>(map.resolution);
+    std::vector<DiskSample> samples(count);
+    for (uint k = 0; k < count; ++k) samples[k] = disk_sample(k, count, radius);
+    DiskGather disk;
+    disk.map = &map;
+    disk.sub_maps = n;
+    disk.restructured = settings.layout != RsmLayout::full;
+    const std::vector<RsmTexel> restructured =
+        disk.restructured ? restructure_map(map, n) : std::vector<RsmTexel>();
+    disk.texels = disk.restructured ? restructured.data() : map.texels.data();
+    disk.samples = samples;
+    disk.softening = settings.softening;
+    for_each_row(mosaic, [&](const RowOf& at) {
+      const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
+      gather_disk(gather_row(mosaic, at), disk, first.x, p, first.y % n);
+    });
+  }
+}
+
+}  // namespace lambent

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Gruen and Bavoil, "Cache-efficient processor and method of rendering indirect
+// illumination using interleaving and sub-image blur", US 9,129,443 B2, 2015. The order of the
+// passes.
+#include "lambent/rsm.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/stopwatch.h"
+#include "rsm/deinterleave.h"
+#include "rsm/lights.h"
+#include "rsm/mosaic.h"
+#include "rsm/passes.h"
+
+namespace lambent {
+namespace {
+
+constexpr int kMaxResolution = 4096, kMaxTexels = 65536, kMaxSubImages = 16, kMaxBlurRadius = 4;
+constexpr int kMaxVisibilityRays = 64, kMaxDownscale = 16;
+constexpr float kMaxDiskRadius = 2.0f, kMinSoftening = 0.01f, kMaxSoftening = 100.0f;
+
+// Distances of the taps of the irregular blur [pixels of a sub-image]: beyond the regular one's,
+// and without a common divisor, so that they do not fall into step with a pattern.
+constexpr int kIrregularDistances[] = {2, 5, 7};
+
+/// Fails where a value is not in [low, high]; written so that a NaN fails, too.
+template <class T>
+Expected<void> within(const char* name, T value, T low, T high) {
+  if (value >= low && value <= high) return {};
+  return fail("", name,
+              std::to_string(value) + " is not between " + std::to_string(low) + " and " +
+                  std::to_string(high));
+}
+
+std::vector<BlurTap> irregular_taps() {
+  std::vector<BlurTap> taps;
+  for (const int distance : kIrregularDistances) taps.push_back({distance, 1.0f});
+  return taps;
+}
+
+/// How far the blurs look [pixels of the picture].
+int blur_reach(const RsmSettings& settings) {
+  const int irregular = settings.irregular_blur ? kIrregularDistances[2] : 0;
+  const int sub_reach = settings.sub_images * std::max(settings.sub_blur_radius, irregular);
+  return std::max(sub_reach, settings.final_blur ? settings.sub_images / 2 : 0);
+}
+
+Layer layer_of(const char* name, const std::vector<glm::vec3>& pixels, int width, int height) {
+  Layer layer{name, Image(width, height, 3)};
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    for (int c = 0; c < 3; ++c) layer.image.pixels[3 * i + c] = pixels[i][c];
+  }
+  return layer;
+}
+
+/// The sub-images side by side.
+Layer mosaic_layer(const std::vector<glm::vec3>& interleaved, int width, int height,
+                   int sub_images) {
+  Layer layer{"rsm.mosaic", Image(width, height, 3)};
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const glm::ivec2 sub = sub_image_of({x, y}, sub_images);
+      const glm::ivec2 place = place_in_sub_image({x, y}, sub_images);
+      float* to = layer.image.at(sub_image_start(width, sub.x, sub_images) + place.x,
+                                 sub_image_start(height, sub.y, sub_images) + place.y);
+      const glm::vec3& from = interleaved[static_cast<std::size_t>(y) * width + x];
+      for (int c = 0; c < 3; ++c) to[c] = from[c];
+    }
+  }
+  return layer;
+}
+
+}  // namespace
+
+struct RsmGatherer::Buffers {
+  Mosaic mosaic;
+};
+
+RsmGatherer::RsmGatherer() : buffers_(std::make_unique<Buffers>()) {}
+RsmGatherer::~RsmGatherer() = default;
+RsmGatherer::RsmGatherer(RsmGatherer&&) noexcept = default;
+RsmGatherer& RsmGatherer::operator=(RsmGatherer&&) noexcept = default;
+
+Expected<void> check(const RsmSettings& s) {
+  const Expected<void> checks[] = {
+      within("resolution", s.resolution, 1, kMaxResolution),
+      within("texels", s.texels, 0, kMaxTexels),
+      within("sub_maps", s.sub_maps, 1, kMaxSubImages),
+      within("sub_images", s.sub_images, 1, kMaxSubImages),
+      within("disk_radius", s.disk_radius, std::numeric_limits<float>::min(), kMaxDiskRadius),
+      within("softening", s.softening, kMinSoftening, kMaxSoftening),
+      within("sub_blur_radius", s.sub_blur_radius, 0, kMaxBlurRadius),
+      within("plane_tolerance", s.plane_tolerance, std::numeric_limits<float>::min(), 1.0f),
+      within("visibility_rays", s.visibility_rays, 0, kMaxVisibilityRays),
+      within("downscale", s.downscale, 1, kMaxDownscale)};
+  for (const Expected<void>& fine : checks) {
+    if (!fine) return fine;
+  }
+  if (s.sub_images % s.sub_maps != 0) {
+    return fail("", "sub_images",
+                std::to_string(s.sub_images) + " is not a multiple of sub_maps, " +
+                    std::to_string(s.sub_maps) + ": some light would reach no pixel");
+  }
+  if (s.pattern == RsmPattern::disk && s.texels == 0) {
+    return fail("", "texels", "a disk needs a number of samples, not 0");
+  }
+  if (s.pattern == RsmPattern::disk && s.visibility_rays > 0) {
+    return fail("", "visibility_rays", "go with RsmPattern::whole alone");
+  }
+  return {};
+}
+
+void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap> maps,
+                         const RsmView& view, const RsmSettings& settings, RsmIrradiance& result,
+                         bool keep_stages) {
+  assert(check(settings) && view.width > 0 && view.height > 0);
+  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
+  assert(view.positions_ws.size() == pixels && view.normals_ws.size() == pixels &&
+         view.depths.size() == pixels);
+  result.width = view.width;
+  result.height = view.height;
+  result.irradiance.resize(pixels);
+  result.passes.clear();
+  result.stages.clear();
+  result.rays = 0;
+
+  Stopwatch watch;
+  const auto finish = [&](const char* name) { result.passes.push_back({name, watch.lap()}); };
+  const auto keep = [&](const char* name) {
+    if (!keep_stages) return;
+    result.stages.push_back(layer_of(name, result.irradiance, view.width, view.height));
+    watch.lap();
+  };
+  const auto keep_current = [&](const char* name) {
+    if (!keep_stages) return;
+    interleave({}, settings, buffers_->mosaic, result.irradiance);
+    keep(name);
+  };
+
+  // Choose the lights and lay them out as they will be read
+  Mosaic& mosaic = buffers_->mosaic;
+  const bool whole = settings.pattern == RsmPattern::whole;
+  const RsmLights lights = whole ? choose_lights(maps, view, settings) : RsmLights();
+  finish("rsm.choose");
+  const bool restructured = settings.layout == RsmLayout::restructured;
+  mosaic.reshape(view.width, view.height, restructured ? settings.sub_images : 1,
+                 blur_reach(settings));
+
+  if (whole) {
+    result.rays = gather_whole(world, view, lights, settings, mosaic);
+  } else {
+    gather_disks(view, maps, settings, mosaic);
+  }
+  finish("rsm.gather");
+  keep_current("rsm.gathered");
+  if (keep_stages) {
+    result.stages.push_back(
+        mosaic_layer(result.irradiance, view.width, view.height, settings.sub_images));
+  }
+
+  if (settings.sub_blur_radius > 0) {
+    blur_sub_images(box_taps(settings.sub_blur_radius), settings, mosaic);
+  }
+  if (settings.irregular_blur) blur_sub_images(irregular_taps(), settings, mosaic);
+  finish("rsm.sub_blur");
+  keep_current("rsm.interleaved");
+
+  const bool blur = settings.final_blur && settings.sub_images > 1;
+  interleave(blur ? period_taps(settings.sub_images) : std::vector<BlurTap>(), settings, mosaic,
+             result.irradiance);
+  finish("rsm.interleave");
+  keep("rsm.blurred");
+}
+
+}  // namespace lambent

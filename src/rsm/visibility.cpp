@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rsm/visibility.h"
+
+#include <vector>
+
+#include "raytracing/raytracer.h"
+#include "rsm/geometry.h"
+#include "shared/color.h"
+#include "shared/random.h"
+#include "shared/rays.h"
+
+namespace lambent {
+namespace {
+
+// Keeps these random numbers apart from those of other passes.
+constexpr uint kVisibilitySalt = 0x56495349u;
+
+Ray ray_between(const vec3& position_ws, const vec3& normal_ws, const vec3& texel_ws) {
+  Ray ray;
+  ray.origin = offset_ray_origin(position_ws, normal_ws);
+  const vec3 way = texel_ws - ray.origin;
+  const float distance = length(way);
+  if (distance > 0.0f) ray.direction = way / distance;
+  ray.t_max = distance * (1.0f - kShadowRayShortening);
+  return ray;
+}
+
+/// Draws texels for a point, stratified over what they bring, and appends the rays to them.
+void draw_rays(const vec3& position_ws, const vec3& normal_ws, std::span<const RsmTexel> texels,
+               std::vector<float>& brought, int count, RandomStream random,
+               std::vector<Ray>& rays) {
+  brought.resize(texels.size());
+  float total = 0.0f;
+  for (std::size_t k = 0; k < texels.size(); ++k) {
+    const RsmTexel& t = texels[k];
+    total += luminance(t.flux) *
+             bounded_geometry_term(position_ws, normal_ws, t.position_ws, t.normal_ws, t.softening);
+    brought[k] = total;
+  }
+  if (!(total > 0.0f)) return;
+  const float shift = next_uniform(random);
+  std::size_t k = 0;
+  for (int i = 0; i < count; ++i) {
+    const float wanted = total * (static_cast<float>(i) + shift) / static_cast<float>(count);
+    while (k + 1 < texels.size() && brought[k] <= wanted) ++k;
+    rays.push_back(ray_between(position_ws, normal_ws, texels[k].position_ws));
+  }
+}
+
+}  // namespace
+
+std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
+                                std::span<const RsmTexel> texels, int rays, std::size_t first_pixel,
+                                std::size_t pixel_step, std::uint32_t seed) {
+  std::vector<Ray> asked;
+  std::vector<int> pixels;
+  std::vector<float> brought;
+  const auto at = [](const ConstPlanes3& planes, int x) {
+    return vec3(planes.at[0][x], planes.at[1][x], planes.at[2][x]);
+  };
+  for (int x = 0; x < row.count; ++x) {
+    const vec3 normal = at(row.guide.normal, x);
+    if (normal == vec3(0.0f)) continue;
+    const std::size_t before = asked.size();
+    const auto pixel = static_cast<uint>(first_pixel + x * pixel_step);
+    draw_rays(at(row.guide.position, x), normal, texels, brought, rays,
+              make_random_stream(pixel, kVisibilitySalt, seed), asked);
+    if (asked.size() > before) pixels.push_back(x);
+  }
+  std::vector<std::uint8_t> occluded(asked.size());
+  world.tracer().occlusions(asked, occluded);
+  const auto per_pixel = static_cast<std::size_t>(rays);
+  for (std::size_t p = 0; p < pixels.size(); ++p) {
+    int arrived = 0;
+    for (std::size_t i = p * per_pixel; i < (p + 1) * per_pixel; ++i) arrived += 1 - occluded[i];
+    const float share = static_cast<float>(arrived) / static_cast<float>(rays);
+    for (int c = 0; c < 3; ++c) row.light.at[c][pixels[p]] *= share;
+  }
+  return asked.size();
+}
+
+}  // namespace lambent

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Eisemann and Durand, "Flash Photography Enhancement via Intrinsic Relighting", SIGGRAPH
+// 2004 (cross, or joint, bilateral filter). How much a neighbouring pixel counts in a blur that
+// keeps the edges of the scene.
+#ifndef LAMBENT_SHARED_CROSS_BILATERAL_H
+#define LAMBENT_SHARED_CROSS_BILATERAL_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+/// Weight, 0 to 1, of a pixel for another one. `offset` leads from the other one's point to its
+/// own; `inverse_tolerance` is one over the distance [1/m] from the other one's plane at which it
+/// counts for nothing. The plane, not depth alone: a floor seen at a grazing angle is one surface.
+/// The 64th power of the cosine halves the weight at 8 degrees: light on bumps differs that much.
+/// Pixels that see nothing have a normal of 0 and count for nothing.
+LAMBENT_FN float cross_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
+                                        float inverse_tolerance) {
+  float cosine = max(0.0f, dot(normal, other_normal));
+  float square = cosine * cosine;
+  float fourth = square * square;
+  float beyond = dot(normal, offset) * inverse_tolerance;
+  float sixteenth = (fourth * fourth) * (fourth * fourth);
+  float power = (sixteenth * sixteenth) * (sixteenth * sixteenth);
+  return power * max(0.0f, 1.0f - beyond * beyond);
+}
+
+LAMBENT_END
+#endif

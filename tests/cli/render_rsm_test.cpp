@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "lambent/image.h"
+#include "support/program.h"
+#include "support/temporary_directory.h"
+
+namespace lambent {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::ProgramResult;
+using testing::run_program;
+
+class RenderRsm : public ::testing::Test {
+ protected:
+  ProgramResult render(const std::string& arguments) const {
+    return run_program("render " + arguments + " -o " + exr);
+  }
+  double mean(const std::string& layer) const {
+    const auto image = read_image(exr);
+    double sum = 0.0;
+    for (const float value : image->find(layer)->pixels) sum += value;
+    return sum / static_cast<double>(image->find(layer)->pixels.size());
+  }
+  testing::TemporaryDirectory directory;
+  std::string exr = directory.file("out.exr");
+};
+
+TEST_F(RenderRsm, KeepsALayerOfEachStage) {
+  const ProgramResult result =
+      render("cornell-spot --method rsm --rsm-size 64 --size 37x23 --samples 1 --layers");
+  ASSERT_EQ(result.status, 0) << result.errors;
+  const auto image = read_image(exr);
+  ASSERT_TRUE(image) << image.error().message();
+  for (const char* name :
+       {"rsm.flux", "rsm.mosaic", "rsm.gathered", "rsm.interleaved", "rsm.blurred"}) {
+    ASSERT_NE(image->find(name), nullptr) << name;
+    EXPECT_GT(mean(name), 0.0) << name;
+  }
+  EXPECT_GT(mean("indirect"), 0.0);
+}
+
+TEST_F(RenderRsm, RendersOddSizesPatternsLayoutsAndScales) {
+  for (const std::string options :
+       {"--size 1x1", "--size 5x3 --sub-images 16 --sub-maps 8", "--size 33x17 --rsm-downscale 3",
+        "--size 16x16 --rsm-pattern disk --rsm-radius 1", "--size 16x16 --rsm-layout full",
+        "--size 16x16 --rsm-layout sub-maps --sub-blur 0", "--size 16x16 --rsm-from-camera",
+        "--size 16x16 --rsm-visibility 2 --irregular-blur", "--size 16x16 --rsm-texels 0"}) {
+    const ProgramResult result =
+        render("cornell-spot --method rsm --rsm-size 32 --samples 1 --layers " + options);
+    ASSERT_EQ(result.status, 0) << options << ": " << result.errors;
+    EXPECT_GE(mean("indirect"), 0.0) << options;
+  }
+}
+
+TEST_F(RenderRsm, IsBlackWhereNoLightIsWithoutExtent) {
+  ASSERT_EQ(render("cornell --method rsm --size 16x16 --samples 1 --layers").status, 0);
+  EXPECT_EQ(mean("indirect"), 0.0);
+  EXPECT_GT(mean("direct"), 0.0);
+}
+
+TEST_F(RenderRsm, WithTheFieldBringsTheLightOfLaterBounces) {
+  const std::string common = "cornell-spot --size 24x24 --samples 1 --layers ";
+  ASSERT_EQ(render(common + "--method rsm --rsm-visibility 4").status, 0);
+  const double first_bounce = mean("indirect");
+  const std::string field = "--probes 6x6x6 --rays 64 --updates 4 ";
+  ASSERT_EQ(render(common + field + "--method field").status, 0);
+  const double all = mean("indirect");
+  ASSERT_EQ(render(common + field + "--method rsm+field --rsm-visibility 4").status, 0);
+  EXPECT_GT(mean("indirect"), 1.2 * first_bounce);
+  EXPECT_NEAR(mean("indirect") / all, 1.0, 0.1);  // nothing is counted twice
+}
+
+TEST_F(RenderRsm, WithTheFieldCountsEmissionOnce) {
+  const std::string common = "cornell --size 16x16 --samples 1 --layers --probes 6x6x6 --rays 64 ";
+  ASSERT_EQ(render(common + "--method field").status, 0);
+  const double all = mean("indirect");
+  ASSERT_EQ(render(common + "--method rsm+field").status, 0);
+  EXPECT_NEAR(mean("indirect") / all, 1.0, 1e-4);
+}
+
+struct BadUse {
+  const char* arguments;
+  const char* named;
+};
+
+TEST_F(RenderRsm, RefusesWhatMakesNoSenseAndSaysWhy) {
+  for (const BadUse& use : {BadUse{"--method field --rsm-size 64", "--rsm-size"},
+                            BadUse{"--method rsm --rsm-size 0", "resolution"},
+                            BadUse{"--method rsm --rsm-size 100000", "resolution"},
+                            BadUse{"--method rsm --rsm-texels 1000000000", "texels"},
+                            BadUse{"--method rsm --sub-images 4 --sub-maps 3", "sub_maps"},
+                            BadUse{"--method rsm --probes 4x4x4", "--probes"},
+                            BadUse{"--method rsm --bounces 2", "--bounces"},
+                            BadUse{"--method rsm+field --gather 4", "--gather"},
+                            BadUse{"--method rsm+field --rsm-from-camera", "--rsm-from-camera"},
+                            BadUse{"--method rsm --rsm-pattern square", "--rsm-pattern"},
+                            BadUse{"--method rsm --rsm-pattern disk --rsm-texels 0", "texels"}}) {
+    const ProgramResult result = render(std::string("cornell-spot --size 8x8 ") + use.arguments);
+    EXPECT_EQ(result.status, 2) << use.arguments;
+    EXPECT_THAT(result.errors, HasSubstr(use.named)) << use.arguments;
+  }
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
+}  // namespace
+}  // namespace lambent
