@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looking the field up at every pixel of a picture, beside tracing as many primary rays.
+#include <atomic>
+#include <numeric>
+
 #include "bench/workload.h"
+#include "core/parallel.h"
+#include "field/visibility.h"
 
 namespace lambent::bench {
 namespace {
 
 constexpr int kRepetitions = 31;
+constexpr std::size_t kQueriesPerTask = 4096;
 
 void lookup(benchmark::State& state) {
   const Workload& work = workload();
@@ -30,6 +36,45 @@ void lookup(benchmark::State& state) {
 }
 
 BENCHMARK(lookup)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+
+/// The same with rays where distances are in doubt, beside the plain lookup.
+void lookup_hybrid(benchmark::State& state) {
+  const Workload& work = workload();
+  const ProbeStore& store = work.field.store();
+  const RayTracer& tracer = work.world.tracer();
+  std::vector<int> probes(store.probes());
+  std::iota(probes.begin(), probes.end(), 0);
+  ProbeSights sights(store.grid());
+  sights.look(tracer, store, probes);
+  const std::vector<FieldQuery> queries = pixel_queries(work);
+  std::vector<glm::vec3> irradiance(queries.size());
+  std::atomic<std::uint64_t> rays = 0;
+  const auto look_up = [&](Visibility mode) {
+    return time_ms([&] {
+      parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
+        rays += visible_irradiance(store, {mode, &tracer, &sights},
+                                   std::span(queries).subspan(begin, end - begin),
+                                   std::span(irradiance).subspan(begin, end - begin));
+      });
+    });
+  };
+  Median hybrid_ms, ratio;
+  for (auto _ : state) {
+    const double before = look_up(Visibility::moments);
+    rays = 0;
+    const double elapsed = look_up(Visibility::hybrid);
+    const double plain = 0.5 * (before + look_up(Visibility::moments));
+    state.SetIterationTime(elapsed * 1e-3);
+    hybrid_ms.add(elapsed);
+    ratio.add(elapsed / plain);
+  }
+  state.counters["median_ms"] = hybrid_ms.value();
+  state.counters["ratio_to_moments"] = ratio.value();
+  state.counters["rays_per_lookup"] =
+      static_cast<double>(rays) / static_cast<double>(queries.size());
+}
+
+BENCHMARK(lookup_hybrid)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace lambent::bench

@@ -39,7 +39,7 @@ void find_lookups(benchmark::State& state) {
   Median ms;
   for (auto _ : state) {
     const double elapsed =
-        time_ms([&] { find_surfel_lookups(work.field.store(), traced.probes, traces); });
+        time_ms([&] { find_surfel_lookups(work.field.store(), {}, traced.probes, traces); });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
   }

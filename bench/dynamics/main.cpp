@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "\n");
     return 2;
   }
+  // Rows take minutes: each line is to be seen when it is there
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);
   try {
     for (int i = 1; i < argc; ++i) {
       const auto row = rows.find(argv[i]);

@@ -32,6 +32,13 @@ enum class DistanceFormat : std::uint8_t {
   rg32f,  ///< 8 bytes a texel, for verification.
 };
 
+/// How a lookup finds which of the eight probes around a point it sees.
+enum class Visibility : std::uint8_t {
+  moments,  ///< From the probes' distances. The default; no rays.
+  hybrid,   ///< Likewise, and by a ray where these are in doubt and the probe matters.
+  exact,    ///< By a ray to each probe that could count.
+};
+
 /// Settings of an irradiance field. All have a sensible default.
 struct FieldSettings {
   /// Probes along each axis, each >= 2, or all 0: as many as `probe_spacing` asks for.
@@ -62,6 +69,12 @@ struct FieldSettings {
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
   /// How distances are stored, likewise.
   DistanceFormat distance_format = DistanceFormat::rg16f;
+
+  /// Moves probes off the grid by at most 45 % of a cell: out of solid matter, and to just in front
+  /// of the surfaces near them.
+  bool relocation = true;
+  /// How lookups find which probes they see, at surfels and, where a world is given, at queries.
+  Visibility visibility = Visibility::moments;
 
   /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
   /// share of it, 1e-7 to 1. Ten times less costs a few iterations more; under some 1e-6
@@ -167,7 +180,9 @@ class IrradianceField {
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
   /// what lights and emissive surfaces send straight. Both spans have the same length. Queries
   /// outside the grid are answered by its nearest probes. Runs on all cores.
-  void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result) const;
+  /// `world` is what FieldSettings::visibility traces rays in; null: visibility is by distances.
+  void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
+                  const World* world = nullptr) const;
 
   const FieldGrid& grid() const;
   const FieldSettings& settings() const;

@@ -68,8 +68,8 @@ class PassTimer {
 
 /// Irradiance of the field at each pixel, on a surface that faces along normal(pixel).
 template <class Normal>
-void look_up(const IrradianceField& field, const GBuffer& gbuffer, Normal normal,
-             std::vector<vec3>& irradiance) {
+void look_up(const World& world, const IrradianceField& field, const GBuffer& gbuffer,
+             Normal normal, std::vector<vec3>& irradiance) {
   std::vector<FieldQuery> queries(gbuffer.size());
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -78,7 +78,7 @@ void look_up(const IrradianceField& field, const GBuffer& gbuffer, Normal normal
     }
   });
   irradiance.resize(gbuffer.size());
-  field.irradiance(queries, irradiance);
+  field.irradiance(queries, irradiance, &world);
 }
 
 /// Everything that one sample of one band brings.
@@ -161,12 +161,12 @@ RenderedFrame render_frame(const World& world, const IrradianceField* field, con
               gather_irradiance(world, *field, gbuffer, settings, band, sample, light.irradiance);
         } else {
           look_up(
-              *field, gbuffer, [&](std::size_t i) { return gbuffer.surfaces[i].normal_ws; },
+              world, *field, gbuffer, [&](std::size_t i) { return gbuffer.surfaces[i].normal_ws; },
               light.irradiance);
         }
         timer.finish("indirect");
         look_up(
-            *field, gbuffer,
+            world, *field, gbuffer,
             [&](std::size_t i) {
               return reflect(-gbuffer.to_viewer_ws[i], gbuffer.surfaces[i].normal_ws);
             },

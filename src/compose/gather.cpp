@@ -79,7 +79,7 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
     for (std::size_t i = 0; i < rays.size(); ++i) {
       queries[i] = {shaded[i].position_ws, shaded[i].normal_ws, -rays[i].direction};
     }
-    field.irradiance(queries, from_field);
+    field.irradiance(queries, from_field, &world);
 
     // Rays are drawn in proportion to the cosine: irradiance is pi times their mean radiance
     const float weight = kPi / static_cast<float>(rays_per_pixel);

@@ -17,10 +17,6 @@ constexpr std::size_t kProbesPerTask = 16;
 // probe inside something trusts its surroundings little. JCGT 10(2) 2021, sec. 4.
 constexpr float kBackFaceDistanceShare = 0.2f;
 
-// A probe that sees more back faces than this share of its rays stands in solid matter and is to
-// light nothing. JCGT 10(2) 2021, sec. 4.
-constexpr float kMaxBackFaceShare = 0.25f;
-
 bool is_back_face(const Scene& scene, const Hit& hit) {
   if (hit.missed() || hit.front_face) return false;
   return !scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;

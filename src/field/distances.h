@@ -17,6 +17,10 @@ namespace lambent {
 /// against 9.1 %); 200 gains nothing.
 inline constexpr float kDistanceExponent = 100.0f;
 
+/// A probe that sees more back faces than this share of its rays stands in solid matter and is to
+/// light nothing. JCGT 10(2) 2021, sec. 4.
+inline constexpr float kMaxBackFaceShare = 0.25f;
+
 /// How far a ray saw.
 struct SeenDistance {
   float distance;  ///< [m]; infinite: the ray left the scene.

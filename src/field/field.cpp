@@ -45,6 +45,8 @@ IrradianceField::State::State(const FieldSettings& field_settings, const FieldGr
       tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
       traces(store.probes()),
       records(store.probes()),
+      sights(store.grid()),
+      reaches(store.probes()),
       light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {}
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -66,17 +68,21 @@ void IrradianceField::reset() {
   std::fill(s.light.begin(), s.light.end(), vec4(0.0f));
   std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
   std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
+  std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
+  s.sights = ProbeSights(s.store.grid());
   s.edits = {};
   s.followed_last = false;
   s.updates = 0;
 }
 
-void IrradianceField::irradiance(std::span<const FieldQuery> queries,
-                                 std::span<glm::vec3> result) const {
+void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
+                                 const World* world) const {
   assert(queries.size() == result.size());
+  const State& s = *state_;
+  const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    lookup_irradiance(state_->store, queries.subspan(begin, end - begin),
-                      result.subspan(begin, end - begin));
+    visible_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
+                       queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
   });
 }
 

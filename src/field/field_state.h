@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "field/blend.h"
+#include "field/classify.h"
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
@@ -39,7 +40,9 @@ struct IrradianceField::State {
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
   std::vector<ProbeRecord> records;
-  WorkingIrradiance light;  ///< That the store holds, before it was encoded.
+  ProbeSights sights;               ///< Kept for hybrid visibility alone.
+  std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
+  WorkingIrradiance light;          ///< That the store holds, before it was encoded.
   OpenEdits edits;
   RayCost ray_cost;
   int updates = 0;
@@ -56,6 +59,15 @@ struct IrradianceField::State {
     return {store.grid(), traces, probes, tile_fit, settings.irradiance_texels};
   }
 
+  /// Moves probes to where they are needed and finds what they reach. Those that moved forget all.
+  void place(const World& world, std::span<const int> probes);
+  void find_reaches(const World& world, std::span<const int> probes);
+  /// Says what each probe is for, with what moves where it is now.
+  void classify(const World& world);
+  VisibilityRays visibility(const World& world) const {
+    return {settings.visibility, &world.tracer(), &sights};
+  }
+
   /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
   Followed follow(const World& world, std::uint64_t ray_budget,
                   const std::optional<vec3>& viewer_ws, UpdateStatistics& statistics);
@@ -69,8 +81,8 @@ struct IrradianceField::State {
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
-  /// Takes over what a file holds. The world is at `revision`.
-  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, std::uint64_t revision);
+  /// Takes over what a file holds.
+  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, const World& world);
 };
 
 }  // namespace lambent

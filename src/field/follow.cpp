@@ -272,7 +272,7 @@ std::vector<int> readers_of(std::span<const int> moved, std::span<const int> oth
 
 FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> changes,
                            const FieldSettings& settings, std::span<const int> probes,
-                           std::span<const int> all, ProbeStore& store,
+                           std::span<const int> all, const VisibilityRays& by, ProbeStore& store,
                            std::span<ProbeTrace> traces, uint salt) {
   const Edits edits(world, changes);
   const std::size_t tasks = (probes.size() + kProbesPerTask - 1) / kProbesPerTask;
@@ -307,8 +307,8 @@ FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> cha
   move_distances(settings, moved, traces, salt, store);
   for (const MovedProbe& probe : moved) result.moved.push_back(probe.probe);
   if (!other_surfaces.empty()) {
-    find_surfel_lookups(store, readers_of(result.moved, other_surfaces, all, store, traces),
-                        traces);
+    result.shadow_rays += find_surfel_lookups(
+        store, by, readers_of(result.moved, other_surfaces, all, store, traces), traces);
   }
   return result;
 }

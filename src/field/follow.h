@@ -30,7 +30,7 @@ struct FollowedEdits {
 /// of a probe that they read changed.
 FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> changes,
                            const FieldSettings& settings, std::span<const int> probes,
-                           std::span<const int> all, ProbeStore& store,
+                           std::span<const int> all, const VisibilityRays& by, ProbeStore& store,
                            std::span<ProbeTrace> traces, uint salt);
 
 }  // namespace lambent

@@ -19,6 +19,12 @@ const float kViewBias = 0.8f;
 const float kBiasScale = 0.75f;
 const float kBias = 0.3f;
 
+// Probes behind a surface count less the farther behind, and nothing from this negative cosine on.
+// Published: 1 (JCGT 8(2) 2019). Where probes stand just in front of both sides of a thin wall,
+// those of the other side then count too much: behind a closed wall, 1.0 % of the open door's
+// light, against 0.14 %; less costs accuracy.
+const float kWrapCosine = 0.5f;
+
 // Weights below this fall off with the cube, so that nearly hidden probes fade out rather than
 // leak.
 const float kCrushThreshold = 0.2f;
@@ -49,18 +55,28 @@ LAMBENT_FN float chebyshev_visibility(vec2 moments, float dist) {
   return bound * bound * bound;
 }
 
-/// Weight of a probe before trilinear interpolation. `cos_probe` is the cosine between the surface
-/// normal and the direction from the surface to the probe. A probe inside solid matter holds a mean
-/// distance of 0: it knows nothing of light and counts for nothing, even where the others are
+/// Weight of a probe by its side of the surface: 1 straight in front, falling off smoothly.
+/// `cos_probe` is the cosine between the surface normal and the direction to the probe. The
+/// published weight adds a floor of 0.2, which lets light through sheets and costs accuracy.
+LAMBENT_FN float wrap_weight(float cos_probe) {
+  float wrap = max(0.0f, (cos_probe + kWrapCosine) / (1.0f + kWrapCosine));
+  return wrap * wrap;
+}
+
+/// Weight of a probe before trilinear interpolation, from its weight by its side of the surface and
+/// from its visibility.
+LAMBENT_FN float combined_weight(float wrap, float visibility) {
+  float weight = wrap * visibility;
+  if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
+  return max(weight, kMinVisibilityWeight);
+}
+
+/// The same from the cosine as above and the stored distances. A probe inside solid matter holds a
+/// mean distance of 0: it knows nothing of light and counts for nothing, even where the others are
 /// hidden.
 LAMBENT_FN float probe_weight(float cos_probe, vec2 moments, float dist) {
-  // Probes behind the surface count less, smoothly. The published weight adds a floor of 0.2, which
-  // lets light through sheets and costs accuracy: without it the relative RMSE of cornell falls
-  // from 0.075 to 0.068.
-  float wrap = 0.5f * (cos_probe + 1.0f);
-  float weight = wrap * wrap * chebyshev_visibility(moments, dist);
-  if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
-  return moments.x > 0.0f ? max(weight, kMinVisibilityWeight) : 0.0f;
+  float weight = combined_weight(wrap_weight(cos_probe), chebyshev_visibility(moments, dist));
+  return moments.x > 0.0f ? weight : 0.0f;
 }
 
 LAMBENT_END

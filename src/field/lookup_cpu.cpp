@@ -108,8 +108,7 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
     const float length_squared = tx * tx + ty * ty + tz * tz;
     const float along = tx * normal.x + ty * normal.y + tz * normal.z;
     const float cosine = along / std::sqrt(std::max(kMinLengthSquared, length_squared));
-    const float wrap = 0.5f * (cosine + 1.0f);
-    fetch.wrap[k] = wrap * wrap;
+    fetch.wrap[k] = wrap_weight(cosine);
 
     // Find the texel, and the share of its neighbours, of the direction from the probe
     const float x = biased.x - px, y = biased.y - py, z = biased.z - pz;
@@ -136,12 +135,11 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
   }
 }
 
-/// Second half: interpolate the moments, bound the visibility and weigh the corners.
+/// Second half: interpolate the moments and bound the visibility ...
 template <DistanceFormat format>
-LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetch,
-                                        CornerWeights& __restrict result) {
+LAMBENT_FORCE_INLINE void see_corners(const Tables& t, const CornerFetch& fetch,
+                                      float* __restrict visibility, float* __restrict known) {
   const int width = t.distance_texels + 2;
-  float weight[kCorners];
   for (int k = 0; k < kCorners; ++k) {
     float m00, m10, m01, m11, s00, s10, s01, s11;
     decode_moments<format>(t.distance_words, fetch.texel[k], m00, s00);
@@ -155,13 +153,23 @@ LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetc
     const float variance = std::fabs(square - mean * mean);
     const float beyond = fetch.dist[k] - mean;
     const float bound = variance / (variance + beyond * beyond + kTiniestSquare);
-    const float visibility = beyond <= 0.0f ? 1.0f : bound * bound * bound;
+    visibility[k] = beyond <= 0.0f ? 1.0f : bound * bound * bound;
+    known[k] = mean > 0.0f ? 1.0f : 0.0f;
+  }
+}
 
-    const float raw = fetch.wrap[k] * visibility;
+/// ... and weigh the corners.
+template <DistanceFormat format>
+LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetch,
+                                        CornerWeights& __restrict result) {
+  float weight[kCorners], visibility[kCorners], known[kCorners];
+  see_corners<format>(t, fetch, visibility, known);
+  for (int k = 0; k < kCorners; ++k) {
+    const float raw = fetch.wrap[k] * visibility[k];
     const float crushed = raw * raw * raw * (1.0f / (kCrushThreshold * kCrushThreshold));
     const float chosen = raw < kCrushThreshold ? crushed : raw;
     const float floored = chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight;
-    weight[k] = mean > 0.0f ? floored * fetch.trilinear[k] : 0.0f;
+    weight[k] = known[k] * floored * fetch.trilinear[k];
   }
   float sum = 0.0f;
   for (int k = 0; k < kCorners; ++k) sum += weight[k];
@@ -170,11 +178,29 @@ LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetc
   for (int k = 0; k < kCorners; ++k) result.weight[k] = weight[k] * normalisation;
 }
 
+template <DistanceFormat format>
+LAMBENT_FORCE_INLINE void finish_corners(const Tables& t, const CornerFetch& fetch,
+                                         CornerWeights& __restrict result) {
+  weigh_corners<format>(t, fetch, result);
+}
+
+template <DistanceFormat format>
+LAMBENT_FORCE_INLINE void finish_corners(const Tables& t, const CornerFetch& fetch,
+                                         CornerTerms& __restrict result) {
+  float known[kCorners];
+  see_corners<format>(t, fetch, result.visibility, known);
+  result.base = fetch.base;
+  for (int k = 0; k < kCorners; ++k) {
+    result.trilinear[k] = fetch.trilinear[k];
+    result.wrap[k] = known[k] * fetch.wrap[k];
+  }
+}
+
 /// Both halves for a few queries at a time, so that the reads of one overlap with the work of
 /// others.
-template <DistanceFormat format>
-LAMBENT_FORCE_INLINE void weigh_all(const Tables& t, const FieldQuery* queries,
-                                    CornerWeights* result, std::size_t count) {
+template <DistanceFormat format, class Result>
+LAMBENT_FORCE_INLINE void weigh_all(const Tables& t, const FieldQuery* queries, Result* result,
+                                    std::size_t count) {
   constexpr std::size_t kAhead = 16;
   constexpr std::ptrdiff_t kWords = format == DistanceFormat::rg16f ? 1 : 2;
   CornerFetch fetches[kAhead];
@@ -183,7 +209,9 @@ LAMBENT_FORCE_INLINE void weigh_all(const Tables& t, const FieldQuery* queries,
     for (std::size_t i = 0; i < batch; ++i) {
       locate_corners<kWords>(t, queries[first + i], fetches[i]);
     }
-    for (std::size_t i = 0; i < batch; ++i) weigh_corners<format>(t, fetches[i], result[first + i]);
+    for (std::size_t i = 0; i < batch; ++i) {
+      finish_corners<format>(t, fetches[i], result[first + i]);
+    }
   }
 }
 
@@ -194,6 +222,16 @@ LAMBENT_SIMD_CLONES void weigh_all_rg16f(const Tables& t, const FieldQuery* quer
 
 LAMBENT_SIMD_CLONES void weigh_all_rg32f(const Tables& t, const FieldQuery* queries,
                                          CornerWeights* result, std::size_t count) {
+  weigh_all<DistanceFormat::rg32f>(t, queries, result, count);
+}
+
+LAMBENT_SIMD_CLONES void terms_of_all_rg16f(const Tables& t, const FieldQuery* queries,
+                                            CornerTerms* result, std::size_t count) {
+  weigh_all<DistanceFormat::rg16f>(t, queries, result, count);
+}
+
+LAMBENT_SIMD_CLONES void terms_of_all_rg32f(const Tables& t, const FieldQuery* queries,
+                                            CornerTerms* result, std::size_t count) {
   weigh_all<DistanceFormat::rg32f>(t, queries, result, count);
 }
 
@@ -292,28 +330,41 @@ void corner_weights(const ProbeStore& store, std::span<const FieldQuery> queries
   weigh(tables, queries.data(), result.data(), queries.size());
 }
 
+void corner_terms(const ProbeStore& store, std::span<const FieldQuery> queries,
+                  std::span<CornerTerms> result) {
+  assert(queries.size() == result.size());
+  const Tables tables(store);
+  const auto all =
+      store.distance_format() == DistanceFormat::rg16f ? terms_of_all_rg16f : terms_of_all_rg32f;
+  all(tables, queries.data(), result.data(), queries.size());
+}
+
+void weighted_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
+                         std::span<const CornerWeights> weights, std::span<vec3> result) {
+  assert(queries.size() == result.size() && weights.size() == result.size());
+  const Tables tables(store);
+  switch (store.irradiance_format()) {
+    case IrradianceFormat::rgb9e5:
+      return gather_rgb9e5(tables, queries.data(), weights.data(), result.data(), result.size());
+    case IrradianceFormat::r11g11b10f:
+      return gather_r11g11b10f(tables, queries.data(), weights.data(), result.data(),
+                               result.size());
+    case IrradianceFormat::float32:
+      return gather_float32(tables, queries.data(), weights.data(), result.data(), result.size());
+  }
+}
+
 void lookup_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
                        std::span<vec3> result) {
   assert(queries.size() == result.size());
   // Small batches keep the weights between the two kernels in the first-level cache.
   constexpr std::size_t kBatch = 256;
   CornerWeights weights[kBatch];
-  const Tables tables(store);
   for (std::size_t first = 0; first < queries.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, queries.size() - first);
-    const FieldQuery* batch = queries.data() + first;
-    corner_weights(store, {batch, count}, {weights, count});
-    switch (store.irradiance_format()) {
-      case IrradianceFormat::rgb9e5:
-        gather_rgb9e5(tables, batch, weights, &result[first], count);
-        break;
-      case IrradianceFormat::r11g11b10f:
-        gather_r11g11b10f(tables, batch, weights, &result[first], count);
-        break;
-      case IrradianceFormat::float32:
-        gather_float32(tables, batch, weights, &result[first], count);
-        break;
-    }
+    const std::span<const FieldQuery> batch = queries.subspan(first, count);
+    corner_weights(store, batch, {weights, count});
+    weighted_irradiance(store, batch, {weights, count}, result.subspan(first, count));
   }
 }
 

@@ -27,6 +27,22 @@ CornerOffsets corner_offsets(const ProbeGrid& grid);
 void corner_weights(const ProbeStore& store, std::span<const FieldQuery> queries,
                     std::span<CornerWeights> result);
 
+/// What makes up the weights of a point's corners.
+struct CornerTerms {
+  int base;
+  float trilinear[8];
+  float wrap[8];        ///< By the probe's side of the surface, 0 to 1; 0 in solid matter.
+  float visibility[8];  ///< By the stored distances, 0 to 1.
+};
+
+/// The same weights in parts.
+void corner_terms(const ProbeStore& store, std::span<const FieldQuery> queries,
+                  std::span<CornerTerms> result);
+
+/// Irradiance for each query, given the weights of its corners.
+void weighted_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
+                         std::span<const CornerWeights> weights, std::span<vec3> result);
+
 /// Irradiance for each query, from stored distances and irradiance. Single-threaded.
 void lookup_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
                        std::span<vec3> result);

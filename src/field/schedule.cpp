@@ -32,7 +32,9 @@ constexpr double kCostShare = 0.2;
 constexpr double kFirstGuessMs = 1e-3;
 
 bool is_live(const ProbeRecord& record) {
-  return record.state != ProbeState::off && record.state != ProbeState::sleeping;
+  if (record.state == ProbeState::off) return false;
+  // Points in open air may be asked about: a sleeping probe is traced once
+  return record.state != ProbeState::sleeping || record.served == 0;
 }
 
 int class_for(float rays) {

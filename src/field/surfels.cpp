@@ -105,9 +105,10 @@ std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const T
   return shadow_rays;
 }
 
-void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
-                         std::span<ProbeTrace> traces) {
+std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
+                                  std::span<const int> probes, std::span<ProbeTrace> traces) {
   const int texels = store.irradiance_texels();
+  std::atomic<std::uint64_t> rays = 0;
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     struct Place {
       int probe;
@@ -136,7 +137,7 @@ void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
       }
     }
     std::vector<CornerWeights> weights(queries.size());
-    corner_weights(store, queries, weights);
+    rays += visible_corner_weights(store, by, queries, weights);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
       traces[reflecting[i].probe].lookups[reflecting[i].ray] = {
@@ -144,6 +145,7 @@ void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
           fetch.fraction.x, fetch.fraction.y};
     }
   });
+  return rays;
 }
 
 }  // namespace lambent

@@ -11,6 +11,7 @@
 #include "field/blend.h"
 #include "field/lookup_cpu.h"
 #include "field/probe_store.h"
+#include "field/visibility.h"
 #include "lambent/field.h"
 #include "raytracing/shade_hits.h"
 
@@ -93,8 +94,8 @@ std::size_t first_ray_index(int probe);
 std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
                             const FieldSettings& settings, std::span<ProbeTrace> traces);
 
-/// Finds the lookups of the probes' surfels from the stored distances.
-void find_surfel_lookups(const ProbeStore& store, std::span<const int> probes,
-                         std::span<ProbeTrace> traces);
+/// Finds the lookups of the probes' surfels. Returns the rays that their visibility took.
+std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
+                                  std::span<const int> probes, std::span<ProbeTrace> traces);
 
 }  // namespace lambent

@@ -3,6 +3,7 @@
 // al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
 // The order of an update of the irradiance field.
 #include <algorithm>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -74,7 +75,10 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   for (const TraceGroup& group : groups) {
     statistics.shadow_rays += shade_surfels(world, store, group, settings, traces);
   }
-  find_surfel_lookups(store, probes, traces);
+  if (settings.visibility == Visibility::hybrid) {
+    statistics.shadow_rays += sights.look(world.tracer(), store, probes);
+  }
+  statistics.shadow_rays += find_surfel_lookups(store, visibility(world), probes, traces);
   statistics.shade_ms += watch.lap();
 
   // Solve for all bounces, starting from the light that is there
@@ -102,6 +106,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     learn_noise(square / (shares[k] * shares[k]), weights[k], record);
     record.samples = min(record.samples, longest);
     record.served = static_cast<std::uint32_t>(updates) + 1;
+    record.state = state_once_traced(record.state);
     record.revision = world.revision();
   }
   if (!probes.empty()) {
@@ -120,6 +125,13 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     const std::uint64_t learned = s.ray_cost.rays_within(request.time_budget_ms);
     budget = budget == 0 ? learned : std::min(budget, learned);
   }
+
+  if (s.updates == 0) {
+    std::vector<int> all(s.records.size());
+    std::iota(all.begin(), all.end(), 0);
+    s.place(world, all);
+  }
+  s.classify(world);
 
   const Followed followed = s.follow(world, budget, request.viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;

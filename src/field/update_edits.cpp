@@ -98,7 +98,7 @@ void IrradianceField::State::follow_slice(const World& world, std::span<const Wo
   const WorkingIrradiance held = light_of(light, probes, texels);
   const WorkingIrradiance direct_before = direct_of(transport(probes), held);
   const FollowedEdits followed =
-      follow_edits(world, changes, settings, probes, all, store, traces, salt());
+      follow_edits(world, changes, settings, probes, all, visibility(world), store, traces, salt());
   statistics.probe_rays += followed.probe_rays;
   statistics.shadow_rays += followed.shadow_rays;
   statistics.probes_followed += static_cast<int>(probes.size());

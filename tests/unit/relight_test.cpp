@@ -35,7 +35,7 @@ class Transport {
     trace_probe_rays(stage.world.tracer(), store_, group_);
     blend_distances(stage.scene, distance_blend, group_, all(), 0u, store_);
     shade_surfels(stage.world, store_, group_, settings, traces_);
-    find_surfel_lookups(store_, group_.probes, traces_);
+    find_surfel_lookups(store_, {}, group_.probes, traces_);
   }
 
   TransportOperator make_operator() const { return make_operator(group_.probes); }

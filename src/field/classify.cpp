@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Majercik et al., "Scaling Probe-Based Real-Time Dynamic Global Illumination for
+// Production", JCGT 10(2), 2021, sec. 5.
+#include "field/classify.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "field/lookup.h"
+
+namespace lambent {
+namespace {
+
+// Surfaces this share of a cell beyond the eight cells count, too: points on them are clamped into
+// the grid or have a neighbour's rounding.
+constexpr float kReachSlack = 1e-3f;
+
+bool is_vigilant(ProbeState state) {
+  return state == ProbeState::vigilant || state == ProbeState::newly_vigilant;
+}
+
+bool is_awake(ProbeState state) {
+  return state == ProbeState::awake || state == ProbeState::newly_awake;
+}
+
+}  // namespace
+
+ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position_ws, const vec3& home_ws,
+                       const vec3& spacing) {
+  ProbeReach reach;
+  reach.in_solid_matter = in_solid_matter(sights);
+  for (const Sight& sight : sights) {
+    if (sight.missed()) continue;
+    const vec3 cells = abs((position_ws + sight.distance * sight.direction - home_ws) / spacing);
+    if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kReachSlack) reach.lights_surface = true;
+  }
+  return reach;
+}
+
+ProbeState next_state(ProbeState before, const ProbeReach& reach, bool near_moving) {
+  if (reach.in_solid_matter) return ProbeState::off;
+  if (reach.lights_surface) {
+    return is_vigilant(before) ? before : ProbeState::newly_vigilant;
+  }
+  if (near_moving) return is_awake(before) ? before : ProbeState::newly_awake;
+  return ProbeState::sleeping;
+}
+
+ProbeState state_once_traced(ProbeState state) {
+  if (state == ProbeState::newly_vigilant) return ProbeState::vigilant;
+  if (state == ProbeState::newly_awake) return ProbeState::awake;
+  return state;
+}
+
+bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid) {
+  if (moving.empty()) return false;
+  const float smallest = min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
+  const vec3 around = grid.spacing + vec3(kBiasScale * kBias * smallest);
+  return glm::all(glm::greaterThanEqual(home_ws, moving.min - around)) &&
+         glm::all(glm::lessThanEqual(home_ws, moving.max + around));
+}
+
+void classify_probes(const ProbeGrid& grid, std::span<const ProbeReach> reaches,
+                     std::span<const Bounds> moving, std::span<ProbeRecord> records) {
+  assert(reaches.size() == records.size());
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const vec3 home = probe_position(grid, probe_coords(grid, static_cast<int>(i)));
+    const bool near_moving = std::any_of(moving.begin(), moving.end(),
+                                         [&](const Bounds& b) { return may_light(b, home, grid); });
+    records[i].state = next_state(records[i].state, reaches[i], near_moving);
+  }
+}
+
+}  // namespace lambent

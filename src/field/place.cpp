@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a field's probes stand and what they are for: relocation and classification.
+#include "core/parallel.h"
+#include "field/field_state.h"
+#include "field/relocate.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kProbesPerTask = 16;
+
+/// One flag an instance: it moves.
+std::vector<std::uint8_t> moving_instances(const Scene& scene) {
+  std::vector<std::uint8_t> moving(scene.instances.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) moving[i] = scene.instances[i].dynamic ? 1 : 0;
+  return moving;
+}
+
+/// Bounds of a mesh as an instance places it: those of its box's corners.
+Bounds instance_bounds(const Scene& scene, const Instance& instance) {
+  Bounds object, world;
+  for (const vec3& position : scene.meshes[instance.mesh].positions) object.add(position);
+  if (object.empty()) return world;
+  for (int corner = 0; corner < 8; ++corner) {
+    const vec3 upper(cell_corner(corner));
+    world.add(vec3(instance.world_from_object * vec4(mix(object.min, object.max, upper), 1.0f)));
+  }
+  return world;
+}
+
+}  // namespace
+
+void IrradianceField::State::place(const World& world, std::span<const int> probes) {
+  const std::vector<std::uint8_t> moving = moving_instances(world.scene());
+  if (settings.relocation) {
+    const std::vector<int> moved =
+        relocate_probes(world.scene(), world.tracer(), probes, moving, store);
+    const std::vector<vec2> nothing(
+        static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
+    for (const int probe : moved) {
+      records[probe].samples = 0.0f;
+      traces[probe] = {};
+      store.blend_moments(probe, nothing, 1.0f, 0u);
+    }
+  }
+  find_reaches(world, probes);
+}
+
+void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes) {
+  const std::vector<std::uint8_t> moving = moving_instances(world.scene());
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<Sight> seen(sight_directions().size());
+    for (std::size_t k = begin; k < end; ++k) {
+      const vec3 position = store.probe_position_ws(probes[k]);
+      const vec3 home = probe_position(store.grid(), probe_coords(store.grid(), probes[k]));
+      look_around(world.scene(), world.tracer(), position, moving, seen);
+      reaches[probes[k]] = probe_reach(seen, position, home, store.grid().spacing);
+    }
+  });
+}
+
+void IrradianceField::State::classify(const World& world) {
+  // An exact number of bounces is carried through all probes at once
+  if (settings.max_bounces >= 0) return;
+  std::vector<Bounds> moving;
+  for (const Instance& instance : world.scene().instances) {
+    if (instance.dynamic) moving.push_back(instance_bounds(world.scene(), instance));
+  }
+  classify_probes(store.grid(), reaches, moving, records);
+}
+
+}  // namespace lambent

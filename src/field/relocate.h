@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where probes stand off the grid: out of solid matter, and just in front of the surfaces near
+// them, so that these are lit from within the probes' hull.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/probe_store.h"
+#include "lambent/scene.h"
+#include "raytracing/raytracer.h"
+
+namespace lambent {
+
+/// What one ray from a probe met of the scene that keeps still.
+struct Sight {
+  vec3 direction;  ///< Of the ray, unit.
+  float distance;  ///< [m]; infinite: nothing.
+  vec3 normal_ws;  ///< Of the triangle, unit, towards the probe.
+  bool back_face;  ///< Met the back of a single-sided surface.
+
+  bool missed() const { return distance == kInfiniteDistance; }
+};
+
+/// Directions a probe looks in: the same for all probes at all times, so that probes come to rest.
+std::span<const vec3> sight_directions();
+
+/// Looks around from a point. `moving` holds one flag an instance: the ray looks through those that
+/// move; instances beyond its end keep still. `sights` has one entry a direction.
+void look_around(const Scene& scene, const RayTracer& tracer, const vec3& position_ws,
+                 std::span<const std::uint8_t> moving, std::span<Sight> sights);
+
+/// True where so many sights met back faces that the point must be in solid matter.
+bool in_solid_matter(std::span<const Sight> sights);
+
+/// Where a probe that belongs at `home_ws` and sees this from `position_ws` had better stand;
+/// `position_ws` itself where it may stay. At most kMaxProbeOffset of a cell from home.
+vec3 better_position(std::span<const Sight> sights, const vec3& position_ws, const vec3& home_ws,
+                     const vec3& spacing);
+
+/// Moves some probes until they stand well, then leaves them. Returns those that moved, in the
+/// order of `probes`: what they hold is of another place. The same bits on any number of threads.
+std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,
+                                 std::span<const int> probes, std::span<const std::uint8_t> moving,
+                                 ProbeStore& store);
+
+}  // namespace lambent

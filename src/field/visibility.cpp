@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/visibility.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+
+#include "core/parallel.h"
+#include "field/lookup.h"
+
+namespace lambent {
+namespace {
+
+constexpr int kCorners = 8;
+constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
+constexpr std::size_t kCellsPerTask = 64;
+
+// Small batches keep the weights between the two kernels in the first-level cache.
+constexpr std::size_t kBatch = 256;
+
+// Where a probe's distances let so small a share through, and the probe that matters most does not
+// see it, it is hidden; a larger share is worth a ray.
+constexpr float kWorthARay = 0.05f;
+
+/// A ray that decides whether a corner counts.
+struct Question {
+  std::size_t query;
+  int corner;
+};
+
+/// Rays of a batch of lookups, gathered to be traced together.
+class CornerRays {
+ public:
+  explicit CornerRays(const ProbeStore& store)
+      : store_(store),
+        offsets_(corner_offsets(store.grid())),
+        spacing_min_(
+            min(store.grid().spacing.x, min(store.grid().spacing.y, store.grid().spacing.z))) {}
+
+  /// Asks whether the corner is seen from the point where its distances are asked, which is off the
+  /// surface: a ray along it meets no rounding error.
+  void ask(const FieldQuery& query, int base, std::size_t index, int corner) {
+    const vec3 start =
+        biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
+    const vec3 way = store_.probe_position_ws(base + offsets_.probe[corner]) - start;
+    const float distance = max(length(way), kMinProbeDistance);
+    rays_.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
+    questions_.push_back({index, corner});
+  }
+
+  /// Calls hidden(question) for every corner that is not seen.
+  template <class Hidden>
+  std::uint64_t answer(const RayTracer& tracer, Hidden hidden) {
+    occluded_.resize(rays_.size());
+    tracer.occlusions(rays_, occluded_);
+    for (std::size_t r = 0; r < rays_.size(); ++r) {
+      if (occluded_[r] != 0) hidden(questions_[r]);
+    }
+    return rays_.size();
+  }
+
+ private:
+  const ProbeStore& store_;
+  CornerOffsets offsets_;
+  float spacing_min_;
+  std::vector<Ray> rays_;
+  std::vector<Question> questions_;
+  std::vector<std::uint8_t> occluded_;
+};
+
+/// Scales weights to a sum of 1. False where there are none.
+bool normalize_weights(CornerWeights& weights) {
+  float sum = 0.0f;
+  for (const float weight : weights.weight) sum += weight;
+  if (!(sum > 0.0f)) return false;
+  for (float& weight : weights.weight) weight /= sum;
+  return true;
+}
+
+/// A ray to each corner that could count.
+std::uint64_t exact_weights(const ProbeStore& store, const RayTracer& tracer,
+                            std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
+  CornerRays rays(store);
+  std::vector<CornerTerms> terms(queries.size());
+  corner_terms(store, queries, terms);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    for (int k = 0; k < kCorners; ++k) {
+      if (terms[i].trilinear[k] * terms[i].wrap[k] <= 0.0f) continue;
+      terms[i].visibility[k] = 1.0f;
+      rays.ask(queries[i], terms[i].base, i, k);
+    }
+  }
+  const std::uint64_t traced = rays.answer(tracer, [&](const Question& question) {
+    terms[question.query].visibility[question.corner] = 0.0f;
+  });
+
+  // Where no probe is seen, distances decide
+  corner_weights(store, queries, result);
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    CornerWeights seen{terms[i].base, {}};
+    for (int k = 0; k < kCorners; ++k) {
+      if (terms[i].wrap[k] * terms[i].visibility[k] <= 0.0f) continue;
+      seen.weight[k] = terms[i].trilinear[k] * combined_weight(terms[i].wrap[k], 1.0f);
+    }
+    if (normalize_weights(seen)) result[i] = seen;
+  }
+  return traced;
+}
+
+/// Distances, checked where the probe that matters most does not see another that matters.
+std::uint64_t hybrid_weights(const ProbeStore& store, const VisibilityRays& by,
+                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
+  corner_weights(store, queries, result);
+  CornerRays rays(store);
+  std::vector<std::size_t> checked;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const std::uint64_t cell = by.sights->of_cell(result[i].base);
+    if (cell == kAllSeen) continue;
+    float(&weight)[kCorners] = result[i].weight;
+    const auto first = std::max_element(weight, weight + kCorners) - weight;
+    const std::uint64_t seen = cell >> (8 * first);
+    for (int k = 0; k < kCorners; ++k) {
+      if (((seen >> k) & 1u) != 0 || weight[k] <= 0.0f) continue;
+      if (weight[k] < kWorthARay) {
+        weight[k] = 0.0f;
+      } else {
+        rays.ask(queries[i], result[i].base, i, k);
+      }
+    }
+    checked.push_back(i);
+  }
+  const std::uint64_t traced = rays.answer(*by.tracer, [&](const Question& question) {
+    result[question.query].weight[question.corner] = 0.0f;
+  });
+  // The most important corner always remains
+  for (const std::size_t i : checked) normalize_weights(result[i]);
+  return traced;
+}
+
+}  // namespace
+
+ProbeSights::ProbeSights(const ProbeGrid& grid)
+    : cells_(static_cast<std::size_t>(grid.count.x) * grid.count.y * grid.count.z, kAllSeen) {}
+
+std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store,
+                                std::span<const int> probes) {
+  const ProbeGrid& grid = store.grid();
+  const CornerOffsets offsets = corner_offsets(grid);
+  std::atomic<std::uint64_t> traced = 0;
+  parallel_chunks(probes.size(), kCellsPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<Ray> rays;
+    std::vector<std::uint64_t> pairs;
+    std::vector<std::uint8_t> occluded;
+    for (std::size_t c = begin; c < end; ++c) {
+      const int base = probes[c];
+      // The last probes of a row are no cell's lowest
+      const ivec3 coords = probe_coords(grid, base);
+      if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
+      rays.clear();
+      pairs.clear();
+      for (int i = 0; i < kCorners; ++i) {
+        const vec3 start = store.probe_position_ws(base + offsets.probe[i]);
+        for (int k = i + 1; k < kCorners; ++k) {
+          const vec3 way = store.probe_position_ws(base + offsets.probe[k]) - start;
+          const float distance = max(length(way), kMinProbeDistance);
+          rays.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
+          pairs.push_back(std::uint64_t{1} << (8 * i + k) | std::uint64_t{1} << (8 * k + i));
+        }
+      }
+      occluded.resize(rays.size());
+      tracer.occlusions(rays, occluded);
+      cells_[base] = kAllSeen;
+      for (std::size_t r = 0; r < rays.size(); ++r) {
+        if (occluded[r] != 0) cells_[base] &= ~pairs[r];
+      }
+      traced += rays.size();
+    }
+  });
+  return traced;
+}
+
+std::uint64_t visible_corner_weights(const ProbeStore& store, const VisibilityRays& by,
+                                     std::span<const FieldQuery> queries,
+                                     std::span<CornerWeights> result) {
+  if (by.tracer != nullptr && by.mode == Visibility::exact) {
+    return exact_weights(store, *by.tracer, queries, result);
+  }
+  if (by.tracer != nullptr && by.mode == Visibility::hybrid) {
+    assert(by.sights != nullptr);
+    return hybrid_weights(store, by, queries, result);
+  }
+  corner_weights(store, queries, result);
+  return 0;
+}
+
+std::uint64_t visible_irradiance(const ProbeStore& store, const VisibilityRays& by,
+                                 std::span<const FieldQuery> queries, std::span<vec3> result) {
+  assert(queries.size() == result.size());
+  CornerWeights weights[kBatch];
+  std::uint64_t traced = 0;
+  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, queries.size() - first);
+    const std::span<const FieldQuery> batch = queries.subspan(first, count);
+    traced += visible_corner_weights(store, by, batch, {weights, count});
+    weighted_irradiance(store, batch, {weights, count}, result.subspan(first, count));
+  }
+  return traced;
+}
+
+}  // namespace lambent

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of the eight probes around a point are seen from it: by their distances, by rays, or both.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/lookup_cpu.h"
+#include "field/probe_store.h"
+#include "raytracing/raytracer.h"
+
+namespace lambent {
+
+/// Which probes of each cell see each other, found by rays. Where the probes that matter to a point
+/// do, no wall runs between them, and their distances can be trusted.
+class ProbeSights {
+ public:
+  /// Every probe sees every other.
+  explicit ProbeSights(const ProbeGrid& grid);
+
+  /// Looks again in the cells whose lowest probes these are. Returns the rays traced.
+  std::uint64_t look(const RayTracer& tracer, const ProbeStore& store, std::span<const int> probes);
+
+  /// Bit 8 i + k: corners i and k of the cell see each other. `base` is the cell's lowest probe.
+  std::uint64_t of_cell(int base) const { return cells_[base]; }
+
+ private:
+  std::vector<std::uint64_t> cells_;
+};
+
+/// What lookups find visibility with.
+struct VisibilityRays {
+  Visibility mode = Visibility::moments;
+  const RayTracer* tracer = nullptr;    ///< Null: by distances alone.
+  const ProbeSights* sights = nullptr;  ///< Of the probes; hybrid needs it.
+};
+
+/// Weights for each query. Single-threaded. Returns the rays traced.
+std::uint64_t visible_corner_weights(const ProbeStore& store, const VisibilityRays& by,
+                                     std::span<const FieldQuery> queries,
+                                     std::span<CornerWeights> result);
+
+/// Irradiance for each query, likewise.
+std::uint64_t visible_irradiance(const ProbeStore& store, const VisibilityRays& by,
+                                 std::span<const FieldQuery> queries, std::span<vec3> result);
+
+}  // namespace lambent

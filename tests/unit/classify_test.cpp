@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/classify.h"
+
+#include <gtest/gtest.h>
+
+#include "support/box_scenes.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+constexpr ProbeState kAll[] = {
+    ProbeState::off,   ProbeState::sleeping,       ProbeState::newly_awake,
+    ProbeState::awake, ProbeState::newly_vigilant, ProbeState::vigilant};
+
+constexpr ProbeReach kMatter{true, true}, kSurface{false, true}, kAir{false, false};
+
+TEST(ProbeStates, InSolidMatterAreOffFromAnyState) {
+  for (const ProbeState before : kAll) {
+    EXPECT_EQ(next_state(before, kMatter, false), ProbeState::off);
+    EXPECT_EQ(next_state(before, kMatter, true), ProbeState::off);
+  }
+}
+
+TEST(ProbeStates, NearAStaticSurfaceAreVigilantWhateverMoves) {
+  for (const bool near_moving : {false, true}) {
+    for (const ProbeState before : {ProbeState::off, ProbeState::sleeping, ProbeState::newly_awake,
+                                    ProbeState::awake, ProbeState::newly_vigilant}) {
+      EXPECT_EQ(next_state(before, kSurface, near_moving), ProbeState::newly_vigilant);
+    }
+    EXPECT_EQ(next_state(ProbeState::vigilant, kSurface, near_moving), ProbeState::vigilant);
+  }
+}
+
+TEST(ProbeStates, InOpenAirWakeWhileSomethingMovesNear) {
+  for (const ProbeState before : {ProbeState::off, ProbeState::sleeping, ProbeState::newly_awake,
+                                  ProbeState::newly_vigilant, ProbeState::vigilant}) {
+    EXPECT_EQ(next_state(before, kAir, true), ProbeState::newly_awake);
+  }
+  EXPECT_EQ(next_state(ProbeState::awake, kAir, true), ProbeState::awake);
+}
+
+TEST(ProbeStates, InOpenAirSleepWhereNothingMoves) {
+  for (const ProbeState before : kAll) {
+    EXPECT_EQ(next_state(before, kAir, false), ProbeState::sleeping);
+  }
+}
+
+TEST(ProbeStates, AreNewUntilTraced) {
+  EXPECT_EQ(state_once_traced(ProbeState::newly_awake), ProbeState::awake);
+  EXPECT_EQ(state_once_traced(ProbeState::newly_vigilant), ProbeState::vigilant);
+  for (const ProbeState state :
+       {ProbeState::off, ProbeState::sleeping, ProbeState::awake, ProbeState::vigilant}) {
+    EXPECT_EQ(state_once_traced(state), state);
+  }
+}
+
+TEST(ProbeStates, MayLightWhatIsWithinACellAndTheBias) {
+  const ProbeGrid grid{vec3(0.0f), vec3(1.0f, 2.0f, 1.0f), ivec3(4)};
+  // The bias is 0.225 of the smallest spacing
+  const vec3 home(1.0f, 2.0f, 1.0f);
+  const auto box_at = [](float x, float y) {
+    return Bounds{{x, y, 0.9f}, {x + 0.5f, y + 0.5f, 1.1f}};
+  };
+  EXPECT_TRUE(may_light(box_at(2.2f, 2.0f), home, grid));
+  EXPECT_FALSE(may_light(box_at(2.3f, 2.0f), home, grid));
+  EXPECT_TRUE(may_light(box_at(1.0f, 4.2f), home, grid));
+  EXPECT_FALSE(may_light(box_at(1.0f, 4.3f), home, grid));
+  EXPECT_FALSE(may_light(Bounds{}, home, grid));
+}
+
+/// What a probe a metre from its neighbours that stands at the origin sees.
+ProbeReach reach_in(const Scene& scene) {
+  const World world(scene);
+  std::vector<Sight> sights(sight_directions().size());
+  look_around(scene, world.tracer(), vec3(0.0f), {}, sights);
+  return probe_reach(sights, vec3(0.0f), vec3(0.0f), vec3(1.0f));
+}
+
+TEST(ProbeReaches, TellMatterSurfacesAndAirApart) {
+  using test::box_mesh;
+  using test::scene_of;
+  EXPECT_TRUE(reach_in(scene_of({box_mesh(vec3(-0.5f), vec3(0.5f))})).in_solid_matter);
+  const ProbeReach near = reach_in(scene_of({box_mesh({0.9f, -1, -1}, {1.5f, 1, 1})}));
+  EXPECT_FALSE(near.in_solid_matter);
+  EXPECT_TRUE(near.lights_surface);
+  EXPECT_FALSE(reach_in(scene_of({box_mesh({1.1f, -1, -1}, {1.5f, 1, 1})})).lights_surface);
+}
+
+TEST(ProbeStates, OfAFieldFollowWhatMoves) {
+  const ProbeGrid grid{vec3(0.0f), vec3(1.0f), ivec3(4)};
+  std::vector<ProbeReach> reaches(64, kAir);
+  reaches[0] = kMatter;
+  reaches[1] = kSurface;
+  std::vector<ProbeRecord> records(64);
+  const Bounds thing{vec3(2.9f), vec3(3.1f)};
+  classify_probes(grid, reaches, {&thing, 1}, records);
+  EXPECT_EQ(records[0].state, ProbeState::off);
+  EXPECT_EQ(records[1].state, ProbeState::newly_vigilant);
+  EXPECT_EQ(records[2].state, ProbeState::sleeping);
+  EXPECT_EQ(records[63].state, ProbeState::newly_awake);
+  classify_probes(grid, reaches, {}, records);
+  EXPECT_EQ(records[63].state, ProbeState::sleeping);
+}
+
+}  // namespace
+}  // namespace lambent

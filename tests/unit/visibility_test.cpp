@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/visibility.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "field/lookup.h"
+#include "raytracing/camera_rays.h"
+#include "raytracing/surface.h"
+#include "shared/random.h"
+#include "support/box_scenes.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+using test::Stage;
+
+/// What the scene's first camera sees.
+std::vector<FieldQuery> seen_points(const Stage& stage) {
+  constexpr int kWidth = 48, kHeight = 27;
+  std::vector<FieldQuery> queries;
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const Ray ray =
+        camera_ray(stage.scene.cameras[0], kWidth, kHeight, static_cast<float>(i % kWidth) + 0.5f,
+                   static_cast<float>(i / kWidth) + 0.5f);
+    const Hit hit = stage.world.tracer().closest_hit(ray);
+    if (hit.missed()) continue;
+    const Surface surface = surface_at(stage.scene, ray, hit);
+    queries.push_back({surface.position_ws, surface.normal_ws, -ray.direction});
+  }
+  return queries;
+}
+
+FieldSettings settings_of(Visibility visibility) {
+  FieldSettings settings;
+  settings.probe_spacing = 1.0f;
+  settings.rays_per_probe = 96;
+  settings.visibility = visibility;
+  return settings;
+}
+
+/// Mean and largest irradiance that the scene's first camera sees.
+vec2 seen_irradiance(const Stage& stage, Visibility visibility) {
+  const IrradianceField field = test::make_field(stage, settings_of(visibility), 2);
+  const std::vector<FieldQuery> queries = seen_points(stage);
+  std::vector<vec3> irradiance(queries.size());
+  field.irradiance(queries, irradiance, &stage.world);
+  float sum = 0.0f, largest = 0.0f;
+  for (const vec3& e : irradiance) {
+    sum += e.y;
+    largest = max(largest, e.y);
+  }
+  return {sum / static_cast<float>(irradiance.size()), largest};
+}
+
+TEST(Visibility, HybridAndExactAreDarkBehindASealedWall) {
+  const Stage open("two-rooms"), sealed("two-rooms-sealed");
+  const float lit = seen_irradiance(open, Visibility::hybrid).x;
+  ASSERT_GT(lit, 0.0f);
+  for (const Visibility visibility : {Visibility::hybrid, Visibility::exact}) {
+    const vec2 dark = seen_irradiance(sealed, visibility);
+    EXPECT_LT(dark.x, 1e-4f * lit);
+    EXPECT_LT(dark.y, 1e-3f * lit);
+  }
+}
+
+TEST(Visibility, MomentsAreNearlyDarkBehindASealedWall) {
+  const Stage open("two-rooms"), sealed("two-rooms-sealed");
+  const float lit = seen_irradiance(open, Visibility::moments).x;
+  const vec2 dark = seen_irradiance(sealed, Visibility::moments);
+  EXPECT_LT(dark.x, 3e-3f * lit);
+  EXPECT_LT(dark.y, 2e-2f * lit);
+}
+
+/// A field with all that its lookups need.
+struct Traced {
+  explicit Traced(const Stage& stage)
+      : field(test::make_field(stage, settings_of(Visibility::moments), 1)),
+        sights(field.store().grid()) {
+    std::vector<int> probes(field.store().probes());
+    std::iota(probes.begin(), probes.end(), 0);
+    rays = sights.look(stage.world.tracer(), field.store(), probes);
+  }
+  std::vector<CornerWeights> weights(const Stage& stage, Visibility mode,
+                                     std::span<const FieldQuery> queries) const {
+    std::vector<CornerWeights> result(queries.size());
+    visible_corner_weights(field.store(), {mode, &stage.world.tracer(), &sights}, queries, result);
+    return result;
+  }
+  IrradianceField field;
+  ProbeSights sights;
+  std::uint64_t rays = 0;
+};
+
+bool same(const CornerWeights& a, const CornerWeights& b) {
+  return a.base == b.base && std::equal(a.weight, a.weight + 8, b.weight);
+}
+
+TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
+  const Stage stage("furnace");
+  const Traced traced(stage);
+  const std::vector<FieldQuery> queries = seen_points(stage);
+  const auto moments = traced.weights(stage, Visibility::moments, queries);
+  const auto hybrid = traced.weights(stage, Visibility::hybrid, queries);
+  int open = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (traced.sights.of_cell(moments[i].base) != ~std::uint64_t{0}) continue;
+    ++open;
+    EXPECT_TRUE(same(hybrid[i], moments[i])) << i;
+  }
+  EXPECT_GT(open, 100);
+}
+
+TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {
+  const Stage stage("two-rooms");
+  const Traced traced(stage);
+  const std::vector<FieldQuery> queries = seen_points(stage);
+  std::vector<CornerWeights> result(queries.size());
+  visible_corner_weights(traced.field.store(), {Visibility::hybrid, nullptr, &traced.sights},
+                         queries, result);
+  const auto moments = traced.weights(stage, Visibility::moments, queries);
+  for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_TRUE(same(result[i], moments[i]));
+}
+
+TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
+  const Stage stage("two-rooms");
+  const Traced traced(stage);
+  const ProbeStore& store = traced.field.store();
+  const ProbeGrid& grid = store.grid();
+  const float smallest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  const std::vector<FieldQuery> queries = seen_points(stage);
+  const auto exact = traced.weights(stage, Visibility::exact, queries);
+  const CornerOffsets offsets = corner_offsets(grid);
+  int hidden = 0;
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    const FieldQuery& q = queries[i];
+    const ProbeCell cell = probe_cell(grid, q.position_ws);
+    const vec3 start = biased_position(q.position_ws, q.normal_ws, q.to_viewer_ws, smallest);
+    float expected[8], sum = 0.0f;
+    for (int k = 0; k < 8; ++k) {
+      const int probe = exact[i].base + offsets.probe[k];
+      const vec3 place = store.probe_position_ws(probe);
+      const vec3 to_probe = place - start;
+      const bool seen =
+          !stage.world.tracer().occluded({start, 0.0f, normalize(to_probe), length(to_probe)});
+      const bool known = store.moments(probe, normalize(start - place)).x > 0.0f;
+      const float wrap = wrap_weight(dot(normalize(place - q.position_ws), q.normal_ws));
+      const float weight = trilinear_weight(cell.fraction, cell_corner(k));
+      hidden += !seen && wrap * weight > 0.0f ? 1 : 0;
+      expected[k] = seen && known && wrap > 0.0f ? weight * combined_weight(wrap, 1.0f) : 0.0f;
+      sum += expected[k];
+    }
+    if (sum <= 0.0f) continue;
+    for (int k = 0; k < 8; ++k) EXPECT_NEAR(exact[i].weight[k], expected[k] / sum, 1e-3f) << i;
+  }
+  EXPECT_GT(hidden, 10);
+}
+
+TEST(ProbeSights, KnowWhichProbesOfACellAWallParts) {
+  const Scene wall = test::scene_of({test::box_mesh({-9.0f, -9.0f, 0.4f}, {9.0f, 9.0f, 0.6f})});
+  const World world(wall);
+  const ProbeStore store({vec3(0.0f), vec3(1.0f), ivec3(2, 2, 3)}, FieldSettings{});
+  ProbeSights sights(store.grid());
+  const int probes[] = {0, 1, 4, 8};
+  // Two cells of 28 pairs each; the others' lowest probes are beyond the grid's last cell
+  EXPECT_EQ(sights.look(world.tracer(), store, probes), 56u);
+  for (int i = 0; i < 8; ++i) {
+    for (int k = 0; k < 8; ++k) {
+      const bool seen = (sights.of_cell(0) >> (8 * i + k) & 1u) != 0;
+      EXPECT_EQ(seen, (i < 4) == (k < 4)) << i << " " << k;
+    }
+  }
+  EXPECT_EQ(sights.of_cell(4), ~std::uint64_t{0});
+}
+
+}  // namespace
+}  // namespace lambent
