@@ -125,8 +125,19 @@ struct UpdateRequest {
   std::optional<glm::vec3> viewer_ws = std::nullopt;
 };
 
+/// How many probes are in each state. Majercik et al., JCGT 10(2), 2021, sec. 5.
+struct ProbeCounts {
+  int off = 0;             ///< In solid matter: neither traced nor looked up.
+  int sleeping = 0;        ///< Near no surface: traced once, for fog and gathering.
+  int newly_awake = 0;     ///< Something that moves came near; not traced since.
+  int awake = 0;           ///< Light something that moves.
+  int newly_vigilant = 0;  ///< Light static surfaces; not traced yet.
+  int vigilant = 0;        ///< Light static surfaces.
+};
+
 /// What an update did. Times are wall-clock [ms].
 struct UpdateStatistics {
+  double place_ms = 0.0;          ///< Moving probes off the grid, and finding out what they are for.
   double follow_ms = 0.0;         ///< Finding what edits of the world changed.
   double trace_ms = 0.0;          ///< Closest hits of the probe rays.
   double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
@@ -137,6 +148,7 @@ struct UpdateStatistics {
   int probes_traced = 0;          ///< With new rays.
   int probes_followed = 0;        ///< Held against what was edited in the world.
   int probes_touched = 0;         ///< Those among them whose light the edits changed.
+  ProbeCounts states;             ///< After the update.
   int relights = 0;               ///< Iterations of the multi-bounce solve.
   double residual = 0.0;          ///< Estimated relative error this update stopped at.
   double change = 0.0;            ///< Of the stored light, root mean square over root mean square.

@@ -71,4 +71,12 @@ void classify_probes(const ProbeGrid& grid, std::span<const ProbeReach> reaches,
   }
 }
 
+ProbeCounts count_states(std::span<const ProbeRecord> records) {
+  ProbeCounts counts;
+  int* const by_state[] = {&counts.off,   &counts.sleeping,       &counts.newly_awake,
+                           &counts.awake, &counts.newly_vigilant, &counts.vigilant};
+  for (const ProbeRecord& record : records) ++*by_state[static_cast<int>(record.state)];
+  return counts;
+}
+
 }  // namespace lambent

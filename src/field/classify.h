@@ -8,7 +8,7 @@
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/relocate.h"
-#include "lambent/scene.h"
+#include "lambent/field.h"
 
 namespace lambent {
 
@@ -37,5 +37,8 @@ bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid)
 /// moves.
 void classify_probes(const ProbeGrid& grid, std::span<const ProbeReach> reaches,
                      std::span<const Bounds> moving, std::span<ProbeRecord> records);
+
+/// How many probes are in each state.
+ProbeCounts count_states(std::span<const ProbeRecord> records);
 
 }  // namespace lambent

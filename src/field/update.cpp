@@ -132,6 +132,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     s.place(world, all);
   }
   s.classify(world);
+  statistics.place_ms = watch.lap();
 
   const Followed followed = s.follow(world, budget, request.viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
@@ -149,6 +150,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
   }
   ++s.updates;
+  statistics.states = count_states(s.records);
   s.ray_cost.learn(statistics.probe_rays + statistics.shadow_rays, watch.lap());
   return statistics;
 }
