@@ -124,6 +124,11 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       command.add_option("--distance-texels", o.settings.distance_texels, "Of a tile's edge")
           ->check(CLI::Range(4, 32))
           ->capture_default_str());
+  o.of_shape.push_back(
+      command.add_flag("!--no-relocation", o.settings.relocation, "Keep the probes on the grid"));
+  command.add_option("--visibility", o.settings.visibility, "Of probes: moments, hybrid or exact")
+      ->transform(CLI::CheckedTransformer(kVisibilities))
+      ->default_str("moments");
 }
 
 Expected<FieldSettings> field_settings(const FieldOptions& options, std::uint32_t seed,

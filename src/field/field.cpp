@@ -72,7 +72,6 @@ void IrradianceField::reset() {
   s.sights = ProbeSights(s.store.grid());
   s.edits = {};
   s.followed_last = false;
-  s.placed = false;
   s.updates = 0;
 }
 

@@ -61,7 +61,8 @@ struct IrradianceField::State {
   }
 
   /// Moves probes to where they are needed and finds what they reach. Those that moved forget all.
-  void place(const World& world, std::span<const int> probes, bool relocate);
+  void place(const World& world, std::span<const int> probes);
+  void find_reaches(const World& world, std::span<const int> probes);
   /// Says what each probe is for, with what moves where it is now.
   void classify(const World& world);
   VisibilityRays visibility(const World& world) const {
@@ -81,8 +82,8 @@ struct IrradianceField::State {
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
-  /// Takes over what a file holds. The world is at `revision`.
-  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, std::uint64_t revision);
+  /// Takes over what a file holds.
+  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, const World& world);
 };
 
 }  // namespace lambent

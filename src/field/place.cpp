@@ -30,9 +30,9 @@ Bounds instance_bounds(const Scene& scene, const Instance& instance) {
 
 }  // namespace
 
-void IrradianceField::State::place(const World& world, std::span<const int> probes, bool relocate) {
+void IrradianceField::State::place(const World& world, std::span<const int> probes) {
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
-  if (relocate) {
+  if (settings.relocation) {
     const std::vector<int> moved =
         relocate_probes(world.scene(), world.tracer(), probes, moving, store);
     const std::vector<vec2> nothing(
@@ -43,6 +43,11 @@ void IrradianceField::State::place(const World& world, std::span<const int> prob
       store.blend_moments(probe, nothing, 1.0f, 0u);
     }
   }
+  find_reaches(world, probes);
+}
+
+void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes) {
+  const std::vector<std::uint8_t> moving = moving_instances(world.scene());
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Sight> seen(sight_directions().size());
     for (std::size_t k = begin; k < end; ++k) {

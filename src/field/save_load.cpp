@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields to and from files.
-#include <algorithm>
+#include <numeric>
+#include <vector>
 
 #include "core/atomic_file.h"
 #include "field/field_file.h"
@@ -30,7 +31,7 @@ Expected<void> check_scene(const std::string& path, const SceneIdentity& made_fo
 
 /// Takes the place of all light that the field holds.
 void IrradianceField::State::restore(const FieldVolume& volume, std::uint32_t updates_so_far,
-                                     std::uint64_t revision) {
+                                     const World& world) {
   store.restore(volume.offsets, volume.irradiance, volume.distance);
   records = volume.records;
   updates = static_cast<int>(updates_so_far);
@@ -43,9 +44,15 @@ void IrradianceField::State::restore(const FieldVolume& volume, std::uint32_t up
       tile[t] = vec4(store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
     }
     sum += mean_luminance(TileLight(tile, texels));
-    records[probe].revision = revision;
+    records[probe].revision = world.revision();
   }
   mean_light = static_cast<float>(sum / store.probes());
+  // What the first update finds of the scene, where that has been
+  if (updates == 0) return;
+  std::vector<int> all(records.size());
+  std::iota(all.begin(), all.end(), 0);
+  find_reaches(world, all);
+  if (settings.visibility == Visibility::hybrid) sights.look(world.tracer(), store, all);
 }
 
 Expected<void> save_field(const std::string& path, const IrradianceField& field,
@@ -96,7 +103,7 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
     // What it holds is where to start from, but no average of what is to be found
     for (ProbeRecord& record : volume.records) record.samples = 0.0f;
   }
-  field->state_->restore(volume, file->updates, world.revision());
+  field->state_->restore(volume, file->updates, world);
   return LoadedField{std::move(*field), same_light};
 }
 

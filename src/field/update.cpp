@@ -126,12 +126,10 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     budget = budget == 0 ? learned : std::min(budget, learned);
   }
 
-  if (!s.placed) {
+  if (s.updates == 0) {
     std::vector<int> all(s.records.size());
     std::iota(all.begin(), all.end(), 0);
-    // Probes that came from a file stand where they were found to stand best
-    s.place(world, all, s.settings.relocation && s.updates == 0);
-    s.placed = true;
+    s.place(world, all);
   }
   s.classify(world);
   statistics.place_ms = watch.lap();

@@ -101,7 +101,9 @@ TEST_F(Render, StatisticsAreAFlatObjectWithUnitsInItsKeys) {
   EXPECT_EQ(json["updates"], 2);
   EXPECT_EQ(json["probes"], 64);
   EXPECT_EQ(json["rays_per_probe"], 32);
-  EXPECT_EQ(json["probe_rays"], 2 * 64 * 32);
+  // Probes that light nothing are traced once at most
+  EXPECT_GT(json["probe_rays"], 32 * 64 / 2);
+  EXPECT_LE(json["probe_rays"], 2 * 64 * 32);
   EXPECT_LE(json["bytes_per_probe"].get<double>(), 1168.0);
   EXPECT_GT(json["triangles"].get<int>(), 0);
 }
