@@ -103,11 +103,6 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       ->check(CLI::Range(0.0f, 0.999f))
       ->capture_default_str();
   o.of_shape.push_back(
-      command.add_flag("!--no-relocation", o.settings.relocation, "Keep the probes on the grid"));
-  command.add_option("--visibility", o.settings.visibility, "Of probes: moments, hybrid or exact")
-      ->transform(CLI::CheckedTransformer(kVisibilities))
-      ->default_str("moments");
-  o.of_shape.push_back(
       command
           .add_option("--irradiance-format", o.irradiance_format, "rgb9e5, r11g11b10f or float32")
           ->check(CLI::IsMember(kIrradianceFormats))

@@ -128,6 +128,8 @@ TEST_F(RenderSequence, StopsAfterAFrameWhenInterrupted) {
     _exit(127);
   }
   while (!std::filesystem::exists(directory.file("f.0001.exr"))) {
+    // A child that ended before it wrote a second frame never will
+    ASSERT_EQ(waitpid(child, nullptr, WNOHANG), 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   kill(child, SIGINT);
