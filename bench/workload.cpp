@@ -10,6 +10,7 @@
 #include "field/blend.h"
 #include "field/probe_grid.h"
 #include "field/probe_store.h"
+#include "field/schedule.h"
 #include "field/surfels.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/shade_hits.h"
@@ -95,22 +96,22 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const ShadeHitsSettings shading = surfel_shading(settings, set);
 
   // Shade each probe's hits for the sake of the shadow rays
+  const std::vector<int> probes = schedule_all(work.field.records(), set.rays()).probes;
   const std::size_t rays = set.directions.size();
-  std::vector<std::vector<Ray>> shadows(store.probes());
+  std::vector<std::vector<Ray>> shadows(probes.size());
   UpdateRays result;
-  result.probe_rays.resize(shadows.size() * rays);
-  parallel_chunks(shadows.size(), 8, [&](std::size_t begin, std::size_t end) {
+  result.probe_rays.resize(probes.size() * rays);
+  parallel_chunks(probes.size(), 8, [&](std::size_t begin, std::size_t end) {
     std::vector<Hit> hits(rays);
     std::vector<ShadedHit> shaded(rays);
     ShadeHitsScratch scratch;
-    for (std::size_t probe = begin; probe < end; ++probe) {
-      const vec3 origin = store.probe_position_ws(static_cast<int>(probe));
-      const std::span<Ray> batch(&result.probe_rays[probe * rays], rays);
-      for (std::size_t i = 0; i < rays; ++i) batch[i] = {origin, 0.0f, set.directions[i]};
+    for (std::size_t k = begin; k < end; ++k) {
+      const vec3 origin = store.probe_position_ws(probes[k]);
+      const std::span<Ray> batch(&result.probe_rays[k * rays], rays);
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, set.directions[i]);
       work.world.tracer().closest_hits(batch, hits);
-      shade_hits(work.world, batch, hits, shading, first_ray_index(static_cast<int>(probe)),
-                 scratch, shaded);
-      shadows[probe] = scratch.shadow_rays;
+      shade_hits(work.world, batch, hits, shading, first_ray_index(probes[k]), scratch, shaded);
+      shadows[k] = scratch.shadow_rays;
     }
   });
   for (const std::vector<Ray>& part : shadows) {

@@ -77,7 +77,7 @@ struct IrradianceField::State {
                     std::span<const int> probes, std::span<const int> all,
                     UpdateStatistics& statistics);
   void solve_edits(bool done, UpdateStatistics& statistics);
-  void forget_light(std::span<const int> probes, std::uint64_t revision);
+  void forget_light(int probe, std::uint64_t revision);
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Encodes the light of some probes.

@@ -51,6 +51,13 @@ WorkingIrradiance direct_of(const TransportOperator& transport, const WorkingIrr
   return received;
 }
 
+/// The oldest revision of the world after which it still knows what changed.
+std::uint64_t oldest_known_revision(const World& world) {
+  const std::uint64_t revision = world.revision();
+  const std::uint64_t reach = std::min<std::uint64_t>(revision, World::kLogLength);
+  return revision - reach;
+}
+
 /// Some of the probes that know an older world.
 struct Slice {
   std::vector<int> probes;
@@ -155,16 +162,20 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   // Find the probes that know an older world
   Stopwatch watch;
   const std::uint64_t revision = world.revision();
+  const std::uint64_t oldest = oldest_known_revision(world);
   std::vector<int> all, waiting;
   for (int probe = 0; probe < store.probes(); ++probe) {
-    if (!traces[probe].rays) {
-      // Of a file, and without surfels to hold against edits: what it has averaged is of the past
-      if (records[probe].revision != revision) records[probe].samples = 0.0f;
-      records[probe].revision = revision;
-      continue;
+    ProbeRecord& record = records[probe];
+    const bool traced = traces[probe].rays != nullptr;
+    if (traced) all.push_back(probe);
+    if (record.revision == revision) continue;
+    if (traced && record.revision >= oldest && settings.max_bounces < 0) {
+      waiting.push_back(probe);
+    } else {
+      // Without surfels to hold against edits, after more of them than the world remembers, or
+      // where bounces are counted, what was averaged is of the past
+      forget_light(probe, revision);
     }
-    all.push_back(probe);
-    if (records[probe].revision != revision) waiting.push_back(probe);
   }
   if (waiting.empty()) return Followed::nothing;
   if (ray_budget != 0 && viewer_ws) {
@@ -187,15 +198,10 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   std::uint64_t spent = 0;
   while (!waiting.empty() && spent < most) {
     const Slice slice = next_slice(waiting, traces, records, most - spent);
-    const std::optional<std::vector<WorldChanges>> changes = world.changes_since(slice.oldest);
-    if (!changes || settings.max_bounces >= 0) {
-      // The log no longer says what changed, or bounces cannot be followed one by one
-      forget_light(all, revision);
-      return Followed::nothing;
-    }
+    const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
     keep_gain(slice.probes);
     statistics.relight_ms += watch.lap();
-    follow_slice(world, *changes, slice.probes, all, statistics);
+    follow_slice(world, changes, slice.probes, all, statistics);
     statistics.follow_ms += watch.lap();
     waiting.erase(waiting.begin(),
                   waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
@@ -215,13 +221,10 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   return Followed::all;
 }
 
-/// Has every probe start its average anew.
-void IrradianceField::State::forget_light(std::span<const int> probes, std::uint64_t revision) {
-  for (const int probe : probes) {
-    records[probe].samples = 0.0f;
-    records[probe].revision = revision;
-  }
-  edits = {};
+/// Has a probe start its average anew.
+void IrradianceField::State::forget_light(int probe, std::uint64_t revision) {
+  records[probe].samples = 0.0f;
+  records[probe].revision = revision;
 }
 
 }  // namespace lambent
