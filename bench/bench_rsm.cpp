@@ -64,15 +64,6 @@ RsmWorkload& rsm_workload() {
   return work;
 }
 
-RsmSettings plain_settings() {
-  RsmSettings settings;
-  settings.sub_maps = settings.sub_images = 1;
-  settings.sub_blur_radius = 0;
-  settings.final_blur = false;
-  settings.layout = RsmLayout::full;
-  return settings;
-}
-
 RsmSettings with_layout(RsmLayout layout) {
   RsmSettings settings;
   settings.layout = layout;
@@ -105,7 +96,7 @@ struct Variant {
 /// counted: it makes the buffers.
 void rsm(benchmark::State& state) {
   const RsmWorkload& work = rsm_workload();
-  Variant plain(plain_settings()), restructured(with_layout(RsmLayout::restructured)),
+  Variant plain(plain_gather()), restructured(with_layout(RsmLayout::restructured)),
       sub_maps(with_layout(RsmLayout::sub_maps)), full(with_layout(RsmLayout::full));
   const std::array<Variant*, 4> all = {&plain, &restructured, &sub_maps, &full};
   for (Variant* variant : all) {

@@ -80,6 +80,17 @@ struct RsmSettings {
   std::uint32_t seed = 1;  ///< Of all random numbers.
 };
 
+/// The plain gather, against which the others are measured: every pixel takes all the light that is
+/// gathered, from maps as they were rendered, and nothing is blurred.
+inline RsmSettings plain_gather() {
+  RsmSettings settings;
+  settings.sub_maps = settings.sub_images = 1;
+  settings.sub_blur_radius = 0;
+  settings.final_blur = false;
+  settings.layout = RsmLayout::full;
+  return settings;
+}
+
 /// Fails with the first setting that is out of range.
 Expected<void> check(const RsmSettings& settings);
 

@@ -6,17 +6,10 @@
 // such a kernel stands in a *.inl.h file of its own, which is included once an instruction set:
 //
 //     namespace lambent {
-//     namespace baseline {
-//     #include "..._kernel.inl.h"
+//     namespace {
+//     #define LAMBENT_KERNELS "..._kernel.inl.h"
+//     #include "core/simd_levels.inl.h"
 //     }
-//     #ifdef LAMBENT_SIMD_LEVELS
-//     #pragma GCC push_options
-//     #pragma GCC target("arch=x86-64-v3")
-//     namespace avx2 {
-//     #include "..._kernel.inl.h"
-//     }
-//     ... and likewise "arch=x86-64-v4", avx512
-//     #endif
 //
 // and LAMBENT_BEST_LEVEL(kernel) is the best that the machine runs. Every operation is elementwise
 // and nothing is fused, so all of them compute the same bits.

@@ -47,7 +47,6 @@ struct IrradianceField::State {
   RayCost ray_cost;
   int updates = 0;
   float mean_light = 0.0f;     ///< Luminance that probes hold on average, when last traced.
-  bool placed = false;         ///< Places and reaches of all probes are known.
   bool followed_last = false;  ///< The last update followed edits and traced nothing else.
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }

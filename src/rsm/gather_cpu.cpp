@@ -7,23 +7,8 @@
 namespace lambent {
 namespace {
 
-namespace baseline {
-#include "rsm/gather_kernel.inl.h"
-}  // namespace baseline
-#ifdef LAMBENT_SIMD_LEVELS
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v3")
-namespace avx2 {
-#include "rsm/gather_kernel.inl.h"
-}  // namespace avx2
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("arch=x86-64-v4")
-namespace avx512 {
-#include "rsm/gather_kernel.inl.h"
-}  // namespace avx512
-#pragma GCC pop_options
-#endif
+#define LAMBENT_KERNELS "rsm/gather_kernel.inl.h"
+#include "core/simd_levels.inl.h"
 
 }  // namespace
 

@@ -219,19 +219,10 @@ TEST(IrradianceLookup, SurvivesNumbersThatAreNone) {
 std::vector<float> seen_irradiance(const std::string& scene, const FieldSettings& settings) {
   const Stage stage(scene);
   const IrradianceField field = make_field(stage, settings, 2);
-  constexpr int kWidth = 64, kHeight = 36;
-  std::vector<FieldQuery> queries;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const Ray ray =
-        camera_ray(stage.scene.cameras[0], kWidth, kHeight, static_cast<float>(i % kWidth) + 0.5f,
-                   static_cast<float>(i / kWidth) + 0.5f);
-    const Hit hit = stage.world.tracer().closest_hit(ray);
-    if (hit.missed()) continue;
-    const Surface surface = surface_at(stage.scene, ray, hit);
-    queries.push_back({surface.position_ws, surface.normal_ws, -ray.direction});
-  }
   std::vector<float> irradiance;
-  for (const vec3& e : look_up(field, queries)) irradiance.push_back((e.x + e.y + e.z) / 3.0f);
+  for (const vec3& e : look_up(field, test::seen_points(stage))) {
+    irradiance.push_back((e.x + e.y + e.z) / 3.0f);
+  }
   return irradiance;
 }
 

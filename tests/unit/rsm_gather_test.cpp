@@ -58,20 +58,11 @@ RsmIrradiance gather(std::span<const ReflectiveShadowMap> maps, const RsmView& v
   return result;
 }
 
-RsmSettings plain() {
-  RsmSettings settings;
-  settings.sub_maps = settings.sub_images = 1;
-  settings.sub_blur_radius = 0;
-  settings.final_blur = false;
-  settings.layout = RsmLayout::full;
-  return settings;
-}
-
 TEST(RsmGather, OfASingleTexelIsTheClosedForm) {
   const ReflectiveShadowMap map = single_texel();
   const WallView wall(9, 7);
   for (const RsmLayout layout : {RsmLayout::full, RsmLayout::restructured}) {
-    RsmSettings settings = plain();
+    RsmSettings settings = plain_gather();
     settings.layout = layout;
     settings.texels = 1;
     const RsmIrradiance light = gather({&map, 1}, wall.view(), settings);
@@ -136,7 +127,7 @@ TEST(RsmGather, ComesNearTheExhaustiveOneWithFewTexelsAPixel) {
   WallView wall(64, 48, 0.02f);
   for (vec3& normal : wall.normals) normal = vec3(0.0f, 0.0f, 1.0f);
   for (float& depth : wall.depths) depth = 2.0f;
-  RsmSettings all = plain();
+  RsmSettings all = plain_gather();
   all.texels = 0;
   const auto truth = gather({&map, 1}, wall.view(), all).irradiance;
   const auto light = gather({&map, 1}, wall.view(), {}).irradiance;
@@ -323,10 +314,10 @@ TEST(RsmVisibility, TakesAwayTheLightBehindAnObstacle) {
   const World world(scene);
   const ReflectiveShadowMap map = single_texel();
   WallView wall(9, 9);
-  RsmSettings settings = plain();
+  RsmSettings settings = plain_gather();
   settings.visibility_rays = 1;
   RsmIrradiance lit, seen;
-  RsmGatherer().gather(world, {&map, 1}, wall.view(), plain(), lit);
+  RsmGatherer().gather(world, {&map, 1}, wall.view(), plain_gather(), lit);
   RsmGatherer().gather(world, {&map, 1}, wall.view(), settings, seen);
   EXPECT_GT(seen.rays, 0u);
   for (std::size_t i = 0; i < wall.positions.size(); ++i) {

@@ -18,22 +18,6 @@ namespace {
 
 using test::Stage;
 
-/// What the scene's first camera sees.
-std::vector<FieldQuery> seen_points(const Stage& stage) {
-  constexpr int kWidth = 48, kHeight = 27;
-  std::vector<FieldQuery> queries;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const Ray ray =
-        camera_ray(stage.scene.cameras[0], kWidth, kHeight, static_cast<float>(i % kWidth) + 0.5f,
-                   static_cast<float>(i / kWidth) + 0.5f);
-    const Hit hit = stage.world.tracer().closest_hit(ray);
-    if (hit.missed()) continue;
-    const Surface surface = surface_at(stage.scene, ray, hit);
-    queries.push_back({surface.position_ws, surface.normal_ws, -ray.direction});
-  }
-  return queries;
-}
-
 FieldSettings settings_of(Visibility visibility) {
   FieldSettings settings;
   settings.probe_spacing = 1.0f;
@@ -45,7 +29,7 @@ FieldSettings settings_of(Visibility visibility) {
 /// Mean and largest irradiance that the scene's first camera sees.
 vec2 seen_irradiance(const Stage& stage, Visibility visibility) {
   const IrradianceField field = test::make_field(stage, settings_of(visibility), 2);
-  const std::vector<FieldQuery> queries = seen_points(stage);
+  const std::vector<FieldQuery> queries = test::seen_points(stage);
   std::vector<vec3> irradiance(queries.size());
   field.irradiance(queries, irradiance, &stage.world);
   float sum = 0.0f, largest = 0.0f;
@@ -102,7 +86,7 @@ bool same(const CornerWeights& a, const CornerWeights& b) {
 TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
   const Stage stage("furnace");
   const Traced traced(stage);
-  const std::vector<FieldQuery> queries = seen_points(stage);
+  const std::vector<FieldQuery> queries = test::seen_points(stage);
   const auto moments = traced.weights(stage, Visibility::moments, queries);
   const auto hybrid = traced.weights(stage, Visibility::hybrid, queries);
   int open = 0;
@@ -117,7 +101,7 @@ TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
 TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {
   const Stage stage("two-rooms");
   const Traced traced(stage);
-  const std::vector<FieldQuery> queries = seen_points(stage);
+  const std::vector<FieldQuery> queries = test::seen_points(stage);
   std::vector<CornerWeights> result(queries.size());
   visible_corner_weights(traced.field.store(), {Visibility::hybrid, nullptr, &traced.sights},
                          queries, result);
@@ -131,7 +115,7 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
   const ProbeStore& store = traced.field.store();
   const ProbeGrid& grid = store.grid();
   const float smallest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
-  const std::vector<FieldQuery> queries = seen_points(stage);
+  const std::vector<FieldQuery> queries = test::seen_points(stage);
   const auto exact = traced.weights(stage, Visibility::exact, queries);
   const CornerOffsets offsets = corner_offsets(grid);
   int hidden = 0;
