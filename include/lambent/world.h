@@ -69,6 +69,10 @@ class World {
   /// (kLogLength), or there was no such revision.
   std::optional<std::vector<WorldChanges>> changes_since(std::uint64_t revision) const;
 
+  /// A box around an instance as it was at the last update, world space [m]: that of its mesh,
+  /// carried along, which is loose where it is turned.
+  Bounds instance_bounds(int instance) const;
+
   const Scene& scene() const { return *scene_; }
   /// What finds hits and occlusion, and what draws points on emissive surfaces: for passes, not
   /// part of the public interface. Both live as long as the world; the latter until an update.

@@ -16,18 +16,6 @@ std::vector<std::uint8_t> moving_instances(const Scene& scene) {
   return moving;
 }
 
-/// Bounds of a mesh as an instance places it: those of its box's corners.
-Bounds instance_bounds(const Scene& scene, const Instance& instance) {
-  Bounds object, world;
-  for (const vec3& position : scene.meshes[instance.mesh].positions) object.add(position);
-  if (object.empty()) return world;
-  for (int corner = 0; corner < 8; ++corner) {
-    const vec3 upper(cell_corner(corner));
-    world.add(vec3(instance.world_from_object * vec4(mix(object.min, object.max, upper), 1.0f)));
-  }
-  return world;
-}
-
 }  // namespace
 
 void IrradianceField::State::place(const World& world, std::span<const int> probes) {
@@ -63,8 +51,9 @@ void IrradianceField::State::classify(const World& world) {
   // An exact number of bounces is carried through all probes at once
   if (settings.max_bounces >= 0) return;
   std::vector<Bounds> moving;
-  for (const Instance& instance : world.scene().instances) {
-    if (instance.dynamic) moving.push_back(instance_bounds(world.scene(), instance));
+  const std::vector<Instance>& instances = world.scene().instances;
+  for (int i = 0; i < static_cast<int>(instances.size()); ++i) {
+    if (instances[i].dynamic) moving.push_back(world.instance_bounds(i));
   }
   classify_probes(store.grid(), reaches, moving, records);
 }

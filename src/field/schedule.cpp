@@ -13,6 +13,8 @@ namespace {
 // Rays of a probe in an update with a budget, as many as its noise asks for. Few classes, so that
 // many probes share one set of directions and its blend matrix.
 constexpr std::array kRayClasses = {32, 64, 128, 256, 512};
+// From a class on to where the next one is as near, as a factor: the root of their ratio.
+constexpr float kBetweenClasses = 1.41421356f;
 
 // A probe whose light is known this well rests until its age calls it: surfaces average the noise
 // of eight.
@@ -39,7 +41,7 @@ bool is_live(const ProbeRecord& record) {
 
 int class_for(float rays) {
   for (const int count : kRayClasses) {
-    if (rays <= 1.41421356f * static_cast<float>(count)) return count;
+    if (rays <= kBetweenClasses * static_cast<float>(count)) return count;
   }
   return kRayClasses.back();
 }
@@ -109,9 +111,10 @@ Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> r
     const int probe = static_cast<int>(i);
     const std::uint32_t age = update - record.served;
     const bool old = record.served == 0 || age >= kMaxProbeAge;
+    if (!old && record.samples >= longest) continue;
     const float noise = std::sqrt(noise_around(store.grid(), records, probe));
     const float error = noise / std::sqrt(std::max(record.samples, 1.0f));
-    if (!old && (error < kSettledError || record.samples >= longest)) continue;
+    if (!old && error < kSettledError) continue;
     float worth = 1.0f;
     if (viewer_ws) {
       const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;

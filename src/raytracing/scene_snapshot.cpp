@@ -61,19 +61,6 @@ bool opaque(const SceneSnapshot& snapshot, int material) {
   return snapshot.materials[material].alpha_mode == AlphaMode::opaque;
 }
 
-Bounds world_box(const SceneSnapshot& snapshot, const Placement& placement) {
-  const Bounds& box = snapshot.shapes[placement.mesh].bounds;
-  Bounds result;
-  if (box.empty()) return result;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
-                      (corner & 2) != 0 ? box.max.y : box.min.y,
-                      (corner & 4) != 0 ? box.max.z : box.min.z);
-    result.add(glm::vec3(placement.world_from_object * glm::vec4(p, 1.0f)));
-  }
-  return result;
-}
-
 class Comparison {
  public:
   Comparison(const SceneSnapshot& before, const SceneSnapshot& after)
@@ -246,6 +233,19 @@ std::string place(const char* list, std::size_t index) {
 }
 
 }  // namespace
+
+Bounds world_box(const SceneSnapshot& snapshot, const SceneSnapshot::Placement& placement) {
+  const Bounds& box = snapshot.shapes[placement.mesh].bounds;
+  Bounds result;
+  if (box.empty()) return result;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p((corner & 1) != 0 ? box.max.x : box.min.x,
+                      (corner & 2) != 0 ? box.max.y : box.min.y,
+                      (corner & 4) != 0 ? box.max.z : box.min.z);
+    result.add(glm::vec3(placement.world_from_object * glm::vec4(p, 1.0f)));
+  }
+  return result;
+}
 
 SceneSnapshot take_snapshot(const Scene& scene, const SceneSnapshot* before) {
   SceneSnapshot snapshot;

@@ -43,6 +43,9 @@ struct SceneSnapshot {
   Sky sky;
 };
 
+/// World-space box of a placement: the corners of its mesh's, carried along [m].
+Bounds world_box(const SceneSnapshot& snapshot, const SceneSnapshot::Placement& placement);
+
 /// The scene as it is. Meshes that are as in `before` keep its bounds; null: there is no before.
 SceneSnapshot take_snapshot(const Scene& scene, const SceneSnapshot* before);
 

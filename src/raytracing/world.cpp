@@ -62,6 +62,11 @@ std::optional<std::vector<WorldChanges>> World::changes_since(std::uint64_t revi
                                    history.log.end());
 }
 
+Bounds World::instance_bounds(int instance) const {
+  const SceneSnapshot& snapshot = history_->snapshot;
+  return world_box(snapshot, snapshot.placements[instance]);
+}
+
 double World::build_ms() const {
   return tracer_->statistics().build_ms;
 }
