@@ -104,6 +104,11 @@ void IrradianceField::State::follow_slice(const World& world, std::span<const Wo
   const int texels = tile_texels();
   const WorkingIrradiance held = light_of(light, probes, texels);
   const WorkingIrradiance direct_before = direct_of(transport(probes), held);
+  const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
+                                         [](const WorldChanges& c) { return !c.moved.empty(); });
+  if (settings.visibility == Visibility::hybrid && shapes_differ) {
+    statistics.shadow_rays += sights.look(world.tracer(), store, probes);
+  }
   const FollowedEdits followed =
       follow_edits(world, changes, settings, probes, all, visibility(world), store, traces, salt());
   statistics.probe_rays += followed.probe_rays;
@@ -169,7 +174,9 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
     const bool traced = traces[probe].rays != nullptr;
     if (traced) all.push_back(probe);
     if (record.revision == revision) continue;
-    if (traced && record.revision >= oldest && settings.max_bounces < 0) {
+    // A later revision than the world's is of another object of the class
+    const bool told = record.revision >= oldest && record.revision < revision;
+    if (traced && told && settings.max_bounces < 0) {
       waiting.push_back(probe);
     } else {
       // Without surfels to hold against edits, after more of them than the world remembers, or
