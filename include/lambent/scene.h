@@ -102,6 +102,9 @@ struct Instance {
   std::string name;
   int mesh = 0;                       ///< Index into Scene::meshes.
   glm::mat4 world_from_object{1.0f};  ///< Affine, finite; may mirror.
+  // The three flags that follow shape the light of fields, maps and frames; the reference path
+  // tracer shows light as it is.
+
   /// Its surfaces bounce light and stand in the way of indirect light. false: no ray that gathers
   /// indirect light meets it, but the camera sees it and it casts shadows of lights.
   bool casts_gi = true;

@@ -121,7 +121,7 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
 
       // Reflect the field's light: the base under the coat, and the coat by its directional albedo
       vec3 indirect(0.0f), glossy = light.direct.specular[i];
-      if (has_field) {
+      if (has_field && surface.receives_gi) {
         indirect =
             reflectance.diffuse * (vec3(1.0f) - reflectance.f0) * light.irradiance[i] * kInvPi;
         const float n_dot_v = dot(surface.normal_ws, gbuffer.to_viewer_ws[i]);

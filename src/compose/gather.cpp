@@ -33,7 +33,8 @@ void gather_rays(const Surface& surface, int count, RandomStream random, std::ve
   const vec2 shift = next_uniform2(random);
   for (int i = 0; i < count; ++i) {
     const vec2 u = fract(shift + plastic_sequence(static_cast<uint>(i)));
-    rays.push_back({origin, 0.0f, to_world(frame, sample_cosine_hemisphere(u))});
+    rays.push_back({origin, 0.0f, to_world(frame, sample_cosine_hemisphere(u)), kInfiniteDistance,
+                    kRayGathers});
   }
 }
 
@@ -89,8 +90,9 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
       const vec3 geometric_normal_ws = gbuffer.surfaces[pixel].geometric_normal_ws;
       if (dot(geometric_normal_ws, rays[i].direction) <= 0.0f) continue;
       const ShadedHit& hit = shaded[i];
-      const vec3 radiance =
-          hit.albedo_over_pi * (hit.direct_irradiance + from_field[i]) + hit.sky_radiance;
+      const vec3 radiance = hit.albedo_over_pi * (hit.direct_irradiance +
+                                                  (hit.receives_gi ? from_field[i] : vec3(0.0f))) +
+                            hit.sky_radiance;
       irradiance[pixel] += weight * radiance;
     }
   });

@@ -39,6 +39,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) 
   surfel.material =
       static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
   surfel.albedo_over_pi = shaded.albedo_over_pi;
+  surfel.receives_gi = shaded.receives_gi;
   surfel.light = shaded.direct_irradiance;
   return surfel;
 }
@@ -126,11 +127,15 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
     // other, they find its probes in the cache
     for (int ray = 0; ray < most_rays; ++ray) {
       for (std::size_t k = begin; k < end; ++k) {
-        const ProbeTrace& trace = traces[probes[k]];
+        ProbeTrace& trace = traces[probes[k]];
         if (ray >= static_cast<int>(trace.surfels.size())) continue;
         const Surfel& surfel = trace.surfels[ray];
         // What reflects nothing does not ask what lights it
         if (!surfel.reflects()) continue;
+        if (!surfel.receives_gi) {
+          trace.lookups[ray] = {};
+          continue;
+        }
         reflecting.push_back({probes[k], ray});
         queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
                            -trace.rays->directions[ray]});

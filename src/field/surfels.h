@@ -33,6 +33,7 @@ struct Surfel {
   vec3 light;                ///< Direct irradiance [W/m^2]; of the sky, its radiance [W/(m^2 sr)].
   uint geometric_normal_ws;  ///< Packed, towards the probe.
   SurfelKind kind;
+  bool receives_gi;  ///< The field lights it; else it reflects direct light alone.
 
   bool operator==(const Surfel&) const = default;
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }

@@ -75,6 +75,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
       continue;
     }
     result.emission = surface.emission;
+    result.receives_gi = surface.receives_gi;
     const float n_dot_v = -glm::dot(surface.normal_ws, rays[i].direction);
     const glm::vec3 albedo =
         glm::min(effective_albedo(surface.reflectance, n_dot_v), glm::vec3(settings.max_albedo));

@@ -20,6 +20,7 @@ struct ShadedHit {
   glm::vec3 direct_irradiance{0.0f};  ///< From lights and emissive surfaces [W/m^2].
   glm::vec3 sky_radiance{0.0f};       ///< Of a ray that left the scene [W/(m^2 sr)], else 0.
   glm::vec3 emission{0.0f};           ///< Radiance of the surface itself [W/(m^2 sr)].
+  bool receives_gi = true;            ///< Indirect light reaches the surface.
   bool counts = true;                 ///< false: the back of a single-sided surface.
 };
 

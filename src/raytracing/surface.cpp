@@ -146,6 +146,7 @@ Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float foo
   surface.emission = emission_at(scene, mesh, material, point, texture_footprint);
   surface.front_face = hit.front_face;
   surface.double_sided = material.double_sided;
+  surface.receives_gi = instance.receives_gi;
   return surface;
 }
 

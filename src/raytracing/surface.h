@@ -20,6 +20,7 @@ struct Surface {
   glm::vec3 emission{0.0f};  ///< Radiance [W/(m^2 sr)].
   bool front_face = true;
   bool double_sided = false;
+  bool receives_gi = true;  ///< Indirect light reaches it.
 };
 
 /// The surface at a hit (not a miss) of `ray`. `footprint` is the width that the ray's cone has

@@ -160,6 +160,10 @@ void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, S
       rays[x] = make_ray(texel_middle(static_cast<int>(x), static_cast<int>(y), map.resolution));
     }
     world.tracer().closest_hits(rays, hits);
+    // What casts no indirect light keeps it off what is behind, too
+    for (Hit& hit : hits) {
+      if (!hit.missed() && !world.scene().instances[hit.instance].casts_gi) hit = {};
+    }
     shade(y * resolution, rays, hits);
   });
 }

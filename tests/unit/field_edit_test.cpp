@@ -200,6 +200,38 @@ TEST(FieldEdit, AnEditOfNothingIsNoEdit) {
   EXPECT_EQ(statistics.probes_traced, 98);
 }
 
+TEST(FieldEdit, GoesOnWithAnotherWorldOfTheSameScene) {
+  Edited edited("cube");
+  edited.scene.lights[0].intensity *= 3.0f;
+  edited.follow();
+  ASSERT_GT(edited.world.revision(), 0u);
+  // Revisions count from 0 again: what was averaged under later ones is not to be trusted
+  const World another(edited.scene);
+  edited.field.update(another);
+  EXPECT_LT(relative_rmse(light_of(edited.field), light_of(edited.settled())), 0.1);
+}
+
+TEST(FieldEdit, WhatDoesNotReceiveStaysDarkForTheNextBounce) {
+  // The light's own bounce remains: surfaces still reflect direct light
+  Scene scene = scenes::make("cube").value();
+  const auto mean_light = [&] {
+    const World world(scene);
+    IrradianceField field = IrradianceField::make(Edited::few(), open_bounds(world)).value();
+    for (int i = 0; i < 4; ++i) field.update(world);
+    return mean(light_of(field));
+  };
+  const double all_bounces = mean_light();
+  for (Instance& instance : scene.instances) instance.receives_gi = false;
+  const double first_bounce = mean_light();
+  EXPECT_GT(first_bounce, 0.1 * all_bounces);
+  EXPECT_LT(first_bounce, 0.9 * all_bounces);
+  FieldSettings one_bounce = Edited::few();
+  one_bounce.max_bounces = 1;
+  for (Instance& instance : scene.instances) instance.receives_gi = true;
+  const Edited limited("cube", one_bounce, 4);
+  EXPECT_NEAR(first_bounce, mean(light_of(limited.field)), 0.002 * all_bounces);
+}
+
 TEST(FieldEdit, ABudgetIsKeptAndTheLightArrivesAfterAFewUpdates) {
   Edited edited("cube");
   std::vector<double> expected = light_of(edited.field);
