@@ -46,8 +46,8 @@ void tell(const Options& options, const IrradianceField& field, const FieldProgr
   const char* how = options.updates > 0 ? "made" : reached.settled ? "settled" : "not settled";
   std::printf("%s after %d updates: the last changed the light by %.3g %%\n", how, reached.updates,
               percent);
-  std::printf("%d probes, %zu bytes each: %s\n", field.grid().probes(),
-              field.store_bytes() / static_cast<std::size_t>(field.grid().probes()),
+  std::printf("%d probes, %zu bytes each: %s\n", field.probes(),
+              field.store_bytes() / static_cast<std::size_t>(field.probes()),
               options.output.c_str());
 }
 

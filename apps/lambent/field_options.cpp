@@ -48,15 +48,16 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
     if (progress) progress("field", static_cast<double>(reached.updates) / most);
   }
   reached.change = last.change;
-  const FieldGrid& grid = field.grid();
+  const FieldGrid& grid = field.grids().front();
   stats["updates"] = reached.updates;
-  stats["probes"] = grid.probes();
+  stats["probes"] = field.probes();
+  stats["volumes"] = field.grids().size();
   stats["probe_spacing_x_m"] = grid.spacing.x;
   stats["probe_spacing_y_m"] = grid.spacing.y;
   stats["probe_spacing_z_m"] = grid.spacing.z;
   stats["rays_per_probe"] = field.settings().rays_per_probe;
   stats["field_bytes"] = field.store_bytes();
-  stats["bytes_per_probe"] = static_cast<double>(field.store_bytes()) / grid.probes();
+  stats["bytes_per_probe"] = static_cast<double>(field.store_bytes()) / field.probes();
   stats["surfel_bytes"] = field.surfel_bytes();
   stats["probe_rays"] = sum.probe_rays;
   stats["surfel_shadow_rays"] = sum.shadow_rays;

@@ -53,7 +53,7 @@ struct Edited {
 
 /// Luminance at points all over the field, facing six ways.
 std::vector<double> light_of(const IrradianceField& field) {
-  const FieldGrid& grid = field.grid();
+  const FieldGrid& grid = field.grids()[0];
   std::vector<FieldQuery> queries;
   constexpr int kPoints = 4;
   for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
