@@ -14,53 +14,24 @@
 #include "shared/random.h"
 #include "shared/sampling.h"
 #include "support/field_scenes.h"
+#include "support/random_store.h"
 
 namespace lambent {
 namespace {
 
 using test::look_up;
 using test::make_field;
+using test::random_unit;
+using test::SharedLookup;
 using test::Stage;
-
-/// The lookup that CPU and GPU share, over a store.
-struct SharedLookup {
-  const ProbeStore& store;
-
-  ProbeGrid fetch_grid(int volume) { return store.grid(volume); }
-  vec2 fetch_moments(int probe, vec3 direction) { return store.moments(probe, direction); }
-  vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
-  vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }
-#include "field/lookup.inl.h"
-};
-
-vec3 random_unit(RandomStream& random) {
-  const vec2 u = next_uniform2(random);
-  const float z = 2.0f * u.x - 1.0f, radius = sqrt(max(0.0f, 1.0f - z * z));
-  return {radius * cos(kTwoPi * u.y), radius * sin(kTwoPi * u.y), z};
-}
 
 ProbeGrid uneven_grid() {
   return still_grid({vec3(-1.0f, 0.5f, 2.0f), vec3(0.7f, 1.1f, 0.9f), ivec3(4, 3, 5)});
 }
 
-/// Probes off the grid that hold random light and see random distances, of which the mean square is
-/// at least the mean's square.
 ProbeStore random_store(const FieldSettings& settings) {
   ProbeStore store(uneven_grid(), settings);
-  RandomStream random = make_random_stream(11, 22, 33);
-  std::vector<vec3> irradiance(settings.irradiance_texels * settings.irradiance_texels);
-  std::vector<vec2> moments(settings.distance_texels * settings.distance_texels);
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    for (vec3& texel : irradiance) texel = 5.0f * vec3(next_uniform2(random), next_uniform(random));
-    for (vec2& texel : moments) {
-      const float mean = 1.5f * next_uniform(random);
-      texel = {mean, mean * mean * (1.05f + next_uniform(random))};
-    }
-    store.store_irradiance(probe, irradiance, 1u);
-    store.blend_moments(probe, moments, 1.0f, 1u);
-    const vec3 offset(next_uniform2(random), next_uniform(random));
-    store.set_probe_offset(probe, kMaxProbeOffset * (2.0f * offset - 1.0f));
-  }
+  test::fill_randomly(store);
   return store;
 }
 
