@@ -73,8 +73,7 @@ void measure_growth() {
       ms.push_back(watch.lap());
     }
     if (first == 0.0) first = median(ms);
-    std::printf("| %d | %.1f | %.2f |\n", house.field.probes(), median(ms),
-                median(ms) / first);
+    std::printf("| %d | %.1f | %.2f |\n", house.field.probes(), median(ms), median(ms) / first);
   }
 }
 

@@ -90,6 +90,7 @@ void IrradianceField::reset() {
   std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
   s.sights = ProbeSights(s.store.probes());
   s.edits = {};
+  s.edited_places.clear();
   s.followed_last = false;
   s.updates = 0;
 }

@@ -44,6 +44,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     std::copy(volume.records.begin(), volume.records.end(), records.begin() + first);
   }
   updates = static_cast<int>(file.updates);
+  placed_revision = world.revision();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(tile_texels());
   double sum = 0.0;

@@ -19,24 +19,6 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-/// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
-std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes) {
-  std::vector<int> cells;
-  for (const int probe : probes) {
-    const ProbeGrid& grid = store.grid_of(probe);
-    const ivec3 coords = probe_coords(grid, probe);
-    for (int k = 0; k < 8; ++k) {
-      const ivec3 base = coords - cell_corner(k);
-      if (glm::all(glm::greaterThanEqual(base, ivec3(0)))) {
-        cells.push_back(probe_index(grid, base));
-      }
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 }  // namespace
 
 /// What a probe at a place would hold, from what the field holds there.
@@ -103,23 +85,12 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
     relocate_probes(world.scene(), world.tracer(), recycled, moving_instances(world.scene()),
                     store);
   }
-  find_reaches(world, recycled, /*learn_distances=*/true);
+  settle_in(world, recycled);
   store_light(recycled);
   std::vector<int> followed;
   std::set_difference(edits.followed.begin(), edits.followed.end(), recycled.begin(),
                       recycled.end(), std::back_inserter(followed));
   edits.followed = std::move(followed);
-
-  // What read them where they were asks anew
-  std::vector<int> traced;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    if (traces[probe].rays != nullptr) traced.push_back(probe);
-  }
-  if (settings.visibility == Visibility::hybrid) {
-    sights.look(world.tracer(), store, cells_around(store, recycled));
-  }
-  find_surfel_lookups(store, visibility(world), probes_reading(recycled, traced, store, traces),
-                      traces);
   return static_cast<int>(recycled.size());
 }
 

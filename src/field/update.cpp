@@ -131,6 +131,9 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     std::vector<int> all(s.records.size());
     std::iota(all.begin(), all.end(), 0);
     s.place(world, all);
+    s.placed_revision = world.revision();
+  } else {
+    s.place_edited(world);
   }
   s.classify(world);
   statistics.place_ms = watch.lap();

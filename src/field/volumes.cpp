@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "raytracing/boxes.h"
+
 namespace lambent {
 namespace {
 
@@ -40,10 +42,6 @@ Bounds bounds_of(const ProbeVolume& volume) {
   const mat3& axes = volume.axes;
   const vec3 half = 0.5f * (mat3(abs(axes[0]), abs(axes[1]), abs(axes[2])) * volume.size);
   return {volume.centre - half, volume.centre + half};
-}
-
-bool overlap(const Bounds& a, const Bounds& b) {
-  return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
 Expected<Volume> plan_volume(const ProbeVolume& asked, const Bounds& scene_bounds) {
