@@ -50,7 +50,8 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   std::vector<ProbeGrid> next(store.grids().begin(), store.grids().end());
   for (int volume = 0; volume < store.volumes(); ++volume) {
     if (!roles[volume].follows_viewer) continue;
-    next[volume] = following(store.grid(volume), viewer_ws);
+    const ProbeGrid& grid = store.grid(volume);
+    next[volume] = updates == 0 ? around(grid, viewer_ws) : following(grid, viewer_ws);
     const std::vector<int> probes = recycled_probes(store.grid(volume), next[volume]);
     for (const int probe : probes) {
       places.push_back(probe_position(next[volume], probe_coords(next[volume], probe)));

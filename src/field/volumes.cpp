@@ -19,6 +19,13 @@ constexpr float kFinestSpacing = 1.0f;  // [m]
 // Cells that the viewer may be off a volume's middle before that follows: more than half of one, so
 // that who moves to and fro does not drag it along.
 constexpr float kScrollSlack = 0.75f;
+// Who is so far off was carried away: the volume follows at once.
+constexpr float kCarriedAway = 2.0f;
+// Along axes of fewer probes the slack would leave too little that counts.
+constexpr int kLongAxis = 8;
+// Cells that the sides of the box in which a volume counts move in an update, where they do not
+// move with the viewer: half a second at 60 Hz for one.
+constexpr float kFadeRate = 1.0f / 32.0f;
 // With fewer probes along an axis nothing is left to count once the slack is taken off.
 constexpr int kMinCascadeProbes = 4;
 
@@ -82,14 +89,55 @@ Expected<void> check_cascades(const FieldSettings& settings) {
   return {};
 }
 
+/// Where a volume counts along one axis [cells from probe 0].
+struct Range {
+  float low, high;
+};
+
+float approach(float value, float target) {
+  const float way = target - value;
+  return std::abs(way) <= kFadeRate ? target : value + std::copysign(kFadeRate, way);
+}
+
+/// How far a volume moves on along one axis [cells], and where it counts then.
+struct Step {
+  int cells;
+  Range counts;
+};
+
+/// The next step of a volume of `count` probes, of which the viewer is `off` its middle [cells].
+///
+/// Along a long axis the range is centred on the viewer and ends before the slabs that come and go.
+/// Along a short one that would leave too little: it reaches a cell beyond the probes, as that of a
+/// volume that keeps still, and withdraws only when the volume is about to move on.
+Step follow_along(float off, const Range& counts, int count) {
+  const float last = static_cast<float>(count - 1);
+  const int cells = static_cast<int>(std::round(off));
+  if (count >= kLongAxis) {
+    const int moved = std::abs(off) > kScrollSlack ? cells : 0;
+    const float ahead = off - static_cast<float>(moved);
+    return {moved, {ahead + kScrollSlack, ahead + last - kScrollSlack}};
+  }
+  const Range whole = {-kFadeCells, last + kFadeCells};
+  if (std::abs(off) > kCarriedAway) return {cells, whole};
+
+  // Neither the slab that will go nor the place to which it will come may count
+  const int wants = std::abs(off) <= kScrollSlack ? 0 : off > 0.0f ? 1 : -1;
+  const Range target = wants == 0  ? whole
+                       : wants > 0 ? Range{1.0f, last}
+                                   : Range{0.0f, last - 1.0f};
+  const Range next = {approach(counts.low, target.low), approach(counts.high, target.high)};
+  if (wants == 0 || next.low != target.low || next.high != target.high) return {0, next};
+  const float moved = static_cast<float>(wants);
+  return {wants, {next.low - moved, next.high - moved}};
+}
+
 Volume plan_cascade(const FieldSettings& settings, int level, const vec3& middle) {
   const float finest = settings.probe_spacing > 0.0f ? settings.probe_spacing : kFinestSpacing;
   FieldGrid grid;
   grid.count = settings.probe_count != ivec3(0) ? settings.probe_count : kCascadeProbes;
   grid.spacing = vec3(std::ldexp(finest, level));
-  // Far away from anywhere, so that it follows
-  grid.origin = floor(middle / grid.spacing - vec3(grid.count)) * grid.spacing;
-  return {following(still_grid(grid), middle), {true, level}};
+  return {around(still_grid(grid), middle), {true, level}};
 }
 
 }  // namespace
@@ -113,24 +161,31 @@ FieldGrid field_grid(const ProbeGrid& grid) {
   return {grid.origin_ws, grid.spacing, grid.count, grid.axes};
 }
 
+ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws) {
+  // From far away it comes at once
+  ProbeGrid away = grid;
+  away.origin_ws = (floor(viewer_ws / grid.spacing) - 2.0f * vec3(grid.count)) * grid.spacing;
+  return following(away, viewer_ws);
+}
+
 ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
   ProbeGrid next = grid;
-  const vec3 half = 0.5f * vec3(grid.count - 1);
-  const vec3 ideal = viewer_ws / grid.spacing - half;
   // Of probe 0, counted in cells from the world's origin
-  const ivec3 before = ivec3(glm::round(grid.origin_ws / grid.spacing));
-  ivec3 place = before;
+  ivec3 place = ivec3(glm::round(grid.origin_ws / grid.spacing));
   for (int axis = 0; axis < 3; ++axis) {
-    const float off = ideal[axis] - static_cast<float>(place[axis]);
-    if (std::abs(off) > kScrollSlack) place[axis] = static_cast<int>(std::round(ideal[axis]));
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const int scroll = (grid.scroll[axis] + place[axis] - before[axis]) % grid.count[axis];
-    next.scroll[axis] = scroll < 0 ? scroll + grid.count[axis] : scroll;
+    const int count = grid.count[axis];
+    const float off = viewer_ws[axis] / grid.spacing[axis] - static_cast<float>(place[axis]) -
+                      0.5f * static_cast<float>(count - 1);
+    const Range counts = {grid.fade_centre[axis] - grid.fade_half[axis],
+                          grid.fade_centre[axis] + grid.fade_half[axis]};
+    const Step step = follow_along(off, counts, count);
+    next.fade_centre[axis] = 0.5f * (step.counts.low + step.counts.high);
+    next.fade_half[axis] = 0.5f * (step.counts.high - step.counts.low);
+    place[axis] += step.cells;
+    const int scroll = (grid.scroll[axis] + step.cells) % count;
+    next.scroll[axis] = scroll < 0 ? scroll + count : scroll;
   }
   next.origin_ws = vec3(place) * grid.spacing;
-  next.fade_centre = viewer_ws / grid.spacing - vec3(place);
-  next.fade_half = half - kScrollSlack;
   return next;
 }
 

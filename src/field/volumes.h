@@ -39,9 +39,12 @@ FieldGrid field_grid(const ProbeGrid& grid);
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
                                            const Bounds& scene_bounds);
 
-/// The same volume once it has followed the viewer: in whole cells, and not before the viewer is
-/// kScrollSlack of them from its middle. The box in which it counts moves with the viewer smoothly,
-/// and never reaches the slabs that came into view last.
+/// A volume that follows the viewer, put around one.
+ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws);
+
+/// The same volume an update later, once it has followed the viewer: in whole cells, and not before
+/// the viewer is most of a cell off its middle. Nobody sees it move: the box in which it counts
+/// changes smoothly, and holds neither slabs about to go nor slabs that have just come.
 ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// Probes of `next` that belong where `before`, the same volume earlier, had none.
