@@ -33,7 +33,7 @@ std::vector<BlurTap> period_taps(int period) {
 }
 
 void cross_bilateral_row(const BlurSource& here, std::span<const BlurSource> neighbours,
-                         const Planes3& out, int count, float plane_tolerance) {
+                         const LightPlanes& out, int count, float plane_tolerance) {
   static const auto kernel = LAMBENT_BEST_LEVEL(blur_row);
   kernel(here, neighbours.data(), neighbours.size(), out, count, 1.0f / plane_tolerance);
 }

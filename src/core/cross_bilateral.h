@@ -43,6 +43,20 @@ struct ConstPlanes3 {
   ConstPlanes3(const Planes3& planes) : at{planes.at[0], planes.at[1], planes.at[2]} {}
 };
 
+/// Light that can be relit (shared/relight.h): irradiance r, g, b and the mean way to the light x, y,
+/// z, times luminance.
+inline constexpr int kLightPlanes = 6;
+struct LightPlanes {
+  std::array<float*, kLightPlanes> at{};
+};
+struct ConstLightPlanes {
+  std::array<const float*, kLightPlanes> at{};
+  ConstLightPlanes() = default;
+  ConstLightPlanes(const LightPlanes& planes) {
+    for (int c = 0; c < kLightPlanes; ++c) at[c] = planes.at[c];
+  }
+};
+
 /// What tells a pixel's surface from its neighbours'.
 struct GuidePlanes {
   ConstPlanes3 position;                 ///< [m]
@@ -53,7 +67,7 @@ struct GuidePlanes {
 /// What the filter reads of a pixel, or of a neighbour.
 struct BlurSource {
   GuidePlanes guide;
-  ConstPlanes3 value;
+  ConstLightPlanes value;
   float weight = 1.0f;  ///< Before the scene's edges have their say.
 };
 
@@ -76,6 +90,6 @@ std::vector<BlurTap> period_taps(int period);
 /// pixel's neighbour, wherever it lies. `plane_tolerance` is the share of a pixel's depth at which
 /// another one is off its plane. Input and output must differ. Single-threaded.
 void cross_bilateral_row(const BlurSource& here, std::span<const BlurSource> neighbours,
-                         const Planes3& out, int count, float plane_tolerance);
+                         const LightPlanes& out, int count, float plane_tolerance);
 
 }  // namespace lambent

@@ -16,7 +16,7 @@ LAMBENT_FORCE_INLINE void load_guide(GuideLanes& lanes, const GuidePlanes& guide
   load(lanes.nz, guide.normal.at[2] + i);
 }
 
-/// cross_bilateral_weight, for lanes.
+/// relit_bilateral_weight, for lanes.
 LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
                                        const GuideLanes& there, const Lanes& inverse_tolerance) {
   const Lanes cosine = here.nx * there.nx + here.ny * there.ny + here.nz * there.nz;
@@ -27,23 +27,20 @@ LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
   const Lanes beyond = distance * inverse_tolerance;
   const Lanes near = 1.0f - beyond * beyond;
   const Lanes sixteenth = (fourth * fourth) * (fourth * fourth);
-  const Lanes power = (sixteenth * sixteenth) * (sixteenth * sixteenth);
-  weight = power * near;
+  weight = sixteenth * near;
   keep(weight, (cosine > 0.0f) & (near > 0.0f));
 }
 
 static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
-                     std::size_t neighbour_count, const Planes3& out, int count,
+                     std::size_t neighbour_count, const LightPlanes& out, int count,
                      float inverse_tolerance) {
   for (int i = 0; i < count; i += kLanes) {
     GuideLanes here, there;
-    Lanes tolerance, r, g, b;
+    Lanes tolerance, sums[kLightPlanes];
     load_guide(here, centre.guide, i);
     load(tolerance, centre.guide.inverse_depth + i);
     tolerance *= inverse_tolerance;
-    load(r, centre.value.at[0] + i);
-    load(g, centre.value.at[1] + i);
-    load(b, centre.value.at[2] + i);
+    for (int c = 0; c < kLightPlanes; ++c) load(sums[c], centre.value.at[c] + i);
 
     // Add the neighbours
     Lanes sum = Lanes{} + 1.0f;
@@ -54,16 +51,12 @@ static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
       lane_weights(weight, here, there, tolerance);
       weight *= source.weight;
       sum += weight;
-      load(value, source.value.at[0] + i);
-      r += weight * value;
-      load(value, source.value.at[1] + i);
-      g += weight * value;
-      load(value, source.value.at[2] + i);
-      b += weight * value;
+      for (int c = 0; c < kLightPlanes; ++c) {
+        load(value, source.value.at[c] + i);
+        sums[c] += weight * value;
+      }
     }
     const Lanes scale = 1.0f / sum;
-    store(out.at[0] + i, r * scale);
-    store(out.at[1] + i, g * scale);
-    store(out.at[2] + i, b * scale);
+    for (int c = 0; c < kLightPlanes; ++c) store(out.at[c] + i, sums[c] * scale);
   }
 }

@@ -16,9 +16,20 @@ namespace lambent {
 /// Pixels of a row: where they are, and the light that they gather.
 struct GatherRow {
   GuidePlanes guide;
-  Planes3 light;
+  LightPlanes light;
   int count = 0;  ///< Pixels; more are touched, up to a multiple of kLanes.
+  /// Whether the ways to the light are gathered, too: of every kTexelsPerDirection-th texel, which
+  /// is enough for a mean. direct_light makes of them what shared/relight.h wants.
+  bool directed = false;
 };
+
+inline constexpr int kTexelsPerDirection = 4;
+
+/// Scales the ways that were gathered with a row's light to shared/relight.h's G.
+void direct_light(const GatherRow& row);
+
+/// What the light of a row of pixels brings to their own normals: shared/relight.h. In place.
+void relight_row(const GuidePlanes& guide, const LightPlanes& light, int count);
 
 /// Adds the same texels to every pixel of a row; they lie one after the other.
 void gather_contiguous(const GatherRow& row, std::span<const RsmTexel> texels);
@@ -47,8 +58,8 @@ void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> t
 inline constexpr int kTexelFields = 10;
 
 /// Adds one texel to each of kLanes pixels of a row from `first` on, of which the caller has
-/// fetched the fields.
-void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]);
+/// fetched the fields; and the ways to it, if `directed`.
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool directed);
 
 /// Samples of a disk around each pixel's projection, for pixels of different sub-maps.
 struct DiskGather {

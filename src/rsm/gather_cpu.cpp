@@ -2,7 +2,11 @@
 // Based on: Segovia et al., "Non-interleaved Deferred Shading of Interleaved Sample Patterns",
 // Graphics Hardware 2006; Gruen and Bavoil, US 9,129,443 B2, 2015.
 #include "rsm/gather.h"
+#include <cmath>
+
 #include "rsm/geometry.h"
+#include "shared/color.h"
+#include "shared/relight.h"
 
 namespace lambent {
 namespace {
@@ -35,9 +39,19 @@ void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> t
   kernel(points, count, texels.data(), texels.size(), sums);
 }
 
-void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]) {
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool directed) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_fetched);
-  kernel(row, first, fields);
+  kernel(row, first, fields, directed);
+}
+
+void direct_light(const GatherRow& row) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(direct);
+  kernel(row);
+}
+
+void relight_row(const GuidePlanes& guide, const LightPlanes& light, int count) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(relight);
+  kernel(guide, light, count);
 }
 
 }  // namespace lambent

@@ -120,7 +120,7 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
         read_sample(disk, maps, l, sub_row, middle[l] + sample.offset,
                     sample.weight * static_cast<float>(subs), fields);
       }
-      gather_fetched(row, i, fields);
+      gather_fetched(row, i, fields, row.directed && k % kTexelsPerDirection == 0);
     }
   }
 }

@@ -4,12 +4,11 @@
 
 #include "core/parallel.h"
 #include "rsm/deinterleave.h"
+#include "rsm/gather.h"
 #include "rsm/passes.h"
 
 namespace lambent {
 namespace {
-
-using LightPlanes = Mosaic::Light;
 
 // Rows that a task blurs together. More repeat less of their neighbours' work, fewer stay in the
 // second-level cache.
@@ -23,10 +22,12 @@ class RowRing {
       : rows_(rows),
         stride_(stride),
         plane_(static_cast<std::size_t>(rows) * stride),
-        floats_(std::make_unique_for_overwrite<float[]>(3 * plane_)) {}
-  Planes3 row(int y) {
-    float* first = floats_.get() + static_cast<std::size_t>(y % rows_) * stride_;
-    return {{first, first + plane_, first + 2 * plane_}};
+        floats_(std::make_unique_for_overwrite<float[]>(kLightPlanes * plane_)) {}
+  LightPlanes row(int y) {
+    float* first = floats_.get() + static_cast<std::size_t>(y % rows_) * stride_ * kLightPlanes;
+    LightPlanes result;
+    for (int c = 0; c < kLightPlanes; ++c) result.at[c] = first + c * stride_;
+    return result;
   }
 
  private:
@@ -44,16 +45,16 @@ int reach(std::span<const BlurTap> taps) {
 
 /// Blurs row `row` of sub-image (i, j) along the picture's rows, taps `unit` pixels apart.
 void blur_along_row(Mosaic& mosaic, int i, int j, int row, int unit, std::span<const BlurTap> taps,
-                    const Planes3& out, float tolerance) {
+                    const LightPlanes& out, float tolerance) {
   std::vector<BlurSource> neighbours;
   for (const BlurTap& tap : taps) {
     for (const int dx : {-unit * tap.distance, unit * tap.distance}) {
       neighbours.push_back({mosaic.guide(i, j, row, dx, 0),
-                            mosaic.light(LightPlanes::current, i, j, row, dx, 0), tap.weight});
+                            mosaic.light(Mosaic::Light::current, i, j, row, dx, 0), tap.weight});
     }
   }
   cross_bilateral_row(
-      {mosaic.guide(i, j, row), mosaic.light(LightPlanes::current, i, j, row), 1.0f}, neighbours,
+      {mosaic.guide(i, j, row), mosaic.light(Mosaic::Light::current, i, j, row), 1.0f}, neighbours,
       out, mosaic.layout().width, tolerance);
 }
 
@@ -85,7 +86,7 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
         }
       }
       cross_bilateral_row({mosaic.guide(i, j, row), band.row(row), 1.0f}, neighbours,
-                          mosaic.light(LightPlanes::next, i, j, row), mosaic.layout().width,
+                          mosaic.light(Mosaic::Light::next, i, j, row), mosaic.layout().width,
                           settings.plane_tolerance);
     }
   });
@@ -95,14 +96,14 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
 namespace {
 
 /// Writes a row of the picture, given as a row of each of its sub-images.
-void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes3> subs,
+void interleave_row(const Mosaic& mosaic, int y, std::span<const LightPlanes> subs,
                     std::span<glm::vec3> picture) {
   glm::vec3* to = picture.data() + static_cast<std::size_t>(y) * mosaic.width();
   const int p = mosaic.sub_images();
   for (int x = 0, place = 0; x < mosaic.width(); x += p, ++place) {
     const int count = std::min(p, mosaic.width() - x);
     for (int i = 0; i < count; ++i) {
-      const ConstPlanes3& from = subs[i];
+      const LightPlanes& from = subs[i];
       to[x + i] = {from.at[0][place], from.at[1][place], from.at[2][place]};
     }
   }
@@ -117,7 +118,7 @@ void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings,
   RowRing band((2 * margin + 1) * p, stride);
   std::vector<BlurSource> neighbours;
   RowRing blurred(p, stride);
-  std::vector<ConstPlanes3> subs;
+  std::vector<LightPlanes> subs;
   int ready = from;
   for (int y = first; y < last; ++y) {
     for (; ready < std::min(to, y + margin + 1); ++ready) {
@@ -138,6 +139,7 @@ void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings,
       }
       cross_bilateral_row({mosaic.guide(i, y % p, y / p), band.row(y * p + i), 1.0f}, neighbours,
                           blurred.row(i), mosaic.layout().width, settings.plane_tolerance);
+      relight_row(mosaic.guide(i, y % p, y / p), blurred.row(i), mosaic.layout().width);
       subs.push_back(blurred.row(i));
     }
     interleave_row(mosaic, y, subs, picture);
@@ -152,11 +154,21 @@ void interleave(std::span<const BlurTap> taps, const RsmSettings& settings, Mosa
   parallel_chunks(mosaic.height(), kRowsPerTask, [&](std::size_t begin, std::size_t end) {
     const int first = static_cast<int>(begin), last = static_cast<int>(end);
     if (!taps.empty()) return interleave_band(taps, settings, mosaic, first, last, picture);
-    std::vector<ConstPlanes3> subs;
+    std::vector<LightPlanes> subs;
+    RowRing relit(p, mosaic.layout().stride);
     for (int y = first; y < last; ++y) {
       subs.clear();
       for (int i = 0; i < p; ++i) {
-        subs.push_back(mosaic.light(LightPlanes::current, i, y % p, y / p));
+        LightPlanes light = mosaic.light(Mosaic::Light::current, i, y % p, y / p);
+        if (blurs(settings)) {
+          const LightPlanes copy = relit.row(i);
+          for (int c = 0; c < kLightPlanes; ++c) {
+            std::copy_n(light.at[c], mosaic.layout().stride - mosaic.layout().guard, copy.at[c]);
+          }
+          relight_row(mosaic.guide(i, y % p, y / p), copy, mosaic.layout().width);
+          light = copy;
+        }
+        subs.push_back(light);
       }
       interleave_row(mosaic, y, subs, picture);
     }

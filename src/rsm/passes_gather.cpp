@@ -11,8 +11,6 @@
 namespace lambent {
 namespace {
 
-using LightPlanes = Mosaic::Light;
-
 // Rows of the picture that a task works on.
 constexpr std::size_t kRowsPerTask = 16;
 
@@ -21,14 +19,15 @@ struct RowOf {
   int i, j, row;
 };
 
-/// Calls body(RowOf) for every row of every sub-image, on all cores. Rows that hold pixels of one
-/// row of the picture follow each other, so that it is read from the nearest cache.
-template <class Body>
-void for_each_row(const Mosaic& mosaic, Body body) {
+/// For every row of the picture, on all cores: calls before(y), then body(RowOf) for the rows of
+/// sub-images that hold its pixels.
+template <class Before, class Body>
+void for_each_row(const Mosaic& mosaic, Before before, Body body) {
   const auto p = static_cast<std::size_t>(mosaic.sub_images());
   const auto rows = static_cast<std::size_t>(mosaic.layout().height);
   parallel_chunks(rows * p, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
+      before(static_cast<int>(y));
       for (std::size_t i = 0; i < p; ++i) {
         body(RowOf{static_cast<int>(i), static_cast<int>(y % p), static_cast<int>(y / p)});
       }
@@ -36,9 +35,9 @@ void for_each_row(const Mosaic& mosaic, Body body) {
   });
 }
 
-GatherRow gather_row(Mosaic& mosaic, const RowOf& at) {
-  return {mosaic.guide(at.i, at.j, at.row), mosaic.light(LightPlanes::current, at.i, at.j, at.row),
-          mosaic.layout().width};
+GatherRow gather_row(Mosaic& mosaic, const RowOf& at, bool directed) {
+  return {mosaic.guide(at.i, at.j, at.row), mosaic.light(Mosaic::Light::current, at.i, at.j, at.row),
+          mosaic.layout().width, directed};
 }
 
 void clear(const GatherRow& row) {
@@ -51,8 +50,8 @@ GatherRow part_of(const GatherRow& row, int first, int count) {
   for (int c = 0; c < 3; ++c) {
     part.guide.position.at[c] += first;
     part.guide.normal.at[c] += first;
-    part.light.at[c] += first;
   }
+  for (float*& plane : part.light.at) plane += first;
   part.guide.inverse_depth += first;
   part.count = count;
   return part;
@@ -114,9 +113,9 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
   std::optional<PlaceTables> tables;
   if (mixed) tables.emplace(lights, settings);
   std::atomic<std::uint64_t> rays = 0;
-  for_each_row(mosaic, [&](const RowOf& at) {
-    mosaic.fill_row(view, at.i, at.j, at.row);
-    const GatherRow row = gather_row(mosaic, at);
+  const auto fill = [&](int y) { mosaic.fill_row(view, y); };
+  for_each_row(mosaic, fill, [&](const RowOf& at) {
+    const GatherRow row = gather_row(mosaic, at, blurs(settings));
     clear(row);
     const int sub = sub_map_of({at.i, at.j}, n);
     if (mixed) {
@@ -126,6 +125,7 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
     } else {
       gather_contiguous(row, sub_map(lights, sub));
     }
+    if (row.directed) direct_light(row);
     if (settings.visibility_rays == 0) return;
     const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
     const std::size_t pixel = static_cast<std::size_t>(first.y) * mosaic.width() + first.x;
@@ -142,10 +142,9 @@ void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps
                   const RsmSettings& settings, Mosaic& mosaic) {
   const int n = settings.sub_maps, p = mosaic.sub_images();
   const auto count = static_cast<uint>((settings.texels + n * n - 1) / (n * n) * n * n);
-  for_each_row(mosaic, [&](const RowOf& at) {
-    mosaic.fill_row(view, at.i, at.j, at.row);
-    clear(gather_row(mosaic, at));
-  });
+  const bool directed = blurs(settings);
+  const auto fill = [&](int y) { mosaic.fill_row(view, y); };
+  for_each_row(mosaic, fill, [&](const RowOf& at) { clear(gather_row(mosaic, at, directed)); });
   for (const ReflectiveShadowMap& map : maps) {
     const float radius = settings.disk_radius * static_cast<float>(map.resolution);
     std::vector<DiskSample> samples(count);
@@ -159,11 +158,16 @@ void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps
     disk.texels = disk.restructured ? restructured.data() : map.texels.data();
     disk.samples = samples;
     disk.softening = settings.softening;
-    for_each_row(mosaic, [&](const RowOf& at) {
-      const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
-      gather_disk(gather_row(mosaic, at), disk, first.x, p, first.y % n);
-    });
+    for_each_row(
+        mosaic, [](int) {},
+        [&](const RowOf& at) {
+          const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
+          gather_disk(gather_row(mosaic, at, directed), disk, first.x, p, first.y % n);
+        });
   }
+  if (!directed) return;
+  for_each_row(
+      mosaic, [](int) {}, [&](const RowOf& at) { direct_light(gather_row(mosaic, at, true)); });
 }
 
 }  // namespace lambent

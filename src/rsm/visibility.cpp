@@ -74,7 +74,7 @@ std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
     int arrived = 0;
     for (std::size_t i = p * per_pixel; i < (p + 1) * per_pixel; ++i) arrived += 1 - occluded[i];
     const float share = static_cast<float>(arrived) / static_cast<float>(rays);
-    for (int c = 0; c < 3; ++c) row.light.at[c][pixels[p]] *= share;
+    for (float* plane : row.light.at) plane[pixels[p]] *= share;
   }
   return asked.size();
 }

@@ -140,7 +140,7 @@ TEST(CrossBilateral, WeighsLanesAsTheSharedFunctionDoes) {
   for (int i = 2; i + 2 < kWidth; ++i) {
     float sum = row.r[first + i], weights = 1.0f;
     for (const int j : {i - 2, i + 2}) {
-      const float weight = 0.7f * cross_bilateral_weight(at(i).first - at(j).first, at(i).second,
+      const float weight = 0.7f * relit_bilateral_weight(at(i).first - at(j).first, at(i).second,
                                                          at(j).second, 1.0f / kTolerance);
       sum += weight * row.r[first + j];
       weights += weight;
