@@ -7,13 +7,13 @@ struct GuideLanes {
   Lanes x, y, z, nx, ny, nz;
 };
 
-LAMBENT_FORCE_INLINE void load_guide(GuideLanes& lanes, const GuidePlanes& guide, int i) {
-  load(lanes.x, guide.position.at[0] + i);
-  load(lanes.y, guide.position.at[1] + i);
-  load(lanes.z, guide.position.at[2] + i);
-  load(lanes.nx, guide.normal.at[0] + i);
-  load(lanes.ny, guide.normal.at[1] + i);
-  load(lanes.nz, guide.normal.at[2] + i);
+LAMBENT_FORCE_INLINE void load_guide(GuideLanes& lanes, const ConstPlanes& guide, int i) {
+  load(lanes.x, guide.at(kPositionPlane) + i);
+  load(lanes.y, guide.at(kPositionPlane + 1) + i);
+  load(lanes.z, guide.at(kPositionPlane + 2) + i);
+  load(lanes.nx, guide.at(kNormalPlane) + i);
+  load(lanes.ny, guide.at(kNormalPlane + 1) + i);
+  load(lanes.nz, guide.at(kNormalPlane + 2) + i);
 }
 
 /// relit_bilateral_weight, for lanes.
@@ -31,32 +31,82 @@ LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
   keep(weight, (cosine > 0.0f) & (near > 0.0f));
 }
 
+/// Light and what it is relit with.
+struct BlurLanes {
+  Lanes light[kLightPlanes], relighting[kLightPlanes];
+};
+
+LAMBENT_FORCE_INLINE void load_blurred(BlurLanes& lanes, const ConstPlanes& planes, int i) {
+  for (int c = 0; c < kLightPlanes; ++c) {
+    Lanes word;
+    load(word, planes.at(c) + i);
+    unpack_halves(lanes.light[c], lanes.relighting[c], word);
+  }
+}
+
+/// The means of row `i` of pixels and their neighbours.
+LAMBENT_FORCE_INLINE void blur(BlurLanes& sums, const GuideLanes& here, const BlurSource& centre,
+                               const BlurSource* neighbours, std::size_t neighbour_count,
+                               float inverse_tolerance, int i) {
+  Lanes tolerance;
+  load(tolerance, centre.guide.at(kInverseDepthPlane) + i);
+  tolerance *= inverse_tolerance;
+  load_blurred(sums, centre.light, i);
+  Lanes sum = Lanes{} + 1.0f;
+  for (std::size_t k = 0; k < neighbour_count; ++k) {
+    const BlurSource& source = neighbours[k];
+    GuideLanes there;
+    BlurLanes blurred;
+    Lanes weight;
+    load_guide(there, source.guide, i);
+    lane_weights(weight, here, there, tolerance);
+    weight *= source.weight;
+    sum += weight;
+    load_blurred(blurred, source.light, i);
+    for (int c = 0; c < kLightPlanes; ++c) {
+      sums.light[c] += weight * blurred.light[c];
+      sums.relighting[c] += weight * blurred.relighting[c];
+    }
+  }
+  const Lanes scale = 1.0f / sum;
+  for (int c = 0; c < kLightPlanes; ++c) {
+    sums.light[c] *= scale;
+    sums.relighting[c] *= scale;
+  }
+}
+
 static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
-                     std::size_t neighbour_count, const LightPlanes& out, int count,
+                     std::size_t neighbour_count, const Planes& out, int count,
                      float inverse_tolerance) {
   for (int i = 0; i < count; i += kLanes) {
-    GuideLanes here, there;
-    Lanes tolerance, sums[kLightPlanes];
+    GuideLanes here;
+    BlurLanes blurred;
     load_guide(here, centre.guide, i);
-    load(tolerance, centre.guide.inverse_depth + i);
-    tolerance *= inverse_tolerance;
-    for (int c = 0; c < kLightPlanes; ++c) load(sums[c], centre.value.at[c] + i);
-
-    // Add the neighbours
-    Lanes sum = Lanes{} + 1.0f;
-    for (std::size_t k = 0; k < neighbour_count; ++k) {
-      const BlurSource& source = neighbours[k];
-      Lanes weight, value;
-      load_guide(there, source.guide, i);
-      lane_weights(weight, here, there, tolerance);
-      weight *= source.weight;
-      sum += weight;
-      for (int c = 0; c < kLightPlanes; ++c) {
-        load(value, source.value.at[c] + i);
-        sums[c] += weight * value;
-      }
+    blur(blurred, here, centre, neighbours, neighbour_count, inverse_tolerance, i);
+    for (int c = 0; c < kLightPlanes; ++c) {
+      Lanes word;
+      pack_halves(word, blurred.light[c], blurred.relighting[c]);
+      store(out.at(c) + i, word);
     }
-    const Lanes scale = 1.0f / sum;
-    for (int c = 0; c < kLightPlanes; ++c) store(out.at[c] + i, sums[c] * scale);
+  }
+}
+
+static void blur_row_relit(const BlurSource& centre, const BlurSource* neighbours,
+                           std::size_t neighbour_count, const Planes& out, int count,
+                           float inverse_tolerance) {
+  for (int i = 0; i < count; i += kLanes) {
+    GuideLanes here;
+    BlurLanes blurred;
+    load_guide(here, centre.guide, i);
+    blur(blurred, here, centre, neighbours, neighbour_count, inverse_tolerance, i);
+
+    // relit_share, for lanes
+    const Lanes light = blurred.light[0] * kRedLuminance + blurred.light[1] * kGreenLuminance +
+                        blurred.light[2] * kBlueLuminance;
+    const Lanes brought = blurred.relighting[0] * here.nx + blurred.relighting[1] * here.ny +
+                          blurred.relighting[2] * here.nz;
+    Lanes share = brought / light + kHorizonLight;
+    keep(share, (share > 0.0f) & (light > 0.0f));
+    for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
   }
 }

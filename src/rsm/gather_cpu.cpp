@@ -33,25 +33,20 @@ void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
   kernel(row, texels, places, count);
 }
 
-void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+void sum_terms(const ConstPlanes& points, int count, std::span<const RsmTexel> texels,
                TermSums* sums) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_terms);
   kernel(points, count, texels.data(), texels.size(), sums);
 }
 
-void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool directed) {
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_fetched);
-  kernel(row, first, fields, directed);
+  kernel(row, first, fields, ways);
 }
 
-void direct_light(const GatherRow& row) {
-  static const auto kernel = LAMBENT_BEST_LEVEL(direct);
+void make_relightable(const GatherRow& row) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(relightable);
   kernel(row);
-}
-
-void relight_row(const GuidePlanes& guide, const LightPlanes& light, int count) {
-  static const auto kernel = LAMBENT_BEST_LEVEL(relight);
-  kernel(guide, light, count);
 }
 
 }  // namespace lambent

@@ -7,26 +7,32 @@
 struct GatherLanes {
   Lanes x, y, z, nx, ny, nz;
   Lanes light[kLightPlanes];
+  Lanes ways[3];
 };
 
-LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const GuidePlanes& guide, int i) {
-  load(p.x, guide.position.at[0] + i);
-  load(p.y, guide.position.at[1] + i);
-  load(p.z, guide.position.at[2] + i);
-  load(p.nx, guide.normal.at[0] + i);
-  load(p.ny, guide.normal.at[1] + i);
-  load(p.nz, guide.normal.at[2] + i);
+LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const ConstPlanes& guide, int i) {
+  load(p.x, guide.at(kPositionPlane) + i);
+  load(p.y, guide.at(kPositionPlane + 1) + i);
+  load(p.z, guide.at(kPositionPlane + 2) + i);
+  load(p.nx, guide.at(kNormalPlane) + i);
+  load(p.ny, guide.at(kNormalPlane + 1) + i);
+  load(p.nz, guide.at(kNormalPlane + 2) + i);
 }
 
-/// `directed` is known where this is inlined: without it, the ways to the light are left alone.
-LAMBENT_FORCE_INLINE void load_pixels(GatherLanes& p, const GatherRow& row, int i, bool directed) {
-  load_points(p, row.guide, i);
-  for (int c = 0; c < (directed ? kLightPlanes : 3); ++c) load(p.light[c], row.light.at[c] + i);
+LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool ways) {
+  for (int c = 0; c < kLightPlanes; ++c) load(p.light[c], row.light.at(c) + i);
+  for (int c = 0; c < 3 && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
+}
+
+LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
+  for (Lanes& light : p.light) light = Lanes{};
+  for (Lanes& way : p.ways) way = Lanes{};
 }
 
 LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row, int i,
-                                      bool directed) {
-  for (int c = 0; c < (directed ? kLightPlanes : 3); ++c) store(row.light.at[c] + i, p.light[c]);
+                                      bool ways) {
+  for (int c = 0; c < kLightPlanes; ++c) store(row.light.at(c) + i, p.light[c]);
+  for (int c = 0; c < 3 && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
 }
 
 /// A texel as a gather reads it; flux is over pi. `T` is a float where all pixels ask the same
@@ -38,15 +44,16 @@ struct TexelFields {
 
 /// From pixels to a texel.
 struct Way {
-  Lanes x, y, z;         // [m]
-  Lanes below_texel;     // of its plane [m]
-  Lanes inverse_fourth;  // of the softened distance [1/m^4]
+  Lanes x, y, z;       // [m]
+  Lanes below_texel;   // of its plane [m]
+  Lanes fourth_power;  // of the softened distance [m^4]
+  LaneInts lit;        // where each is above the other's plane
 };
 
-/// bounded_geometry_term times pi.
+/// Finds the way to a texel, and what bounded_geometry_term divides by its fourth power, times pi.
 template <class T>
-LAMBENT_FORCE_INLINE void texel_term(Lanes& term, Way& way, const GatherLanes& p,
-                                     const TexelFields<T>& t) {
+LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, Way& way, const GatherLanes& p,
+                                          const TexelFields<T>& t) {
   way.x = t.x - p.x;
   way.y = t.y - p.y;
   way.z = t.z - p.z;
@@ -56,26 +63,46 @@ LAMBENT_FORCE_INLINE void texel_term(Lanes& term, Way& way, const GatherLanes& p
   const Lanes square = way.x * way.x + way.y * way.y + way.z * way.z + t.softening;
   const Lanes compensation =
       kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
-  way.inverse_fourth = 1.0f / (square * square);
-  keep(way.inverse_fourth, (way.below_texel < 0.0f) & (above_point > 0.0f));
-  term = (t.softening * compensation - way.below_texel * above_point) * way.inverse_fourth;
+  way.fourth_power = square * square;
+  way.lit = (way.below_texel < 0.0f) & (above_point > 0.0f);
+  numerator = t.softening * compensation - way.below_texel * above_point;
 }
 
-/// Adds what a texel brings to the pixels, and the ways to it.
+/// bounded_geometry_term times pi.
 template <class T>
-LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool directed) {
-  Lanes term;
+LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const TexelFields<T>& t) {
   Way way;
-  texel_term(term, way, p, t);
+  texel_numerator(term, way, p, t);
+  term /= way.fourth_power;
+  keep(term, way.lit);
+}
+
+template <class T>
+LAMBENT_FORCE_INLINE void add_light(GatherLanes& p, const TexelFields<T>& t, const Lanes& term) {
   p.light[0] += term * t.red;
   p.light[1] += term * t.green;
   p.light[2] += term * t.blue;
-  if (!directed) return;
+}
+
+/// Adds what a texel brings to the pixels, and if asked the ways to it.
+template <class T>
+LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool ways) {
+  Lanes term;
+  if (!ways) {
+    texel_term(term, p, t);
+    return add_light(p, t, term);
+  }
+  // Divide once for both
+  Way way;
+  texel_numerator(term, way, p, t);
+  Lanes inverse = 1.0f / way.fourth_power;
+  keep(inverse, way.lit);
+  add_light(p, t, term * inverse);
   const T flux = t.red * kRedLuminance + t.green * kGreenLuminance + t.blue * kBlueLuminance;
-  const Lanes share = way.below_texel * way.inverse_fourth * -flux;
-  p.light[3] += share * way.x;
-  p.light[4] += share * way.y;
-  p.light[5] += share * way.z;
+  const Lanes share = way.below_texel * inverse * -flux;
+  p.ways[0] += share * way.x;
+  p.ways[1] += share * way.y;
+  p.ways[2] += share * way.z;
 }
 
 LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
@@ -87,35 +114,36 @@ LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
 /// Adds texels that all pixels ask alike; texel_at(k) finds the k-th.
 template <class TexelAt>
 LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
-                                       const TexelAt& texel_at, bool directed) {
-  constexpr std::size_t kStep = kTexelsPerDirection;
+                                       const TexelAt& texel_at, bool ways) {
+  constexpr std::size_t kStep = kTexelsPerWay;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
-    load_pixels(pixels, row, i, directed);
+    load_points(pixels, row.guide, i);
+    clear_light(pixels);
     std::size_t k = 0;
-    for (; directed && k + kStep <= count; k += kStep) {
+    for (; ways && k + kStep <= count; k += kStep) {
       add_texel(pixels, fields_of(texel_at(k)), true);
       for (std::size_t j = 1; j < kStep; ++j) {
         add_texel(pixels, fields_of(texel_at(k + j)), false);
       }
     }
     for (; k < count; ++k) {
-      add_texel(pixels, fields_of(texel_at(k)), directed && k % kStep == 0);
+      add_texel(pixels, fields_of(texel_at(k)), ways && k % kStep == 0);
     }
-    store_light(pixels, row, i, directed);
+    store_light(pixels, row, i, ways);
   }
 }
 
 static void contiguous(const GatherRow& row, const RsmTexel* texels, std::size_t count) {
   const auto texel_at = [=](std::size_t k) -> const RsmTexel& { return texels[k]; };
-  if (row.directed) return gather_alike(row, count, texel_at, true);
+  if (row.ways.first != nullptr) return gather_alike(row, count, texel_at, true);
   gather_alike(row, count, texel_at, false);
 }
 
 static void scattered(const GatherRow& row, const RsmTexel* rendered, const std::uint32_t* places,
                       std::size_t count) {
   const auto texel_at = [=](std::size_t k) -> const RsmTexel& { return rendered[places[k]]; };
-  if (row.directed) return gather_alike(row, count, texel_at, true);
+  if (row.ways.first != nullptr) return gather_alike(row, count, texel_at, true);
   gather_alike(row, count, texel_at, false);
 }
 
@@ -129,9 +157,11 @@ LAMBENT_FORCE_INLINE void fetch(Lanes& lanes, const float* floats, const std::ui
 
 static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count) {
+  const bool ways = row.ways.first != nullptr;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
-    load_pixels(pixels, row, i, row.directed);
+    load_points(pixels, row.guide, i);
+    clear_light(pixels);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t* at = places + k * kLanes;
       TexelFields<Lanes> t;
@@ -148,82 +178,63 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
       t.red *= kInvPi;
       t.green *= kInvPi;
       t.blue *= kInvPi;
-      add_texel(pixels, t, row.directed && k % kTexelsPerDirection == 0);
+      add_texel(pixels, t, ways && k % kTexelsPerWay == 0);
     }
-    store_light(pixels, row, i, row.directed);
+    store_light(pixels, row, i, ways);
   }
 }
 
 /// Adds the light of one texel a pixel, its fields already fetched: position, normal, softening,
 /// flux over pi.
 static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes],
-                        bool directed) {
+                        bool ways) {
   GatherLanes pixels;
-  load_pixels(pixels, row, first, directed);
+  load_points(pixels, row.guide, first);
+  load_light(pixels, row, first, ways);
   Lanes f[kTexelFields];
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
   add_texel(pixels,
             TexelFields<Lanes>{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]},
-            directed);
-  store_light(pixels, row, first, directed);
-}
-
-LAMBENT_FORCE_INLINE void luminance_of(Lanes& result, const GatherLanes& p) {
-  result = p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance +
-           p.light[2] * kBlueLuminance;
+            ways);
+  store_light(pixels, row, first, ways);
 }
 
 /// relighting, for lanes.
-static void direct(const GatherRow& row) {
+static void relightable(const GatherRow& row) {
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes p;
-    load_pixels(p, row, i, true);
-    Lanes light;
-    luminance_of(light, p);
-    const Lanes across = p.light[3] * p.nx + p.light[4] * p.ny + p.light[5] * p.nz;
-    const Lanes square =
-        p.light[3] * p.light[3] + p.light[4] * p.light[4] + p.light[5] * p.light[5];
+    load_points(p, row.guide, i);
+    load_light(p, row, i, true);
+    const Lanes light = p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance +
+                        p.light[2] * kBlueLuminance;
+    const Lanes across = p.ways[0] * p.nx + p.ways[1] * p.ny + p.ways[2] * p.nz;
+    const Lanes square = p.ways[0] * p.ways[0] + p.ways[1] * p.ways[1] + p.ways[2] * p.ways[2];
     Lanes least;
     for (int l = 0; l < kLanes; ++l) least[l] = kLeastDirectedCosine * std::sqrt(square[l]);
     const Lanes bound = across > least ? across : least;
     Lanes scale = light / bound;
     keep(scale, bound > 0.0f);
     const Lanes rest = light * (1.0f - kHorizonLight) - across * scale;
-    p.light[3] = p.light[3] * scale + p.nx * rest;
-    p.light[4] = p.light[4] * scale + p.ny * rest;
-    p.light[5] = p.light[5] * scale + p.nz * rest;
-    store_light(p, row, i, true);
-  }
-}
-
-/// relit_share, for lanes.
-static void relight(const GuidePlanes& guide, const LightPlanes& planes, int count) {
-  const GatherRow row{guide, planes, count, true};
-  for (int i = 0; i < count; i += kLanes) {
-    GatherLanes p;
-    load_pixels(p, row, i, true);
-    Lanes light;
-    luminance_of(light, p);
-    Lanes ratio = (p.light[3] * p.nx + p.light[4] * p.ny + p.light[5] * p.nz) / light;
-    ratio += kHorizonLight;
-    keep(ratio, (ratio > 0.0f) & (light > 0.0f));
-    for (int c = 0; c < 3; ++c) p.light[c] *= ratio;
-    store_light(p, row, i, false);
+    const Lanes normal[] = {p.nx, p.ny, p.nz};
+    for (int c = 0; c < kLightPlanes; ++c) {
+      Lanes word;
+      pack_halves(word, p.light[c], p.ways[c] * scale + normal[c] * rest);
+      store(row.light.at(c) + i, word);
+    }
   }
 }
 
 /// For each texel, the sums over points of its term and of the term's square.
-static void add_terms(const GuidePlanes& points, int count, const RsmTexel* texels,
+static void add_terms(const ConstPlanes& points, int count, const RsmTexel* texels,
                       std::size_t texel_count, TermSums* sums) {
   for (std::size_t k = 0; k < texel_count; ++k) {
     const TexelFields<float> t = fields_of(texels[k]);
     Lanes terms = Lanes{}, squares = Lanes{};
     for (int i = 0; i < count; i += kLanes) {
       Lanes term;
-      Way way;
       GatherLanes p;
       load_points(p, points, i);
-      texel_term(term, way, p, t);
+      texel_term(term, p, t);
       terms += term;
       squares += term * term;
     }

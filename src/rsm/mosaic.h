@@ -8,8 +8,8 @@
 #pragma once
 
 #include <utility>
-#include <vector>
 
+#include "core/aligned_floats.h"
 #include "core/cross_bilateral.h"
 #include "lambent/rsm.h"
 
@@ -31,22 +31,20 @@ class Mosaic {
 
   /// First pixel of a row of sub-image (i, j), `dx`, `dy` pixels of the picture away from there:
   /// the neighbour's sub-image may be another. Up to `reach` pixels away.
-  GuidePlanes guide(int i, int j, int row, int dx = 0, int dy = 0) const;
+  ConstPlanes guide(int i, int j, int row, int dx = 0, int dy = 0) const;
   /// The light that passes read, and the planes that they may write meanwhile.
   enum class Light { current, next };
-  LightPlanes light(Light which, int i, int j, int row, int dx = 0, int dy = 0);
+  Planes light(Light which, int i, int j, int row, int dx = 0, int dy = 0);
   /// Makes what was written what is read.
   void swap_lights() { std::swap(current_, next_); }
 
  private:
   std::size_t place(int i, int j, int row, int dx, int dy, int plane) const;
-  std::size_t row_size() const;
 
   int width_ = 0, height_ = 0, sub_images_ = 0, reach_ = 0;
   PlaneLayout layout_;
   int current_ = 0, next_ = 0;  // first plane of each light
-  std::size_t sub_image_size_ = 0;    // floats
-  std::vector<float> floats_;
+  AlignedFloats floats_;
 };
 
 }  // namespace lambent
