@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The separable cross-bilateral filter that every pass shares which blurs light over a picture.
 //
-// Pictures are planes: one float array for each value of a pixel. A row has its planes one after the
-// other, so that what a filter reads together lies together. Every row is followed and the whole
-// surrounded by pixels that see nothing (PlaneLayout), so that a filter needs no borders: what lies
-// outside weighs nothing. Neighbours are given as pointers, so a horizontal pass, a vertical one and
-// one across interleaved sub-images are the same loop.
+// Pictures are planes: one float array for each value of a pixel. A row has its planes one after
+// the other, so that what a filter reads together lies together. Every row is followed and the
+// whole surrounded by pixels that see nothing (PlaneLayout), so that a filter needs no borders:
+// what lies outside weighs nothing. Neighbours are given as pointers, so a horizontal pass, a
+// vertical one and one across interleaved sub-images are the same loop.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@ namespace lambent {
 /// Usual width of what surrounds a picture [pixels], and the farthest that taps may reach then.
 inline constexpr int kPlaneGuard = 8;
 
-/// How a picture of planes lies in memory. In an AlignedFloats the first pixel of each row and plane
-/// lies at the start of a cache line.
+/// How a picture of planes lies in memory. In an AlignedFloats the first pixel of each row and
+/// plane lies at the start of a cache line.
 struct PlaneLayout {
   int width = 0, height = 0;
   int planes = 0;        ///< Values a pixel.
@@ -57,14 +57,14 @@ struct ConstPlanes {
 /// where nothing is seen; one over depth [1/m].
 inline constexpr int kPositionPlane = 0, kNormalPlane = 3, kInverseDepthPlane = 6, kGuidePlanes = 7;
 /// Irradiance r, g, b. While it is blurred, each holds two values, so that half as much memory is
-/// read: in its upper half the upper half of the irradiance's float, rounded, in its lower half that
-/// of a component x, y, z of what it is relit with, R of shared/relight.h.
+/// read: in its upper half the upper half of the irradiance's float, rounded, in its lower half
+/// that of a component x, y, z of what it is relit with, R of shared/relight.h.
 inline constexpr int kLightPlanes = 3;
 
 /// What the filter reads of a pixel, or of a neighbour.
 struct BlurSource {
   ConstPlanes guide;
-  ConstPlanes light;  ///< Of two values each.
+  ConstPlanes light;    ///< Of two values each.
   float weight = 1.0f;  ///< Before the scene's edges have their say.
 };
 

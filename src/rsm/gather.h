@@ -23,7 +23,7 @@ struct GatherRow {
   int count = 0;  ///< Pixels; more are touched, up to a multiple of kLanes.
 };
 
-inline constexpr int kTexelsPerWay = 4, kWayPlanes = 3;
+inline constexpr int kTexelsPerWay = 8, kWayPlanes = 3;
 
 /// Makes of a row's light and the ways to it light that can be blurred: kLightPlanes of two values.
 void make_relightable(const GatherRow& row);
@@ -35,10 +35,11 @@ void gather_contiguous(const GatherRow& row, std::span<const RsmTexel> texels);
 void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
                       std::span<const std::uint32_t> places);
 
-/// Gives each pixel the light of texels of its own sub-map, which differs from that of its neighbour. `places`
-/// has kLanes entries for each of `count` texels: where in `texels` those of the pixels at places 0
-/// to kLanes - 1 of a row lie; it repeats along the row, so kLanes must be a multiple of the period
-/// of sub-maps, or the row be gathered in pieces of kLanes pixels with tables of their own.
+/// Gives each pixel the light of texels of its own sub-map, which differs from that of its
+/// neighbour. `places` has kLanes entries for each of `count` texels: where in `texels` those of
+/// the pixels at places 0 to kLanes - 1 of a row lie; it repeats along the row, so kLanes must be a
+/// multiple of the period of sub-maps, or the row be gathered in pieces of kLanes pixels with
+/// tables of their own.
 void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count);
 

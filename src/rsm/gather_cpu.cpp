@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Segovia et al., "Non-interleaved Deferred Shading of Interleaved Sample Patterns",
 // Graphics Hardware 2006; Gruen and Bavoil, US 9,129,443 B2, 2015.
-#include "rsm/gather.h"
 #include <cmath>
+#include "rsm/gather.h"
 
 #include "rsm/geometry.h"
 #include "shared/color.h"

@@ -106,8 +106,8 @@ LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, boo
 }
 
 LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
-  return {t.position_ws.x,    t.position_ws.y,    t.position_ws.z,   t.normal_ws.x,
-          t.normal_ws.y,      t.normal_ws.z,      t.softening,       t.flux.x * kInvPi,
+  return {t.position_ws.x,   t.position_ws.y,  t.position_ws.z, t.normal_ws.x,
+          t.normal_ws.y,     t.normal_ws.z,    t.softening,     t.flux.x * kInvPi,
           t.flux.y * kInvPi, t.flux.z * kInvPi};
 }
 
@@ -186,15 +186,13 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
 
 /// Adds the light of one texel a pixel, its fields already fetched: position, normal, softening,
 /// flux over pi.
-static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes],
-                        bool ways) {
+static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
   GatherLanes pixels;
   load_points(pixels, row.guide, first);
   load_light(pixels, row, first, ways);
   Lanes f[kTexelFields];
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
-  add_texel(pixels,
-            TexelFields<Lanes>{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]},
+  add_texel(pixels, TexelFields<Lanes>{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]},
             ways);
   store_light(pixels, row, first, ways);
 }
@@ -205,8 +203,8 @@ static void relightable(const GatherRow& row) {
     GatherLanes p;
     load_points(p, row.guide, i);
     load_light(p, row, i, true);
-    const Lanes light = p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance +
-                        p.light[2] * kBlueLuminance;
+    const Lanes light =
+        p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance + p.light[2] * kBlueLuminance;
     const Lanes across = p.ways[0] * p.nx + p.ways[1] * p.ny + p.ways[2] * p.nz;
     const Lanes square = p.ways[0] * p.ways[0] + p.ways[1] * p.ways[1] + p.ways[2] * p.ways[2];
     Lanes least;

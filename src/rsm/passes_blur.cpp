@@ -17,7 +17,8 @@ constexpr int kRowsPerTask = 32;
 /// stay in the cache until they were blurred vertically, too.
 class RowRing {
  public:
-  RowRing(int rows, int width) : rows_(rows), layout_(width, rows, kLightPlanes, 0), floats_(layout_.size) {}
+  RowRing(int rows, int width)
+      : rows_(rows), layout_(width, rows, kLightPlanes, 0), floats_(layout_.size) {}
   Planes row(int y) { return {floats_.data() + layout_.row(y % rows_), layout_.stride}; }
 
  private:
