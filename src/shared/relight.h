@@ -18,16 +18,17 @@ LAMBENT_BEGIN
 //
 //     E(m) = m . G + 1/2 d^2 H,   H = INT over the horizon of radiance
 //
-// H is not gathered. In an evenly lit half-space, E = pi and G = pi n, half of E a turn of the
-// horizon is lit, H = pi / 2 = E / 2; in light from aloft H is 0; the rooms that this is made for
-// are nearer the former. With d^2 = 2 (1 - m . n) and H = h E, h = 1/2,
+// H is not gathered. In an evenly lit half-space, where E = pi and G = pi n, half of the horizon of
+// a tilted normal is lit, and E(m) = pi (1 + m . n) / 2 tells that H = E / 2. In light from aloft H
+// is 0. Between both, h = H / E = 1/4 is off by no more than d^2 / 8 either way. With d^2 = 2 (1 -
+// m . n),
 //
 //     | E(m) = m . R + h E(n),   R = G - h E(n) n |
 //
 // which is still linear in what is gathered, so means over pixels of E and R stay of that form, and
 // changes nothing where all normals are the same. R, of luminance alone, is blurred with the light
 // and tells at the end what that brings a pixel's own normal.
-const float kHorizonLight = 0.5f;  // h
+const float kHorizonLight = 0.25f;  // h
 
 /// Least cosine between a normal and G: bounds what another normal may make of light that grazes.
 const float kLeastDirectedCosine = 0.2f;

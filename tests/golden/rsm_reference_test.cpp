@@ -146,7 +146,8 @@ vec3 unoccluded_bounce(const Stage& stage, const vec3& position, const vec3& nor
                                shadow_ray(s.position_ws, s.geometric_normal_ws, light))) {
                          return;
                        }
-                       sum += s.reflectance.diffuse * light.perpendicular_irradiance * cosine;
+                       sum += effective_albedo(s.reflectance, cosine) *
+                              light.perpendicular_irradiance * cosine;
                      });
       ray.t_min = hit.distance * 1.0001f + 1e-4f;
     }
