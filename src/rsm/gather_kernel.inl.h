@@ -7,7 +7,7 @@
 struct GatherLanes {
   Lanes x, y, z, nx, ny, nz;
   Lanes light[kLightPlanes];
-  Lanes ways[3];
+  Lanes ways[kWayPlanes];
 };
 
 LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const ConstPlanes& guide, int i) {
@@ -21,7 +21,7 @@ LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const ConstPlanes& guide, 
 
 LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool ways) {
   for (int c = 0; c < kLightPlanes; ++c) load(p.light[c], row.light.at(c) + i);
-  for (int c = 0; c < 3 && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
+  for (int c = 0; c < kWayPlanes && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
 }
 
 LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
@@ -32,7 +32,7 @@ LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
 LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row, int i,
                                       bool ways) {
   for (int c = 0; c < kLightPlanes; ++c) store(row.light.at(c) + i, p.light[c]);
-  for (int c = 0; c < 3 && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
+  for (int c = 0; c < kWayPlanes && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
 }
 
 /// A texel as a gather reads it; flux is over pi. `T` is a float where all pixels ask the same
@@ -197,7 +197,7 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   store_light(pixels, row, first, ways);
 }
 
-/// relighting, for lanes.
+/// relighting (shared/relight.h), for lanes.
 static void relightable(const GatherRow& row) {
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes p;
@@ -211,7 +211,7 @@ static void relightable(const GatherRow& row) {
     for (int l = 0; l < kLanes; ++l) least[l] = kLeastDirectedCosine * std::sqrt(square[l]);
     const Lanes bound = across > least ? across : least;
     Lanes scale = light / bound;
-    keep(scale, bound > 0.0f);
+    keep(scale, bound > light * kLeastDirectedShare);
     const Lanes rest = light * (1.0f - kHorizonLight) - across * scale;
     const Lanes normal[] = {p.nx, p.ny, p.nz};
     for (int c = 0; c < kLightPlanes; ++c) {

@@ -33,18 +33,22 @@ const float kHorizonLight = 0.25f;  // h
 /// Least cosine between a normal and G: bounds what another normal may make of light that grazes.
 const float kLeastDirectedCosine = 0.2f;
 
+/// Share of the light whose ways must be known for them to stand for all: what texels of hardly any
+/// light tell counts for nothing, and cannot overflow.
+const float kLeastDirectedShare = 1e-6f;
+
 /// R for a pixel of luminance `light`, from any vector along G: that is scaled, and tilted where it
 /// would graze, to n . G = light. Without a direction light comes along the normal.
 LAMBENT_FN vec3 relighting(vec3 direction, vec3 normal, float light) {
   float across = dot(direction, normal);
   float bound = max(across, kLeastDirectedCosine * length(direction));
-  float scale = bound > 0.0f ? light / bound : 0.0f;
+  float scale = bound > kLeastDirectedShare * light ? light / bound : 0.0f;
   return direction * scale + normal * ((1.0f - kHorizonLight) * light - across * scale);
 }
 
-/// Factor to light of that luminance and R for a pixel of that normal.
-LAMBENT_FN float relit_share(vec3 relighting, vec3 normal, float light) {
-  return light > 0.0f ? max(0.0f, dot(relighting, normal) / light + kHorizonLight) : 0.0f;
+/// Factor to light of that luminance, for a pixel of that normal; `means` is R.
+LAMBENT_FN float relit_share(vec3 means, vec3 normal, float light) {
+  return light > 0.0f ? max(0.0f, dot(means, normal) / light + kHorizonLight) : 0.0f;
 }
 
 LAMBENT_END

@@ -61,6 +61,14 @@ TEST(Relight, BoundsWhatGrazingLightBringsAnotherNormal) {
   }
 }
 
+TEST(Relight, TakesNoWayFromTexelsOfHardlyAnyLight) {
+  for (const float tiny : {1e-44f, 1e-38f, 1e-30f}) {
+    const vec3 r = relighting(tiny * tilted(1.0f), kUp, 1.0f);
+    EXPECT_NEAR(relit_share(r, tilted(0.5f), 1.0f),
+                relit_share(relighting(vec3(0.0f), kUp, 1.0f), tilted(0.5f), 1.0f), 1e-6f);
+  }
+}
+
 TEST(Relight, OfNoLightIsNone) {
   EXPECT_EQ(relit_share(relighting(vec3(0.0f), kUp, 0.0f), kUp, 0.0f), 0.0f);
 }
