@@ -22,7 +22,7 @@ std::vector<vec3> directions_of(const Workload& work) {
 void blend_irradiance(benchmark::State& state) {
   const Workload& work = workload();
   const BlendMatrix blend(work.field.settings().irradiance_texels, 1.0f, directions_of(work));
-  const auto probes = static_cast<std::size_t>(work.field.grid().probes());
+  const auto probes = static_cast<std::size_t>(work.field.probes());
   const std::size_t values = 4 * static_cast<std::size_t>(blend.rays());
   const std::vector<float> radiance(values * probes, 0.7f);
   std::vector<float> sums(4 * probes * blend.texels());
@@ -50,7 +50,7 @@ void blend_distances_of_all_probes(benchmark::State& state) {
   const TraceGroup traced = trace_all_probes(work);
   const DistanceBlend blend(settings, traced.rays->directions);
   const std::vector<float> shares(traced.probes.size(), 0.1f);
-  ProbeStore store(work.field.store().grid(), settings);
+  ProbeStore store(work.field.store().grid(0), settings);
   Median ms;
   for (auto _ : state) {
     const double elapsed =

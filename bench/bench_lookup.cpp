@@ -5,7 +5,7 @@
 
 #include "bench/workload.h"
 #include "core/parallel.h"
-#include "field/visibility.h"
+#include "field/lookup_volumes.h"
 
 namespace lambent::bench {
 namespace {
@@ -44,7 +44,7 @@ void lookup_hybrid(benchmark::State& state) {
   const RayTracer& tracer = work.world.tracer();
   std::vector<int> probes(store.probes());
   std::iota(probes.begin(), probes.end(), 0);
-  ProbeSights sights(store.grid());
+  ProbeSights sights(store.probes());
   sights.look(tracer, store, probes);
   const std::vector<FieldQuery> queries = pixel_queries(work);
   std::vector<glm::vec3> irradiance(queries.size());
@@ -52,9 +52,9 @@ void lookup_hybrid(benchmark::State& state) {
   const auto look_up = [&](Visibility mode) {
     return time_ms([&] {
       parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-        rays += visible_irradiance(store, {mode, &tracer, &sights},
-                                   std::span(queries).subspan(begin, end - begin),
-                                   std::span(irradiance).subspan(begin, end - begin));
+        rays += lookup_irradiance(store, {mode, &tracer, &sights},
+                                  std::span(queries).subspan(begin, end - begin),
+                                  std::span(irradiance).subspan(begin, end - begin));
       });
     });
   };

@@ -50,7 +50,7 @@ void update(benchmark::State& state) {
   state.counters["probe_rays"] = static_cast<double>(last.probe_rays);
   state.counters["shadow_rays"] = static_cast<double>(last.shadow_rays);
   state.counters["store_bytes_per_probe"] =
-      static_cast<double>(work.field.store_bytes()) / work.field.grid().probes();
+      static_cast<double>(work.field.store_bytes()) / work.field.probes();
 }
 
 BENCHMARK(update)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   try {
     const lambent::bench::Workload& work = lambent::bench::workload();
     benchmark::AddCustomContext("scene", work.name);
-    benchmark::AddCustomContext("probes", std::to_string(work.field.grid().probes()));
+    benchmark::AddCustomContext("probes", std::to_string(work.field.probes()));
     benchmark::AddCustomContext("rays_per_probe",
                                 std::to_string(work.field.settings().rays_per_probe));
     benchmark::RunSpecifiedBenchmarks();

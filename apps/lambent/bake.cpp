@@ -46,15 +46,17 @@ void tell(const Options& options, const IrradianceField& field, const FieldProgr
   const char* how = options.updates > 0 ? "made" : reached.settled ? "settled" : "not settled";
   std::printf("%s after %d updates: the last changed the light by %.3g %%\n", how, reached.updates,
               percent);
-  std::printf("%d probes, %zu bytes each: %s\n", field.grid().probes(),
-              field.store_bytes() / static_cast<std::size_t>(field.grid().probes()),
+  std::printf("%d probes, %zu bytes each: %s\n", field.probes(),
+              field.store_bytes() / static_cast<std::size_t>(field.probes()),
               options.output.c_str());
 }
 
 Expected<void> bake(const Options& options) {
   if (const auto fine = check(options); !fine) return fine;
-  const auto settings = field_settings(options.field, options.seed, options.bounces);
-  if (!settings) return tl::unexpected(settings.error());
+  // What is wrong with the options is told before the scene is read
+  if (const auto fine = field_settings(options.field, {}, options.seed, options.bounces); !fine) {
+    return tl::unexpected(fine.error());
+  }
   const ThreadLimit limit(options.threads);
 
   Expected<Scene> scene = open_stage(options.stage);
@@ -66,6 +68,10 @@ Expected<void> bake(const Options& options) {
     animate(*scene, -1, *options.time_s);
   }
   const World world(*scene);
+  const Expected<Camera> camera = choose_camera(options.stage, world);
+  if (!camera) return tl::unexpected(camera.error());
+  const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
+  if (!settings) return tl::unexpected(settings.error());
   Expected<IrradianceField> field = IrradianceField::make(*settings, open_bounds(world));
   if (!field) return tl::unexpected(field.error());
 
@@ -73,11 +79,12 @@ Expected<void> bake(const Options& options) {
   stats["triangles"] = triangle_count(*scene);
   stats["build_ms"] = world.build_ms();
   FieldProgress reached;
+  const UpdateRequest request{0, 0.0, glm::vec3(camera->world_from_view[3])};
   {
     const ProgressFn progress = terminal_progress();
     reached = options.updates > 0
-                  ? update_field(world, options.updates, {}, *field, progress, stats)
-                  : settle_field(world, *field, progress, stats);
+                  ? update_field(world, options.updates, request, *field, progress, stats)
+                  : settle_field(world, request, *field, progress, stats);
   }
   stats["settled"] = reached.settled;
   if (const auto saved = save_field(options.output, *field, world); !saved) return saved;

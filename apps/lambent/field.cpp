@@ -61,11 +61,14 @@ Json json_of(const FieldFile& field) {
   json["volumes"] = field.volumes.size();
   for (const FieldVolume& volume : field.volumes) {
     const Summary summary = summarize(volume);
-    const FieldGrid& grid = volume.grid;
-    json["probes"].push_back(grid.probes());
+    const ProbeGrid& grid = volume.grid;
+    json["probes"].push_back(probe_count(grid));
     json["probe_counts"].push_back(Json::array({grid.count.x, grid.count.y, grid.count.z}));
-    json["origins_m"].push_back(array_of(grid.origin));
+    json["origins_m"].push_back(array_of(grid.origin_ws));
     json["spacings_m"].push_back(array_of(grid.spacing));
+    json["axes"].push_back(
+        Json::array({array_of(grid.axes[0]), array_of(grid.axes[1]), array_of(grid.axes[2])}));
+    json["follow_viewer"].push_back(volume.role.follows_viewer);
     json["irradiance_formats"].push_back(
         kIrradianceFormats[static_cast<int>(volume.irradiance_format)]);
     json["distance_formats"].push_back(kDistanceFormats[static_cast<int>(volume.distance_format)]);
@@ -83,13 +86,14 @@ Json json_of(const FieldFile& field) {
 
 void print_volume(const FieldVolume& volume) {
   const Summary summary = summarize(volume);
-  const FieldGrid& grid = volume.grid;
-  const vec3 far = grid.origin + grid.spacing * vec3(grid.count - 1);
+  const ProbeGrid& grid = volume.grid;
+  const vec3 far = probe_position(grid, grid.count - 1);
   std::printf("probes       %d: %d x %d x %d, %g x %g x %g m apart, %d moved off the grid\n",
-              grid.probes(), grid.count.x, grid.count.y, grid.count.z, grid.spacing.x,
+              probe_count(grid), grid.count.x, grid.count.y, grid.count.z, grid.spacing.x,
               grid.spacing.y, grid.spacing.z, summary.relocated);
-  std::printf("place        %g %g %g to %g %g %g m\n", grid.origin.x, grid.origin.y, grid.origin.z,
-              far.x, far.y, far.z);
+  std::printf("place        %g %g %g to %g %g %g m\n", grid.origin_ws.x, grid.origin_ws.y,
+              grid.origin_ws.z, far.x, far.y, far.z);
+  if (volume.role.follows_viewer) std::printf("role         follows the viewer\n");
   std::printf("irradiance   %d x %d texels, %s; %.4g %.4g %.4g W/m^2 on average\n",
               volume.irradiance_texels, volume.irradiance_texels,
               kIrradianceFormats[static_cast<int>(volume.irradiance_format)], summary.irradiance.x,
@@ -126,7 +130,7 @@ Expected<void> info(const std::string& path, bool as_json) {
 template <class Texel>
 void for_atlas(const FieldVolume& volume, int texels, Texel texel) {
   const int width = texels + 2;
-  for (int probe = 0; probe < volume.grid.probes(); ++probe) {
+  for (int probe = 0; probe < probe_count(volume.grid); ++probe) {
     const ivec2 corner = ivec2(probe % volume.grid.count.x, probe / volume.grid.count.x) * width;
     for (int t = 0; t < width * width; ++t) {
       const ivec2 within(t % width, t / width);

@@ -45,24 +45,27 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
     sum.probes_traced += last.probes_traced;
     sum.probes_followed += last.probes_followed;
     sum.probes_touched += last.probes_touched;
+    sum.probes_recycled += last.probes_recycled;
     if (progress) progress("field", static_cast<double>(reached.updates) / most);
   }
   reached.change = last.change;
-  const FieldGrid& grid = field.grid();
+  const FieldGrid& grid = field.grids().front();
   stats["updates"] = reached.updates;
-  stats["probes"] = grid.probes();
+  stats["probes"] = field.probes();
+  stats["volumes"] = field.grids().size();
   stats["probe_spacing_x_m"] = grid.spacing.x;
   stats["probe_spacing_y_m"] = grid.spacing.y;
   stats["probe_spacing_z_m"] = grid.spacing.z;
   stats["rays_per_probe"] = field.settings().rays_per_probe;
   stats["field_bytes"] = field.store_bytes();
-  stats["bytes_per_probe"] = static_cast<double>(field.store_bytes()) / grid.probes();
+  stats["bytes_per_probe"] = static_cast<double>(field.store_bytes()) / field.probes();
   stats["surfel_bytes"] = field.surfel_bytes();
   stats["probe_rays"] = sum.probe_rays;
   stats["surfel_shadow_rays"] = sum.shadow_rays;
   stats["probes_traced"] = sum.probes_traced;
   stats["probes_followed"] = sum.probes_followed;
   stats["probes_touched"] = sum.probes_touched;
+  stats["probes_recycled"] = sum.probes_recycled;
   stats["probes_off"] = last.states.off;
   stats["probes_sleeping"] = last.states.sleeping;
   stats["probes_newly_awake"] = last.states.newly_awake;
@@ -94,7 +97,17 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
             return fine ? std::string() : "'" + text + "' is not a number above 0";
           }));
   o.of_shape.push_back(
-      command.add_option("--volume", o.volume, "Box of the probes, x0,y0,z0,x1,y1,z1 [m]"));
+      command.add_option("--bounds", o.bounds, "Box of the probes, x0,y0,z0,x1,y1,z1 [m]"));
+  o.of_shape.push_back(command
+                           .add_option("--cascades", o.settings.cascades,
+                                       "Nested volumes around the camera, in place of one box")
+                           ->check(CLI::Range(0, 16)));
+  o.of_shape.push_back(
+      command
+          .add_option("--volume", o.volumes,
+                      "Another volume: a box, then any of :spacing=M :probes=XxYxZ :turn=DEGREES "
+                      ":priority=N")
+          ->take_all());
   command.add_option("--rays", o.settings.rays_per_probe, "Rays a probe and update")
       ->check(CLI::Range(16, 4096))
       ->capture_default_str();
@@ -126,25 +139,34 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       ->default_str("moments");
 }
 
-Expected<FieldSettings> field_settings(const FieldOptions& options, std::uint32_t seed,
-                                       int bounces) {
+Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
+                                       std::uint32_t seed, int bounces) {
   FieldSettings settings = options.settings;
   settings.seed = seed;
   settings.max_bounces = bounces;
   settings.irradiance_format = kIrradianceFormats.at(options.irradiance_format);
   settings.distance_format = kDistanceFormats.at(options.distance_format);
   if (!options.probes.empty()) {
-    if (settings.probe_spacing > 0.0f) {
+    if (settings.probe_spacing > 0.0f && settings.cascades == 0) {
       return fail("--probes", "", "give either --probes or --probe-spacing");
     }
     const auto counts = parse_counts("--probes", options.probes);
     if (!counts) return tl::unexpected(counts.error());
     settings.probe_count = *counts;
   }
-  if (!options.volume.empty()) {
-    const auto box = parse_box("--volume", options.volume);
+  if (!options.bounds.empty()) {
+    if (settings.cascades > 0) {
+      return fail("--bounds", "", "cascades follow the camera: give either");
+    }
+    const auto box = parse_box("--bounds", options.bounds);
     if (!box) return tl::unexpected(box.error());
     settings.volume = *box;
+  }
+  settings.volumes = scene.volumes;
+  for (const std::string& text : options.volumes) {
+    const auto volume = parse_volume("--volume", text);
+    if (!volume) return tl::unexpected(volume.error());
+    settings.volumes.push_back(*volume);
   }
   return settings;
 }
@@ -155,9 +177,9 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
   return run_updates(world, updates, false, request, field, progress, stats);
 }
 
-FieldProgress settle_field(const World& world, IrradianceField& field, const ProgressFn& progress,
-                           nlohmann::ordered_json& stats) {
-  return run_updates(world, kMaxSettleUpdates, true, {}, field, progress, stats);
+FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
+                           const ProgressFn& progress, nlohmann::ordered_json& stats) {
+  return run_updates(world, kMaxSettleUpdates, true, request, field, progress, stats);
 }
 
 }  // namespace lambent::cli

@@ -25,7 +25,8 @@ inline constexpr int kMaxUpdates = 100'000;
 
 struct FieldOptions {
   FieldSettings settings;  // without what the others say
-  std::string probes, volume;
+  std::string probes, bounds;
+  std::vector<std::string> volumes;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
   std::vector<const CLI::Option*> of_shape;  // what a field's file has decided
@@ -34,9 +35,9 @@ struct FieldOptions {
 /// Declares the options on `command`; `options` must outlive it.
 void add_field_options(CLI::App& command, FieldOptions& options);
 
-/// What the options say.
-Expected<FieldSettings> field_settings(const FieldOptions& options, std::uint32_t seed,
-                                       int bounces);
+/// What the options say, with the volumes that the scene brings.
+Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
+                                       std::uint32_t seed, int bounces);
 
 /// Where updates of a field led.
 struct FieldProgress {
@@ -51,7 +52,7 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
                            nlohmann::ordered_json& stats);
 
 /// Likewise, until an update changes the field by less than 0.2 %, at most 256 times.
-FieldProgress settle_field(const World& world, IrradianceField& field, const ProgressFn& progress,
-                           nlohmann::ordered_json& stats);
+FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
+                           const ProgressFn& progress, nlohmann::ordered_json& stats);
 
 }  // namespace lambent::cli

@@ -31,7 +31,7 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
 
 /// The field that the options ask for, as yet without updates.
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world) {
-  const auto settings = field_settings(options.field, options.seed, options.bounces);
+  const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
   if (options.field_file.empty()) return IrradianceField::make(*settings, open_bounds(world));
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
@@ -61,9 +61,9 @@ Painter::Painter(const RenderOptions& options, const glm::ivec2& size)
 
 /// Brings the field up to date with the world: the first time from nothing, or from a file.
 Expected<void> Painter::follow(const World& world, const Camera& camera, Json& stats) {
+  const glm::vec3 viewer(camera.world_from_view[3]);
   if (field_) {
-    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms,
-                                glm::vec3(camera.world_from_view[3])};
+    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms, viewer};
     update_field(world, options_.frame_updates, request, *field_, progress_, stats);
     return {};
   }
@@ -71,17 +71,18 @@ Expected<void> Painter::follow(const World& world, const Camera& camera, Json& s
   if (!opened) return tl::unexpected(opened.error());
   field_.emplace(std::move(*opened));
   if (options_.converge) {
-    settle_field(world, *field_, progress_, stats);
+    settle_field(world, {0, 0.0, viewer}, *field_, progress_, stats);
   } else {
-    update_field(world, options_.updates, {}, *field_, progress_, stats);
+    update_field(world, options_.updates, {0, 0.0, viewer}, *field_, progress_, stats);
   }
   return {};
 }
 
 /// Makes the fields of one frame anew: all light, and the first bounce of the lights that the maps
 /// bring, which is taken out. Both trace the same rays, so that noise goes with it.
-Expected<void> Painter::split_bounces(const World& world, Json& stats) {
-  const auto settings = field_settings(options_.field, options_.seed, options_.bounces);
+Expected<void> Painter::split_bounces(const World& world, const Camera& camera, Json& stats) {
+  const auto settings =
+      field_settings(options_.field, world.scene(), options_.seed, options_.bounces);
   if (!settings) return tl::unexpected(settings.error());
   Expected<IrradianceField> all = IrradianceField::make(*settings, open_bounds(world));
   if (!all) return tl::unexpected(all.error());
@@ -90,16 +91,17 @@ Expected<void> Painter::split_bounces(const World& world, Json& stats) {
       *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world)));
   const FirstBounce lights_alone(world.scene());
   Json ignored;
-  update_field(lights_alone.world(), options_.updates, {}, *first_bounce_, progress_, ignored);
-  update_field(world, options_.updates, {}, *field_, progress_, stats);
+  const UpdateRequest request{0, 0.0, glm::vec3(camera.world_from_view[3])};
+  update_field(lights_alone.world(), options_.updates, request, *first_bounce_, progress_, ignored);
+  update_field(world, options_.updates, request, *field_, progress_, stats);
   return {};
 }
 
 Expected<LayeredImage> Painter::paint(const World& world, const Camera& camera, Json& stats) {
   if (options_.method == "reference") return paint_by_reference(world, camera, stats);
   if (uses_field(options_)) {
-    const auto done =
-        options_.method == "rsm+field" ? split_bounces(world, stats) : follow(world, camera, stats);
+    const auto done = options_.method == "rsm+field" ? split_bounces(world, camera, stats)
+                                                     : follow(world, camera, stats);
     if (!done) return tl::unexpected(done.error());
   }
   const auto rsm = rsm_settings(options_.rsm, options_.method, options_.seed);

@@ -31,7 +31,8 @@ class Painter {
 
  private:
   Expected<void> follow(const World& world, const Camera& camera, nlohmann::ordered_json& stats);
-  Expected<void> split_bounces(const World& world, nlohmann::ordered_json& stats);
+  Expected<void> split_bounces(const World& world, const Camera& camera,
+                               nlohmann::ordered_json& stats);
   LayeredImage paint_by_reference(const World& world, const Camera& camera,
                                   nlohmann::ordered_json& stats) const;
 

@@ -57,6 +57,35 @@ Expected<std::vector<int>> parse_ints(const std::string& option, const std::stri
   return numbers;
 }
 
+/// Sets what one "key=value" of a volume says. False where it says nothing that is understood.
+bool set_volume(const std::string& option, const std::string& key, const std::string& value,
+                ProbeVolume& volume) {
+  if (key == "probes") {
+    const auto counts = parse_counts(option, value);
+    if (counts) volume.probe_count = *counts;
+    return counts.has_value();
+  }
+  if (key == "priority") {
+    const std::vector<int> priority = split_numbers<int>(value, ',');
+    if (priority.size() == 1) volume.priority = priority[0];
+    return priority.size() == 1;
+  }
+  const std::vector<float> number = split_numbers<float>(value, ',');
+  if (number.size() != 1 || !std::isfinite(number[0])) return false;
+  if (key == "spacing" && number[0] > 0.0f) {
+    volume.probe_spacing = number[0];
+    return true;
+  }
+  if (key == "turn") {
+    const float angle = glm::radians(number[0]);
+    volume.axes = {{std::cos(angle), 0.0f, -std::sin(angle)},
+                   {0.0f, 1.0f, 0.0f},
+                   {std::sin(angle), 0.0f, std::cos(angle)}};
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 bool has_ending(const std::string& path, const char* ending) {
@@ -98,6 +127,31 @@ Expected<glm::ivec3> parse_counts(const std::string& option, const std::string& 
       parse_ints(option, text, 3, kMinProbes, kMaxProbes, "counts XxYxZ, each 2 to 4096");
   if (!n) return tl::unexpected(n.error());
   return glm::ivec3((*n)[0], (*n)[1], (*n)[2]);
+}
+
+Expected<ProbeVolume> parse_volume(const std::string& option, const std::string& text) {
+  std::size_t end = std::min(text.find(':'), text.size());
+  const auto box = parse_box(option, text.substr(0, end));
+  if (!box) return tl::unexpected(box.error());
+  ProbeVolume volume;
+  volume.name = text;
+  volume.centre = 0.5f * (box->min + box->max);
+  volume.size = box->max - box->min;
+  while (end < text.size()) {
+    const std::size_t begin = end + 1;
+    end = std::min(text.find(':', begin), text.size());
+    const std::string part = text.substr(begin, end - begin);
+    const std::size_t equals = std::min(part.find('='), part.size());
+    const std::string value = equals < part.size() ? part.substr(equals + 1) : "";
+    if (!set_volume(option, part.substr(0, equals), value, volume)) {
+      return malformed(option, part,
+                       "one of spacing=METRES, probes=XxYxZ, turn=DEGREES and priority=NUMBER");
+    }
+  }
+  if (volume.probe_count != glm::ivec3(0) && volume.probe_spacing > 0.0f) {
+    return fail(option, "", "give either probes or spacing");
+  }
+  return volume;
 }
 
 }  // namespace lambent::cli

@@ -29,4 +29,8 @@ Expected<glm::ivec2> parse_size(const std::string& option, const std::string& te
 /// "XxYxZ", each 2 to 4096.
 Expected<glm::ivec3> parse_counts(const std::string& option, const std::string& text);
 
+/// A box as of parse_box, and after it, in any order, ":spacing=M", ":probes=XxYxZ",
+/// ":turn=DEGREES" (about +Y, through its middle), ":priority=N".
+Expected<ProbeVolume> parse_volume(const std::string& option, const std::string& text);
+
 }  // namespace lambent::cli

@@ -63,7 +63,7 @@ void measure_growth() {
     Subject house("house", settings);
     // Serve every probe once, so that frames are as in the middle of things
     const UpdateRequest request{kBudget, 0.0, house.scene.cameras[0].world_from_view[3]};
-    for (std::uint64_t rays = 0; rays < 33ull * house.field.grid().probes(); rays += kBudget) {
+    for (std::uint64_t rays = 0; rays < 33ull * house.field.probes(); rays += kBudget) {
       house.field.update(house.world, request);
     }
     std::vector<double> ms;
@@ -73,8 +73,7 @@ void measure_growth() {
       ms.push_back(watch.lap());
     }
     if (first == 0.0) first = median(ms);
-    std::printf("| %d | %.1f | %.2f |\n", house.field.grid().probes(), median(ms),
-                median(ms) / first);
+    std::printf("| %d | %.1f | %.2f |\n", house.field.probes(), median(ms), median(ms) / first);
   }
 }
 

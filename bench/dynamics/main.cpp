@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   const std::map<std::string, void (*)()> rows = {
       {"step", measure_step},   {"cost", measure_cost},     {"curve", measure_curve},
       {"rest", measure_rest},   {"moving", measure_moving}, {"adaptive", measure_adaptive},
-      {"house", measure_house}, {"growth", measure_growth},
+      {"house", measure_house}, {"growth", measure_growth}, {"scroll", measure_scroll},
   };
   if (argc < 2) {
     std::fprintf(stderr, "usage: lambent_dynamics ROW...; rows:");

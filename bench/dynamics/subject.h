@@ -58,5 +58,6 @@ void measure_moving();    ///< Rays that the schedule saves beside a moving obje
 void measure_adaptive();  ///< Rays to equal error, adaptive against uniform.
 void measure_house();     ///< Probes that an edit touches against those it should.
 void measure_growth();    ///< Cost of a frame as the world grows.
+void measure_scroll();    ///< What is seen of cascades that follow a walking viewer.
 
 }  // namespace lambent::dynamics

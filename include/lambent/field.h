@@ -51,6 +51,13 @@ struct FieldSettings {
   /// Where the outermost probes stand [m]; empty: fitted to the scene, just inside its bounding
   /// surfaces.
   Bounds volume{};
+  /// So many nested volumes around the viewer in place of one fitted to the scene, 0 to 16; 0:
+  /// none. Each has `probe_count` probes (0: 32 x 4 x 32), the finest `probe_spacing` [m] apart (0:
+  /// 1), each further one twice as far as the one before. They follow UpdateRequest::viewer_ws;
+  /// coarse ones are updated less often. `volume` must be empty.
+  int cascades = 0;
+  /// Volumes in which light is finer, besides. Each counts within its box and a cell around it.
+  std::vector<ProbeVolume> volumes;
 
   /// Rays a probe traces in an update, 16 to 4096. Cost is in proportion; noise falls with the
   /// square root.
@@ -99,17 +106,21 @@ struct FieldSettings {
   std::uint32_t seed = 1;
 };
 
-/// Where probes stand: a regular grid, probe (x, y, z) at origin + (x, y, z) * spacing.
+/// Where the probes of a volume belong: a regular grid, probe (x, y, z) at origin + axes * ((x, y,
+/// z)
+/// * spacing).
 struct FieldGrid {
   glm::vec3 origin{0.0f};   ///< Of probe (0, 0, 0) [m].
   glm::vec3 spacing{1.0f};  ///< Along each axis [m].
   glm::ivec3 count{2};      ///< Along each axis, each >= 2.
+  glm::mat3 axes{1.0f};     ///< Columns: the grid's axes in world space, unit and orthogonal.
   /// All of them.
   int probes() const { return count.x * count.y * count.z; }
 };
 
-/// The grid that the settings ask for in a scene of these bounds. Fails on counts, spacings or
-/// volumes that make no sense and on more probes than memory could hold.
+/// The grid that the settings ask for in a scene of these bounds, without cascades and further
+/// volumes. Fails on counts, spacings or volumes that make no sense and on more probes than memory
+/// could hold.
 Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_bounds);
 
 /// What an update may cost, and for whom.
@@ -121,7 +132,7 @@ struct UpdateRequest {
   /// Wall-clock time to take [ms], > 0; 0: no bound. The field learns how many rays that allows;
   /// the smaller of both bounds holds.
   double time_budget_ms = 0.0;
-  /// Where the camera is [m]: of probes equally unsettled, near ones go first.
+  /// Where the camera is [m]: of probes equally unsettled, near ones go first, and cascades follow.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
 };
 
@@ -137,21 +148,23 @@ struct ProbeCounts {
 
 /// What an update did. Times are wall-clock [ms].
 struct UpdateStatistics {
-  double place_ms = 0.0;         ///< Moving probes off the grid, and finding out what they are for.
-  double follow_ms = 0.0;        ///< Finding what edits of the world changed.
-  double trace_ms = 0.0;         ///< Closest hits of the probe rays.
-  double shade_ms = 0.0;         ///< Surfaces, direct light with shadow rays, and lookup weights.
-  double relight_ms = 0.0;       ///< Multi-bounce solve.
-  double blend_ms = 0.0;         ///< Distances and irradiance into the store.
-  std::uint64_t probe_rays = 0;  ///< Traced from probes.
+  double place_ms = 0.0;          ///< Moving volumes, moving probes off the grid, and finding out
+                                  ///< what they are for.
+  double follow_ms = 0.0;         ///< Finding what edits of the world changed.
+  double trace_ms = 0.0;          ///< Closest hits of the probe rays.
+  double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
+  double relight_ms = 0.0;        ///< Multi-bounce solve.
+  double blend_ms = 0.0;          ///< Distances and irradiance into the store.
+  std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
-  int probes_followed = 0;        ///< Held against what was edited in the world.
-  int probes_touched = 0;         ///< Those among them whose light the edits changed.
-  ProbeCounts states;             ///< After the update.
-  int relights = 0;               ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;          ///< Estimated relative error this update stopped at.
-  double change = 0.0;            ///< Of the stored light, root mean square over root mean square.
+  int probes_recycled = 0;  ///< Moved on to a new place with a volume that follows the viewer.
+  int probes_followed = 0;  ///< Held against what was edited in the world.
+  int probes_touched = 0;   ///< Those among them whose light the edits changed.
+  ProbeCounts states;       ///< After the update.
+  int relights = 0;         ///< Iterations of the multi-bounce solve.
+  double residual = 0.0;    ///< Estimated relative error this update stopped at.
+  double change = 0.0;      ///< Of the stored light, root mean square over root mean square.
 };
 
 /// A point to look the field up at. All numbers must be finite.
@@ -163,11 +176,11 @@ struct FieldQuery {
       0.0f, 1.0f, 0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
 };
 
-/// A grid of irradiance probes with visibility, and the light that bounces between them.
+/// Volumes of irradiance probes with visibility, and the light that bounces between them.
 class IrradianceField {
  public:
   /// A field that holds no light yet, for a place of these bounds [m]. Fails on settings out of
-  /// range and as fit_grid does.
+  /// range, as fit_grid does, and on volumes outside the bounds.
   static Expected<IrradianceField> make(const FieldSettings& settings, const Bounds& scene_bounds);
   ~IrradianceField();
   IrradianceField(IrradianceField&&) noexcept;
@@ -191,12 +204,16 @@ class IrradianceField {
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
   /// what lights and emissive surfaces send straight. Both spans have the same length. Queries
-  /// outside the grid are answered by its nearest probes. Runs on all cores.
+  /// outside all volumes are answered by the nearest probes of the last. Runs on all cores.
   /// `world` is what FieldSettings::visibility traces rays in; null: visibility is by distances.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                   const World* world = nullptr) const;
 
-  const FieldGrid& grid() const;
+  /// Of its volumes, in the order in which points ask them: those of high priority first, of equal
+  /// priority the finest; the last one answers for everywhere that is left.
+  std::span<const FieldGrid> grids() const;
+  /// Probes of all volumes.
+  int probes() const;
   const FieldSettings& settings() const;
   /// Updates since the start or the last reset.
   int updates() const;

@@ -160,6 +160,17 @@ struct Environment {
   std::uint32_t revision = 0;  ///< Raise it after an edit of the map: World::update looks here.
 };
 
+/// A box to be filled with probes, turned any way: light is finer in it.
+struct ProbeVolume {
+  std::string name;            ///< For people and error messages; may be empty.
+  glm::vec3 centre{0.0f};      ///< [m]
+  glm::vec3 size{1.0f};        ///< Along its axes [m], >= 0.
+  glm::mat3 axes{1.0f};        ///< Columns: its axes in world space, unit and orthogonal.
+  glm::ivec3 probe_count{0};   ///< Along its axes, each >= 2, or all 0: by the spacing.
+  float probe_spacing = 0.0f;  ///< [m], > 0; 0: so that there are about 512 probes.
+  int priority = 0;            ///< Of volumes that overlap, the highest is asked first.
+};
+
 /// What a file held beyond what was kept; for `lambent info` and for people who wonder.
 struct SceneSource {
   std::string path;                     ///< As given to load_scene; empty for scenes made by hand.
@@ -182,6 +193,7 @@ struct Scene {
   Environment environment;
   std::vector<Animation> animations;  ///< The scene stands in its rest pose until `animate`.
   Rig rig;                            ///< What they move.
+  std::vector<ProbeVolume> volumes;   ///< Where the scene's author wants finer light.
   SceneSource source;                 ///< Nothing is rendered from it.
 };
 

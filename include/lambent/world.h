@@ -26,6 +26,8 @@ struct WorldChanges {
   /// World-space boxes where geometry that moved, deformed, appeared, vanished, or came to let
   /// other rays through stood before and stands now, one each [m].
   std::vector<Bounds> moved;
+  /// The same of those that are not `dynamic`: what has been built anew rather than set in motion.
+  std::vector<Bounds> rebuilt;
   std::vector<LightChange> lights;
   std::vector<int> materials;  ///< Indices of those that differ, in themselves or in a texture.
   bool emission = false;       ///< What emissive surfaces send, or where they are, differs.

@@ -40,21 +40,23 @@ struct SphereHit {
   vec3 normal_ws;
 };
 
-/// Finds the nearest sphere along a ray by walking through the cells of the grid. A sphere may
-/// leave its probe's place by less than a cell: it lies within the eight cells around that.
+/// Finds the nearest sphere of a volume along a ray by walking through the cells of its grid. A
+/// sphere may leave its probe's place by less than a cell: it lies within the eight cells around
+/// that.
 class SphereFinder {
  public:
-  SphereFinder(const ProbeStore& store, float radius)
+  SphereFinder(const ProbeStore& store, int volume, float radius)
       : store_(store),
-        grid_(store.grid()),
-        radius_(radius * min(grid_.spacing.x, min(grid_.spacing.y, grid_.spacing.z))) {
+        volume_(volume),
+        grid_(store.grid(volume)),
+        radius_(radius * smallest_spacing(grid_)) {
     assert(radius > 0.0f && radius <= 0.5f);
   }
 
   std::optional<SphereHit> nearest(const Ray& ray) const {
     // Enter the grid, one cell larger on each side than where probes stand; in units of cells
-    const vec3 origin = (ray.origin - grid_.origin_ws) / grid_.spacing;
-    const vec3 per_metre = ray.direction / grid_.spacing;
+    const vec3 origin = grid_coords(grid_, ray.origin);
+    const vec3 per_metre = (ray.direction * grid_.axes) / grid_.spacing;
     const vec3 last(grid_.count);
     float enter = 0.0f, leave = ray.t_max;
     for (int axis = 0; axis < 3; ++axis) {
@@ -113,11 +115,21 @@ class SphereFinder {
       const float distance = along - std::sqrt(square);
       // Whoever looks from inside a sphere looks through it
       if (distance <= ray.t_min || distance >= best.distance) continue;
+      if (is_spoken_for(store_.probe_home_ws(probe))) continue;
       best = {distance, probe, (ray.origin + distance * ray.direction - centre) / radius_};
     }
   }
 
+  /// Whether an earlier volume answers for a place alone, so that nobody asks this one.
+  bool is_spoken_for(const vec3& place_ws) const {
+    for (int earlier = 0; earlier < volume_; ++earlier) {
+      if (volume_share(store_.grid(earlier), place_ws) >= 1.0f) return true;
+    }
+    return false;
+  }
+
   const ProbeStore& store_;
+  int volume_;
   ProbeGrid grid_;
   float radius_;  // [m]
 };
@@ -139,7 +151,8 @@ vec3 color_of(const IrradianceField& field, ProbeAspect aspect, const SphereHit&
       return store.irradiance(hit.probe, hit.normal_ws) * kInvPi;
     case ProbeAspect::distance: {
       const float seen = store.moments(hit.probe, hit.normal_ws).x;
-      return linear_from_srgb(sequential_color(seen / max_probe_distance(store.grid())));
+      return linear_from_srgb(
+          sequential_color(seen / max_probe_distance(store.grid_of(hit.probe))));
     }
     case ProbeAspect::state:
       return round * probe_state_color(record.state);
@@ -173,7 +186,10 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
                  const ProbeViewSettings& settings, LayeredImage& frame) {
   Image& probes = frame.require("probes", 4);
   Image& picture = *frame.find("");
-  const SphereFinder finder(field.store(), settings.radius);
+  std::vector<SphereFinder> finders;
+  for (int volume = 0; volume < field.store().volumes(); ++volume) {
+    finders.emplace_back(field.store(), volume, settings.radius);
+  }
   const float brightness = settings.aspect == ProbeAspect::irradiance
                                ? 1.0f
                                : static_cast<float>(1.0 / auto_exposure(picture));
@@ -191,7 +207,13 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
       world.tracer().closest_hits(rays, hits);
       for (int x = 0; x < frame.width; ++x) {
         rays[x].t_max = min(rays[x].t_max, hits[x].distance);
-        const std::optional<SphereHit> hit = finder.nearest(rays[x]);
+        std::optional<SphereHit> hit;
+        for (const SphereFinder& finder : finders) {
+          const std::optional<SphereHit> found = finder.nearest(rays[x]);
+          if (!found) continue;
+          hit = found;
+          rays[x].t_max = found->distance;
+        }
         if (!hit) continue;
         const vec3 color = color_of(field, settings.aspect, *hit, -rays[x].direction);
         float* pixel = probes.at(x, y);

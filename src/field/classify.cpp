@@ -25,13 +25,13 @@ bool is_awake(ProbeState state) {
 
 }  // namespace
 
-ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position_ws, const vec3& home_ws,
+ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position, const vec3& home,
                        const vec3& spacing) {
   ProbeReach reach;
   reach.in_solid_matter = in_solid_matter(sights);
   for (const Sight& sight : sights) {
     if (sight.missed()) continue;
-    const vec3 cells = abs((position_ws + sight.distance * sight.direction - home_ws) / spacing);
+    const vec3 cells = abs((position + sight.distance * sight.direction - home) / spacing);
     if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kReachSlack) reach.lights_surface = true;
   }
   return reach;
@@ -54,17 +54,21 @@ ProbeState state_once_traced(ProbeState state) {
 
 bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid) {
   if (moving.empty()) return false;
-  const float smallest = min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
-  const vec3 around = grid.spacing + vec3(kBiasScale * kBias * smallest);
-  return glm::all(glm::greaterThanEqual(home_ws, moving.min - around)) &&
-         glm::all(glm::lessThanEqual(home_ws, moving.max + around));
+  // A box along the grid's axes around the box
+  const vec3 half = 0.5f * (moving.max - moving.min);
+  const vec3 centre = grid_coords(grid, moving.min + half);
+  const mat3 turn(abs(grid.axes[0]), abs(grid.axes[1]), abs(grid.axes[2]));
+  const float bias = kBiasScale * kBias * smallest_spacing(grid);
+  const vec3 reach = (half * turn + bias) / grid.spacing + 1.0f;
+  return glm::all(glm::lessThanEqual(abs(grid_coords(grid, home_ws) - centre), reach));
 }
 
-void classify_probes(const ProbeGrid& grid, std::span<const ProbeReach> reaches,
+void classify_probes(const ProbeStore& store, std::span<const ProbeReach> reaches,
                      std::span<const Bounds> moving, std::span<ProbeRecord> records) {
   assert(reaches.size() == records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const vec3 home = probe_position(grid, probe_coords(grid, static_cast<int>(i)));
+    const ProbeGrid& grid = store.grid_of(static_cast<int>(i));
+    const vec3 home = store.probe_home_ws(static_cast<int>(i));
     const bool near_moving = std::any_of(moving.begin(), moving.end(),
                                          [&](const Bounds& b) { return may_light(b, home, grid); });
     records[i].state = next_state(records[i].state, reaches[i], near_moving);

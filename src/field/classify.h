@@ -18,8 +18,8 @@ struct ProbeReach {
   bool lights_surface = false;  ///< A surface is within the eight cells that it is a corner of.
 };
 
-/// From what a probe that belongs at `home_ws` sees from `position_ws`.
-ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position_ws, const vec3& home_ws,
+/// From what a probe that belongs at `home` sees from `position`, both in the sights' frame.
+ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position, const vec3& home,
                        const vec3& spacing);
 
 /// What a probe turns into. `near_moving`: something that moves may ask it for light. A state that
@@ -35,7 +35,7 @@ bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid)
 
 /// Sets the state of every probe. Spans of one entry a probe; `moving` are the bounds of what
 /// moves.
-void classify_probes(const ProbeGrid& grid, std::span<const ProbeReach> reaches,
+void classify_probes(const ProbeStore& store, std::span<const ProbeReach> reaches,
                      std::span<const Bounds> moving, std::span<ProbeRecord> records);
 
 /// How many probes are in each state.

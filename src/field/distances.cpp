@@ -56,7 +56,6 @@ void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
 void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
                      std::span<const float> shares, uint salt, ProbeStore& store) {
   const auto rays = static_cast<std::size_t>(blend.rays());
-  const float farthest = max_probe_distance(store.grid());
   parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<SeenDistance> seen(rays);
     std::vector<vec2> moments(blend.texels());
@@ -65,6 +64,7 @@ void blend_distances(const Scene& scene, const DistanceBlend& blend, const Trace
         const Hit& hit = group.hits[k * rays + i];
         seen[i] = {hit.distance, is_back_face(scene, hit)};
       }
+      const float farthest = max_probe_distance(store.grid_of(group.probes[k]));
       blend.moments(seen, farthest, moments);
       store.blend_moments(group.probes[k], moments, shares[k], salt);
     }

@@ -7,13 +7,30 @@
 
 #include "core/parallel.h"
 #include "field/field_state.h"
-#include "field/lookup_cpu.h"
+#include "field/lookup_volumes.h"
 #include "field/tile_fit.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kQueriesPerTask = 4096;
+
+std::vector<VolumeRole> roles_of(const FieldSettings& settings, std::span<const Volume> volumes) {
+  std::vector<VolumeRole> roles;
+  for (const Volume& volume : volumes) {
+    roles.push_back(volume.role);
+    // An exact number of bounces is carried through all probes at once
+    if (settings.max_bounces >= 0) roles.back().level = 0;
+  }
+  return roles;
+}
+
+std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes) {
+  std::vector<ProbeGrid> grids;
+  for (const Volume& volume : volumes) grids.push_back(volume.grid);
+  return grids;
+}
+
 Expected<void> check(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
@@ -38,16 +55,18 @@ Expected<void> check(const FieldSettings& s) {
 
 }  // namespace
 
-IrradianceField::State::State(const FieldSettings& field_settings, const FieldGrid& field_grid)
+IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
     : settings(field_settings),
-      grid(field_grid),
-      store({field_grid.origin, field_grid.spacing, field_grid.count}, field_settings),
+      roles(roles_of(field_settings, volumes)),
+      store(grids_of(volumes), field_settings),
       tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
       traces(store.probes()),
       records(store.probes()),
-      sights(store.grid()),
+      sights(store.probes()),
       reaches(store.probes()),
-      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {}
+      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {
+  for (const ProbeGrid& grid : store.grids()) grids.push_back(field_grid(grid));
+}
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
 IrradianceField::~IrradianceField() = default;
@@ -57,9 +76,9 @@ IrradianceField& IrradianceField::operator=(IrradianceField&&) noexcept = defaul
 Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
                                                 const Bounds& scene_bounds) {
   if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());
-  const Expected<FieldGrid> grid = fit_grid(settings, scene_bounds);
-  if (!grid) return tl::unexpected(grid.error());
-  return IrradianceField(std::make_unique<State>(settings, *grid));
+  const Expected<std::vector<Volume>> volumes = plan_volumes(settings, scene_bounds);
+  if (!volumes) return tl::unexpected(volumes.error());
+  return IrradianceField(std::make_unique<State>(settings, *volumes));
 }
 
 void IrradianceField::reset() {
@@ -69,8 +88,9 @@ void IrradianceField::reset() {
   std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
   std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
   std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
-  s.sights = ProbeSights(s.store.grid());
+  s.sights = ProbeSights(s.store.probes());
   s.edits = {};
+  s.edited_places.clear();
   s.followed_last = false;
   s.updates = 0;
 }
@@ -81,13 +101,16 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
   const State& s = *state_;
   const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    visible_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
-                       queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
+    lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
+                      queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
   });
 }
 
-const FieldGrid& IrradianceField::grid() const {
-  return state_->grid;
+std::span<const FieldGrid> IrradianceField::grids() const {
+  return state_->grids;
+}
+int IrradianceField::probes() const {
+  return state_->store.probes();
 }
 const FieldSettings& IrradianceField::settings() const {
   return state_->settings;

@@ -11,16 +11,18 @@
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/scene_identity.h"
+#include "field/volumes.h"
 #include "lambent/error.h"
 #include "lambent/field.h"
 
 namespace lambent {
 
-inline constexpr std::uint32_t kFieldFileVersion = 1;
+inline constexpr std::uint32_t kFieldFileVersion = 2;
 
-/// One grid of probes.
+/// One volume of probes, in the order of its grid.
 struct FieldVolume {
-  FieldGrid grid;
+  ProbeGrid grid{};  ///< Without scroll, and the first of its own.
+  VolumeRole role;
   int irradiance_texels = 4;
   int distance_texels = 14;
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;

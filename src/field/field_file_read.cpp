@@ -59,12 +59,15 @@ class Reader {
     field.scene.geometry = in_.u32();
     field.scene.light = in_.u32();
     if (in_.u32() != kHeaderBytes) return bad("header", "is not of 64 bytes");
+    std::size_t probes = 0;
     for (std::uint32_t i = 0; i < volumes; ++i) {
       place_ = "volume " + std::to_string(i);
       Expected<FieldVolume> volume = read_volume(field.updates);
       if (!volume) return tl::unexpected(volume.error());
       field.volumes.push_back(std::move(*volume));
+      probes += field.volumes.back().records.size();
     }
+    if (probes > kMaxProbes) return bad("", "has more probes than a field can");
     if (in_.left() > 0) return bad("", "has bytes after its last volume");
     return field;
   }
@@ -110,12 +113,6 @@ class Reader {
     header.bytes = in_.u64();
     const std::uint32_t irradiance_format = in_.u32(), distance_format = in_.u32();
     const std::uint32_t irradiance_texels = in_.u32(), distance_texels = in_.u32();
-    volume.grid.origin = read_vec3(in_);
-    volume.grid.spacing = read_vec3(in_);
-    std::uint32_t count[3];
-    for (std::uint32_t& along : count) along = in_.u32();
-    const float unit = in_.f32();
-
     if (irradiance_format > static_cast<std::uint32_t>(IrradianceFormat::float32)) {
       return bad(place_, "stores irradiance in an unknown format");
     }
@@ -128,34 +125,56 @@ class Reader {
     if (distance_texels < 4 || distance_texels > 32) {
       return bad(place_, "has distance tiles of a size that is not 4 to 32");
     }
-    header.probes = 1;
-    for (const std::uint32_t along : count) {
-      // Before the product could overflow
-      if (along < 2 || along > kMaxProbes) return bad(place_, "has a senseless number of probes");
-      header.probes *= along;
-    }
-    if (header.probes > kMaxProbes) return bad(place_, "has more probes than a field can");
-    for (int axis = 0; axis < 3; ++axis) {
-      const float spacing = volume.grid.spacing[axis];
-      if (!std::isfinite(volume.grid.origin[axis]) || !(spacing >= kMinSpacing) ||
-          !(spacing <= kMaxSpacing)) {
-        return bad(place_, "stands at a place, or with a spacing, that makes no sense");
-      }
-    }
-    volume.grid.count = ivec3(uvec3(count[0], count[1], count[2]));
     volume.irradiance_texels = static_cast<int>(irradiance_texels);
     volume.distance_texels = static_cast<int>(distance_texels);
     volume.irradiance_format = static_cast<IrradianceFormat>(irradiance_format);
     volume.distance_format = static_cast<DistanceFormat>(distance_format);
-    const FieldGrid& grid = volume.grid;
-    if (unit != distance_unit({grid.origin, grid.spacing, grid.count})) {
-      return bad(place_, "has distances in a unit that is not its grid's");
-    }
+    if (auto fine = read_grid(header); !fine) return tl::unexpected(fine.error());
+
+    const std::uint32_t follows = in_.u32(), level = in_.u32();
+    if (follows > 1 || level > kMaxCascades) return bad(place_, "has a role that no volume has");
+    volume.role = {follows == 1, static_cast<int>(level)};
     header.irradiance_words = tile_words(header.probes, volume.irradiance_texels,
                                          words_per_texel(volume.irradiance_format));
     header.distance_words =
         tile_words(header.probes, volume.distance_texels, words_per_texel(volume.distance_format));
     return header;
+  }
+
+  Expected<void> read_grid(VolumeHeader& header) {
+    ProbeGrid& grid = header.volume.grid;
+    grid.origin_ws = read_vec3(in_);
+    grid.spacing = read_vec3(in_);
+    header.probes = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t along = in_.u32();
+      // Before the product could overflow
+      if (along < 2 || along > kMaxProbes) return bad(place_, "has a senseless number of probes");
+      header.probes *= along;
+      grid.count[axis] = static_cast<int>(along);
+    }
+    if (header.probes > kMaxProbes) return bad(place_, "has more probes than a field can");
+    const float unit = in_.f32();
+    for (int axis = 0; axis < 3; ++axis) grid.axes[axis] = read_vec3(in_);
+    grid.fade_centre = read_vec3(in_);
+    grid.fade_half = read_vec3(in_);
+
+    for (int axis = 0; axis < 3; ++axis) {
+      const float spacing = grid.spacing[axis];
+      if (!std::isfinite(grid.origin_ws[axis]) || !(spacing >= kMinSpacing) ||
+          !(spacing <= kMaxSpacing)) {
+        return bad(place_, "stands at a place, or with a spacing, that makes no sense");
+      }
+      if (!std::isfinite(grid.fade_centre[axis]) || !std::isfinite(grid.fade_half[axis]) ||
+          !(grid.fade_half[axis] > 0.0f)) {
+        return bad(place_, "counts within a box that makes no sense");
+      }
+    }
+    if (!is_rotation(grid.axes)) return bad(place_, "has axes that are no rotation");
+    if (unit != distance_unit(grid)) {
+      return bad(place_, "has distances in a unit that is not its grid's");
+    }
+    return {};
   }
 
   Expected<FieldVolume> read_volume(std::uint32_t updates) {
@@ -215,13 +234,15 @@ FieldSettings FieldVolume::store_settings(FieldSettings others) const {
   others.distance_format = distance_format;
   others.probe_count = grid.count;
   others.probe_spacing = 0.0f;
-  others.volume = {grid.origin, grid.origin + grid.spacing * vec3(grid.count - 1)};
+  others.volume = {grid.origin_ws, grid.origin_ws + grid.spacing * vec3(grid.count - 1)};
+  others.cascades = 0;
+  others.volumes.clear();
   return others;
 }
 
 ProbeStore FieldVolume::store() const {
-  ProbeStore store({grid.origin, grid.spacing, grid.count}, store_settings());
-  store.restore(offsets, irradiance, distance);
+  ProbeStore store(grid, store_settings());
+  store.restore(0, offsets, irradiance, distance);
   return store;
 }
 

@@ -19,18 +19,24 @@ void write_vec3(const glm::vec3& v, ByteWriter& out) {
 }
 
 void write_volume(const FieldVolume& volume, ByteWriter& out) {
-  const FieldGrid& grid = volume.grid;
-  assert(volume.records.size() == static_cast<std::size_t>(grid.probes()));
+  const ProbeGrid& grid = volume.grid;
+  assert(volume.records.size() == static_cast<std::size_t>(probe_count(grid)));
+  assert(grid.scroll == ivec3(0));
   assert(volume.offsets.size() == volume.records.size());
   out.u64(volume_bytes(volume));
   out.u32(static_cast<std::uint32_t>(volume.irradiance_format));
   out.u32(static_cast<std::uint32_t>(volume.distance_format));
   out.u32(static_cast<std::uint32_t>(volume.irradiance_texels));
   out.u32(static_cast<std::uint32_t>(volume.distance_texels));
-  write_vec3(grid.origin, out);
+  write_vec3(grid.origin_ws, out);
   write_vec3(grid.spacing, out);
   for (int axis = 0; axis < 3; ++axis) out.u32(static_cast<std::uint32_t>(grid.count[axis]));
-  out.f32(distance_unit({grid.origin, grid.spacing, grid.count}));
+  out.f32(distance_unit(grid));
+  for (int axis = 0; axis < 3; ++axis) write_vec3(grid.axes[axis], out);
+  write_vec3(grid.fade_centre, out);
+  write_vec3(grid.fade_half, out);
+  out.u32(volume.role.follows_viewer ? 1 : 0);
+  out.u32(static_cast<std::uint32_t>(volume.role.level));
 
   for (std::size_t probe = 0; probe < volume.records.size(); ++probe) {
     const ProbeRecord& record = volume.records[probe];

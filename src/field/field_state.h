@@ -13,11 +13,13 @@
 #include "field/relight.h"
 #include "field/schedule.h"
 #include "field/surfels.h"
+#include "field/volumes.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 
 namespace lambent {
 
+struct FieldFile;
 struct FieldVolume;
 
 /// Edits of the world that some probes have been held against and others not yet.
@@ -31,12 +33,19 @@ struct OpenEdits {
 /// Which of the probes that edits of the world may have touched an update held against them.
 enum class Followed { nothing, some, all };
 
+/// A box in which what should keep still was edited: probes are placed anew once it does.
+struct EditedPlace {
+  Bounds box;
+  int update;  ///< In which it was edited last.
+};
+
 struct IrradianceField::State {
-  State(const FieldSettings& field_settings, const FieldGrid& field_grid);
+  State(const FieldSettings& field_settings, std::span<const Volume> volumes);
 
   FieldSettings settings;
-  FieldGrid grid;
+  std::vector<VolumeRole> roles;  ///< One a volume.
   ProbeStore store;
+  std::vector<FieldGrid> grids;  ///< Of the store, as the public interface tells them.
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
   std::vector<ProbeRecord> records;
@@ -44,6 +53,8 @@ struct IrradianceField::State {
   std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
   WorkingIrradiance light;          ///< That the store holds, before it was encoded.
   OpenEdits edits;
+  std::vector<EditedPlace> edited_places;
+  std::uint64_t placed_revision = 0;  ///< Of the world that edited_places know.
   RayCost ray_cost;
   int updates = 0;
   float mean_light = 0.0f;     ///< Luminance that probes hold on average, when last traced.
@@ -56,12 +67,24 @@ struct IrradianceField::State {
     return {settings.max_albedo, settings.relight_tolerance, settings.max_relights};
   }
   TransportOperator transport(std::span<const int> probes) const {
-    return {store.grid(), traces, probes, tile_fit, settings.irradiance_texels};
+    return {store.corner_table(), traces, probes, tile_fit, settings.irradiance_texels};
   }
 
-  /// Moves probes to where they are needed and finds what they reach. Those that moved forget all.
-  void place(const World& world, std::span<const int> probes);
-  void find_reaches(const World& world, std::span<const int> probes);
+  /// Moves probes to where they are needed and finds what they reach. Those that moved forget what
+  /// they see, and are returned.
+  std::vector<int> place(const World& world, std::span<const int> probes);
+  /// `learn_distances`: stores what they see, too, for a start.
+  void find_reaches(const World& world, std::span<const int> probes, bool learn_distances = false);
+  void forget_place(int probe);
+  /// Stores what probes in new places see, and has the surfels that read them ask anew.
+  void settle_in(const World& world, std::span<const int> moved);
+  /// Places probes anew where what keeps still was edited, once nothing there has moved for a
+  /// while.
+  void place_edited(const World& world);
+  /// Has volumes follow the viewer. Returns how many probes came to belong elsewhere.
+  int follow_viewer(const World& world, const vec3& viewer_ws);
+  void inherit(std::span<const int> probes, std::span<const vec3> places_ws,
+               std::span<vec4> tiles) const;
   /// Says what each probe is for, with what moves where it is now.
   void classify(const World& world);
   VisibilityRays visibility(const World& world) const {
@@ -82,7 +105,8 @@ struct IrradianceField::State {
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
   /// Takes over what a file holds.
-  void restore(const FieldVolume& volume, std::uint32_t updates_so_far, const World& world);
+  void restore(const FieldFile& file, const World& world);
+  FieldVolume volume_for_file(int volume, const World& world) const;
 };
 
 }  // namespace lambent

@@ -2,6 +2,7 @@
 #include "field/follow.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <utility>
@@ -224,48 +225,19 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
     std::unique_ptr<const DistanceBlend>& blend = blends[rays];
     if (!blend) blend = std::make_unique<const DistanceBlend>(settings, rays->directions);
   }
-  const float farthest = max_probe_distance(store.grid());
   parallel_chunks(moved.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<SeenDistance> after;
     for (std::size_t k = begin; k < end; ++k) {
       const int probe = moved[k].probe;
       const DistanceBlend& blend = *blends.at(traces[probe].rays.get());
       std::vector<vec2> moments_before(blend.texels()), moments_after(blend.texels());
+      const float farthest = max_probe_distance(store.grid_of(probe));
       seen_distances(traces[probe], store.probe_position_ws(probe), after);
       blend.moments(moved[k].before, farthest, moments_before);
       blend.moments(after, farthest, moments_after);
       move_moments(probe, moments_before, moments_after, salt, store);
     }
   });
-}
-
-/// Probes whose lookups may differ: those with `other_surfaces`, and those among whose surfels are
-/// some that read one of the `moved` probes.
-std::vector<int> readers_of(std::span<const int> moved, std::span<const int> other_surfaces,
-                            std::span<const int> all, const ProbeStore& store,
-                            std::span<const ProbeTrace> traces) {
-  std::vector<std::uint8_t> is_moved(store.probes(), 0), asks(store.probes(), 0);
-  std::vector<std::uint8_t> reads(all.size(), 0);
-  for (const int probe : moved) is_moved[probe] = 1;
-  for (const int probe : other_surfaces) asks[probe] = 1;
-  const CornerOffsets offsets = corner_offsets(store.grid());
-  parallel_chunks(all.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const ProbeTrace& trace = traces[all[k]];
-      reads[k] = asks[all[k]];
-      for (std::size_t i = 0; i < trace.lookups.size() && reads[k] == 0; ++i) {
-        if (!trace.surfels[i].reflects()) continue;
-        for (const int offset : offsets.probe) {
-          reads[k] |= is_moved[trace.lookups[i].corners.base + offset];
-        }
-      }
-    }
-  });
-  std::vector<int> readers;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (reads[k] != 0) readers.push_back(all[k]);
-  }
-  return readers;
 }
 
 }  // namespace
@@ -307,8 +279,14 @@ FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> cha
   move_distances(settings, moved, traces, salt, store);
   for (const MovedProbe& probe : moved) result.moved.push_back(probe.probe);
   if (!other_surfaces.empty()) {
-    result.shadow_rays += find_surfel_lookups(
-        store, by, readers_of(result.moved, other_surfaces, all, store, traces), traces);
+    // Lookups may differ where rays met something else, and where a probe that they read sees
+    // other distances
+    std::sort(other_surfaces.begin(), other_surfaces.end());
+    const std::vector<int> readers = probes_reading(result.moved, all, store, traces);
+    std::vector<int> asking;
+    std::set_union(readers.begin(), readers.end(), other_surfaces.begin(), other_surfaces.end(),
+                   std::back_inserter(asking));
+    result.shadow_rays += find_surfel_lookups(store, by, asking, traces);
   }
   return result;
 }

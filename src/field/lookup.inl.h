@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
+//   ProbeGrid fetch_grid(int volume)
 //   vec2 fetch_moments(int probe, vec3 direction)
 //       mean distance [m] and mean squared distance [m^2], bilinear
 //   vec3 fetch_offset(int probe)
@@ -8,11 +9,12 @@
 //       linear irradiance [W/m^2], bilinear
 // In C++ it is included in the body of a struct that has these as members.
 
-/// Irradiance at a point with a normal, seen from `to_viewer_ws`. Averages linear light, so that
-/// the result is linear in what the probes hold.
-LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_ws,
-                                  vec3 to_viewer_ws) {
-  float spacing_min = min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
+/// Irradiance at a point with a normal, seen from `to_viewer_ws`, as the probes of one volume have
+/// it, times the volume's share of what is left to answer; and that share. Averages linear light,
+/// so that the result is linear in what the probes hold.
+LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float share, vec3 position_ws, vec3 normal_ws,
+                              vec3 to_viewer_ws) {
+  float spacing_min = smallest_spacing(grid);
   vec3 biased_ws = biased_position(position_ws, normal_ws, to_viewer_ws, spacing_min);
   ProbeCell cell = probe_cell(grid, position_ws);
 
@@ -22,7 +24,7 @@ LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_
     ivec3 offset = cell_corner(corner);
     ivec3 coords = cell.base + offset;
     int probe = probe_index(grid, coords);
-    vec3 probe_ws = probe_position(grid, coords) + fetch_offset(probe) * grid.spacing;
+    vec3 probe_ws = grid_position(grid, vec3(coords) + fetch_offset(probe));
 
     // Ask the probe how far it sees along the direction to the biased point
     vec3 from_probe = biased_ws - probe_ws;
@@ -37,5 +39,21 @@ LAMBENT_FN vec3 lookup_irradiance(ProbeGrid grid, vec3 position_ws, vec3 normal_
     sum += fetch_irradiance(probe, normal_ws) * weight;
     weight_sum += weight;
   }
-  return weight_sum > 0.0f ? sum / weight_sum : vec3(0.0f);
+  // Where the volume knows nothing, coarser ones answer for it
+  return weight_sum > 0.0f ? vec4(sum * (share / weight_sum), share) : vec4(0.0f);
+}
+
+/// The same over all volumes: each answers for its share of what those before it left, the last one
+/// for the rest.
+LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws,
+                                  vec3 to_viewer_ws) {
+  vec4 answer = vec4(0.0f);
+  for (int volume = 0; volume < volumes && answer.w < 1.0f; ++volume) {
+    ProbeGrid grid = fetch_grid(volume);
+    float share = volume + 1 == volumes ? 1.0f : volume_share(grid, position_ws);
+    if (share <= 0.0f) continue;
+    answer += lookup_volume(grid, share * (1.0f - answer.w), position_ws, normal_ws, to_viewer_ws);
+  }
+  // Where it is the last that knows nothing, those before answer for all
+  return answer.w > 0.0f ? vec3(answer) / answer.w : vec3(0.0f);
 }

@@ -18,6 +18,8 @@ namespace lambent {
 namespace {
 
 constexpr int kCorners = 8;
+// Ways in which a cell may run over the end of memory.
+constexpr int kWraps = 8;
 
 // Keep divisions by what may be 0 finite: at a probe's own place [m^2 and m], and where distances
 // have no variance [distance_unit^2]; far below what the results resolve.
@@ -25,28 +27,26 @@ const float kMinLengthSquared = kMinProbeDistance * kMinProbeDistance;
 constexpr float kTiniestLength = 1e-12f;
 constexpr float kTiniestSquare = 1e-20f;
 
-/// What a batch of lookups shares.
+/// What a batch of lookups in one volume shares.
 struct Tables {
-  explicit Tables(const ProbeStore& store)
-      : grid(store.grid()),
-        offsets(corner_offsets(grid)),
+  Tables(const ProbeStore& store, int volume)
+      : grid(store.grid(volume)),
+        first_table(static_cast<std::uint32_t>(kWraps * volume)),
+        offsets(store.corner_table().data() + first_table),
         distances_per_metre(1.0f / distance_unit(grid)),
-        spacing_min(min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z))),
+        spacing_min(smallest_spacing(grid)),
         offset_words(store.offset_words().data()),
         distance_words(store.distance_words().data()),
-        distance_texels(store.distance_texels()),
-        irradiance_words(store.irradiance_words().data()),
-        irradiance_texels(store.irradiance_texels()) {}
+        distance_texels(store.distance_texels()) {}
 
   ProbeGrid grid;
-  CornerOffsets offsets;
-  float distances_per_metre;  // units of the stored distances in a metre
+  std::uint32_t first_table;     // of the volume's cells in the store's corner table
+  const CornerOffsets* offsets;  // of its cells, by cell_wrap
+  float distances_per_metre;     // units of the stored distances in a metre
   float spacing_min;
   const uint* offset_words;
   const uint* distance_words;
   int distance_texels;
-  const uint* irradiance_words;
-  int irradiance_texels;
 };
 
 /// decode_small_float for a half, without a branch.
@@ -72,6 +72,7 @@ LAMBENT_FORCE_INLINE void decode_moments(const uint* words, int texel, float& me
 /// read.
 struct CornerFetch {
   int base;
+  int run_over;         // cell_wrap
   int texel[kCorners];  // first of the four in the store, in texels
   float fraction_x[kCorners], fraction_y[kCorners];
   float dist[kCorners];  // from the probe to the biased point [distance_unit]
@@ -92,13 +93,19 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
   const float scale = 0.5f * last;
   const int width = t.distance_texels + 2;
   const vec3 spacing = t.grid.spacing;
+  const vec3 ax = t.grid.axes[0], ay = t.grid.axes[1], az = t.grid.axes[2];
   fetch.base = base;
+  fetch.run_over = cell_wrap(t.grid, cell.base);
+  const CornerOffsets& offsets = t.offsets[fetch.run_over];
 
   for (int k = 0; k < kCorners; ++k) {
-    const vec3 offset = decode_probe_offset(t.offset_words[base + t.offsets.probe[k]]);
-    const float px = low.x + ((k & 1) != 0 ? spacing.x : 0.0f) + offset.x * spacing.x;
-    const float py = low.y + ((k & 2) != 0 ? spacing.y : 0.0f) + offset.y * spacing.y;
-    const float pz = low.z + ((k & 4) != 0 ? spacing.z : 0.0f) + offset.z * spacing.z;
+    const vec3 offset = decode_probe_offset(t.offset_words[base + offsets.probe[k]]);
+    const float lx = ((k & 1) != 0 ? spacing.x : 0.0f) + offset.x * spacing.x;
+    const float ly = ((k & 2) != 0 ? spacing.y : 0.0f) + offset.y * spacing.y;
+    const float lz = ((k & 4) != 0 ? spacing.z : 0.0f) + offset.z * spacing.z;
+    const float px = low.x + (ax.x * lx + ay.x * ly + az.x * lz);
+    const float py = low.y + (ax.y * lx + ay.y * ly + az.y * lz);
+    const float pz = low.z + (ax.z * lx + ay.z * ly + az.z * lz);
     fetch.trilinear[k] = ((k & 1) != 0 ? cell.fraction.x : 1.0f - cell.fraction.x) *
                          ((k & 2) != 0 ? cell.fraction.y : 1.0f - cell.fraction.y) *
                          ((k & 4) != 0 ? cell.fraction.z : 1.0f - cell.fraction.z);
@@ -125,7 +132,7 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
     const int cy = static_cast<int>(v < last ? v : last);
     fetch.fraction_x[k] = u - static_cast<float>(cx);
     fetch.fraction_y[k] = v - static_cast<float>(cy);
-    fetch.texel[k] = (base + t.offsets.probe[k]) * (width * width) + cy * width + cx;
+    fetch.texel[k] = (base + offsets.probe[k]) * (width * width) + cy * width + cx;
   }
 
   // The store is larger than the nearer caches: have its lines under way before they are read
@@ -175,6 +182,7 @@ LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetc
   for (int k = 0; k < kCorners; ++k) sum += weight[k];
   const float normalisation = sum > 0.0f ? 1.0f / sum : 0.0f;
   result.base = fetch.base;
+  result.table = t.first_table + static_cast<std::uint32_t>(fetch.run_over);
   for (int k = 0; k < kCorners; ++k) result.weight[k] = weight[k] * normalisation;
 }
 
@@ -190,6 +198,7 @@ LAMBENT_FORCE_INLINE void finish_corners(const Tables& t, const CornerFetch& fet
   float known[kCorners];
   see_corners<format>(t, fetch, result.visibility, known);
   result.base = fetch.base;
+  result.table = t.first_table + static_cast<std::uint32_t>(fetch.run_over);
   for (int k = 0; k < kCorners; ++k) {
     result.trilinear[k] = fetch.trilinear[k];
     result.wrap[k] = known[k] * fetch.wrap[k];
@@ -253,25 +262,39 @@ LAMBENT_FORCE_INLINE void decode_irradiance(const uint* word, float& r, float& g
   }
 }
 
+/// What the reading of irradiance shares.
+struct IrradianceTables {
+  explicit IrradianceTables(const ProbeStore& store)
+      : offsets(store.corner_table().data()),
+        words(store.irradiance_words().data()),
+        texels(store.irradiance_texels()) {}
+
+  const CornerOffsets* offsets;  // of all volumes' cells
+  const uint* words;
+  int texels;
+};
+
 /// Weighted irradiance of a cell's probes along the surface normal: all eight are read at the same
 /// place of their tile.
 template <IrradianceFormat format>
-LAMBENT_FORCE_INLINE void gather_irradiance(const Tables& t, const FieldQuery* queries,
-                                            const CornerWeights* weights, vec3* result,
-                                            std::size_t count) {
+LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const FieldQuery* queries,
+                                            std::span<const CornerWeights> weights,
+                                            const std::uint32_t* query, vec3* result) {
   constexpr int kWords = format == IrradianceFormat::float32 ? 3 : 1;
-  const int width = t.irradiance_texels + 2;
-  int tile_offset[kCorners];
-  for (int k = 0; k < kCorners; ++k) tile_offset[k] = kWords * t.offsets.probe[k] * width * width;
+  const int width = t.texels + 2;
+  const int tile_words = kWords * width * width;
 
-  for (std::size_t i = 0; i < count; ++i) {
-    const TileFetch fetch = tile_fetch(queries[i].normal_ws, t.irradiance_texels);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const TileFetch fetch = tile_fetch(queries[query[i]].normal_ws, t.texels);
     const vec2 f = fetch.fraction;
     const float shares[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
                              f.x * f.y};
-    const uint* first = t.irradiance_words + kWords * (weights[i].base * width * width +
-                                                       fetch.corner.y * width + fetch.corner.x);
+    const uint* first = t.words + static_cast<std::ptrdiff_t>(tile_words) * weights[i].base +
+                        kWords * (fetch.corner.y * width + fetch.corner.x);
     const int steps[4] = {0, kWords, kWords * width, kWords * (width + 1)};
+    int tile_offset[kCorners];
+    const CornerOffsets& offsets = t.offsets[weights[i].table];
+    for (int k = 0; k < kCorners; ++k) tile_offset[k] = tile_words * offsets.probe[k];
 
     // Read the four texels of each corner's tile
     float red[kCorners] = {}, green[kCorners] = {}, blue[kCorners] = {};
@@ -291,81 +314,58 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const Tables& t, const FieldQuery* q
     for (int k = 0; k < kCorners; ++k) {
       sum += vec3(red[k], green[k], blue[k]) * weights[i].weight[k];
     }
-    result[i] = sum;
+    result[query[i]] += sum;
   }
 }
 
-LAMBENT_SIMD_CLONES void gather_rgb9e5(const Tables& t, const FieldQuery* queries,
-                                       const CornerWeights* weights, vec3* result,
-                                       std::size_t count) {
-  gather_irradiance<IrradianceFormat::rgb9e5>(t, queries, weights, result, count);
+LAMBENT_SIMD_CLONES void gather_rgb9e5(const IrradianceTables& t, const FieldQuery* queries,
+                                       std::span<const CornerWeights> weights,
+                                       const std::uint32_t* query, vec3* result) {
+  gather_irradiance<IrradianceFormat::rgb9e5>(t, queries, weights, query, result);
 }
 
-LAMBENT_SIMD_CLONES void gather_r11g11b10f(const Tables& t, const FieldQuery* queries,
-                                           const CornerWeights* weights, vec3* result,
-                                           std::size_t count) {
-  gather_irradiance<IrradianceFormat::r11g11b10f>(t, queries, weights, result, count);
+LAMBENT_SIMD_CLONES void gather_r11g11b10f(const IrradianceTables& t, const FieldQuery* queries,
+                                           std::span<const CornerWeights> weights,
+                                           const std::uint32_t* query, vec3* result) {
+  gather_irradiance<IrradianceFormat::r11g11b10f>(t, queries, weights, query, result);
 }
 
-LAMBENT_SIMD_CLONES void gather_float32(const Tables& t, const FieldQuery* queries,
-                                        const CornerWeights* weights, vec3* result,
-                                        std::size_t count) {
-  gather_irradiance<IrradianceFormat::float32>(t, queries, weights, result, count);
+LAMBENT_SIMD_CLONES void gather_float32(const IrradianceTables& t, const FieldQuery* queries,
+                                        std::span<const CornerWeights> weights,
+                                        const std::uint32_t* query, vec3* result) {
+  gather_irradiance<IrradianceFormat::float32>(t, queries, weights, query, result);
 }
 
 }  // namespace
 
-CornerOffsets corner_offsets(const ProbeGrid& grid) {
-  CornerOffsets offsets{};
-  for (int k = 0; k < kCorners; ++k) offsets.probe[k] = probe_index(grid, cell_corner(k));
-  return offsets;
-}
-
-void corner_weights(const ProbeStore& store, std::span<const FieldQuery> queries,
+void corner_weights(const ProbeStore& store, int volume, std::span<const FieldQuery> queries,
                     std::span<CornerWeights> result) {
   assert(queries.size() == result.size());
-  const Tables tables(store);
+  const Tables tables(store, volume);
   const auto weigh =
       store.distance_format() == DistanceFormat::rg16f ? weigh_all_rg16f : weigh_all_rg32f;
   weigh(tables, queries.data(), result.data(), queries.size());
 }
 
-void corner_terms(const ProbeStore& store, std::span<const FieldQuery> queries,
+void corner_terms(const ProbeStore& store, int volume, std::span<const FieldQuery> queries,
                   std::span<CornerTerms> result) {
   assert(queries.size() == result.size());
-  const Tables tables(store);
+  const Tables tables(store, volume);
   const auto all =
       store.distance_format() == DistanceFormat::rg16f ? terms_of_all_rg16f : terms_of_all_rg32f;
   all(tables, queries.data(), result.data(), queries.size());
 }
 
-void weighted_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
-                         std::span<const CornerWeights> weights, std::span<vec3> result) {
-  assert(queries.size() == result.size() && weights.size() == result.size());
-  const Tables tables(store);
-  switch (store.irradiance_format()) {
-    case IrradianceFormat::rgb9e5:
-      return gather_rgb9e5(tables, queries.data(), weights.data(), result.data(), result.size());
-    case IrradianceFormat::r11g11b10f:
-      return gather_r11g11b10f(tables, queries.data(), weights.data(), result.data(),
-                               result.size());
-    case IrradianceFormat::float32:
-      return gather_float32(tables, queries.data(), weights.data(), result.data(), result.size());
-  }
-}
-
-void lookup_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
-                       std::span<vec3> result) {
-  assert(queries.size() == result.size());
-  // Small batches keep the weights between the two kernels in the first-level cache.
-  constexpr std::size_t kBatch = 256;
-  CornerWeights weights[kBatch];
-  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, queries.size() - first);
-    const std::span<const FieldQuery> batch = queries.subspan(first, count);
-    corner_weights(store, batch, {weights, count});
-    weighted_irradiance(store, batch, {weights, count}, result.subspan(first, count));
-  }
+void add_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
+                    std::span<const CornerWeights> weights, std::span<const std::uint32_t> query,
+                    std::span<vec3> result) {
+  assert(queries.size() == result.size() && weights.size() == query.size());
+  const IrradianceTables tables(store);
+  const auto gather = store.irradiance_format() == IrradianceFormat::rgb9e5 ? gather_rgb9e5
+                      : store.irradiance_format() == IrradianceFormat::r11g11b10f
+                          ? gather_r11g11b10f
+                          : gather_float32;
+  gather(tables, queries.data(), weights, query.data(), result.data());
 }
 
 }  // namespace lambent

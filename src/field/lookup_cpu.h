@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup for many points at a time, eight probes abreast. Same result as lookup.inl.h, which
-// the tests hold it to.
+// The kernels of the lookup, for many points at a time, eight probes abreast. Same result as
+// lookup.inl.h, which the tests hold it to.
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "field/probe_store.h"
@@ -11,40 +12,36 @@
 namespace lambent {
 
 /// The eight probes around a point: corner k (bit 0 x, bit 1 y, bit 2 z) of the cell whose lowest
-/// probe is `base` counts `weight[k]`. Weights sum to 1.
+/// probe is `base` counts `weight[k]`. Weights sum to 1, or to the share that the volume has in the
+/// answer.
 struct CornerWeights {
   int base;
+  std::uint32_t table;  ///< Where the corners lie relative to it, in ProbeStore::corner_table.
   float weight[8];
 };
 
-/// Probe index of each corner relative to the cell's lowest probe.
-struct CornerOffsets {
-  int probe[8];
-};
-CornerOffsets corner_offsets(const ProbeGrid& grid);
-
-/// Weights for each query, from the stored distances. Single-threaded. Spans have the same length.
-void corner_weights(const ProbeStore& store, std::span<const FieldQuery> queries,
+/// Weights for each query in one volume, from the stored distances. Single-threaded. Spans have the
+/// same length.
+void corner_weights(const ProbeStore& store, int volume, std::span<const FieldQuery> queries,
                     std::span<CornerWeights> result);
 
 /// What makes up the weights of a point's corners.
 struct CornerTerms {
   int base;
+  std::uint32_t table;
   float trilinear[8];
   float wrap[8];        ///< By the probe's side of the surface, 0 to 1; 0 in solid matter.
   float visibility[8];  ///< By the stored distances, 0 to 1.
 };
 
 /// The same weights in parts.
-void corner_terms(const ProbeStore& store, std::span<const FieldQuery> queries,
+void corner_terms(const ProbeStore& store, int volume, std::span<const FieldQuery> queries,
                   std::span<CornerTerms> result);
 
-/// Irradiance for each query, given the weights of its corners.
-void weighted_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
-                         std::span<const CornerWeights> weights, std::span<vec3> result);
-
-/// Irradiance for each query, from stored distances and irradiance. Single-threaded.
-void lookup_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
-                       std::span<vec3> result);
+/// Adds to the result of each query what its corners hold: `weights[i]` are of query `query[i]`.
+/// Single-threaded.
+void add_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
+                    std::span<const CornerWeights> weights, std::span<const std::uint32_t> query,
+                    std::span<vec3> result);
 
 }  // namespace lambent

@@ -1,48 +1,146 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a field's probes stand and what they are for: relocation and classification.
+#include <algorithm>
+
 #include "core/parallel.h"
+#include "field/distances.h"
 #include "field/field_state.h"
 #include "field/relocate.h"
+#include "lambent/world.h"
+#include "raytracing/boxes.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-/// One flag an instance: it moves.
-std::vector<std::uint8_t> moving_instances(const Scene& scene) {
-  std::vector<std::uint8_t> moving(scene.instances.size());
-  for (std::size_t i = 0; i < moving.size(); ++i) moving[i] = scene.instances[i].dynamic ? 1 : 0;
-  return moving;
+// Updates without an edit after which a place counts as at rest: what an engine moves every frame
+// without calling it dynamic must not have probes hop about.
+constexpr int kRestUpdates = 8;
+
+// Everywhere, to within what a cell's size can be added to.
+constexpr float kFar = 1e15f;
+const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
+
+/// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
+std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes) {
+  std::vector<int> cells;
+  for (const int probe : probes) {
+    const ProbeGrid& grid = store.grid_of(probe);
+    const ivec3 coords = probe_coords(grid, probe);
+    for (int k = 0; k < 8; ++k) {
+      const ivec3 base = coords - cell_corner(k);
+      if (glm::all(glm::greaterThanEqual(base, ivec3(0)))) {
+        cells.push_back(probe_index(grid, base));
+      }
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
 }
 
 }  // namespace
 
-void IrradianceField::State::place(const World& world, std::span<const int> probes) {
+std::vector<int> IrradianceField::State::place(const World& world, std::span<const int> probes) {
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
+  std::vector<int> moved;
   if (settings.relocation) {
-    const std::vector<int> moved =
-        relocate_probes(world.scene(), world.tracer(), probes, moving, store);
-    const std::vector<vec2> nothing(
-        static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
-    for (const int probe : moved) {
-      records[probe].samples = 0.0f;
-      traces[probe] = {};
-      store.blend_moments(probe, nothing, 1.0f, 0u);
+    // From the grid, so that where probes come to stand depends on the scene alone
+    const std::vector<uint> before(store.offset_words().begin(), store.offset_words().end());
+    for (const int probe : probes) store.set_probe_offset(probe, vec3(0.0f));
+    relocate_probes(world.scene(), world.tracer(), probes, moving, store);
+    for (const int probe : probes) {
+      if (store.offset_words()[probe] != before[probe]) moved.push_back(probe);
     }
+    for (const int probe : moved) forget_place(probe);
   }
   find_reaches(world, probes);
+  return moved;
 }
 
-void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes) {
+void IrradianceField::State::settle_in(const World& world, std::span<const int> moved) {
+  find_reaches(world, moved, /*learn_distances=*/true);
+  std::vector<int> traced;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (traces[probe].rays != nullptr) traced.push_back(probe);
+  }
+  if (settings.visibility == Visibility::hybrid) {
+    sights.look(world.tracer(), store, cells_around(store, moved));
+  }
+  find_surfel_lookups(store, visibility(world), probes_reading(moved, traced, store, traces),
+                      traces);
+}
+
+void IrradianceField::State::place_edited(const World& world) {
+  // Note what was edited since
+  const auto changes = world.changes_since(placed_revision);
+  placed_revision = world.revision();
+  if (!changes) edited_places = {{kEverywhere, updates}};
+  for (std::size_t i = 0; changes && i < changes->size(); ++i) {
+    for (const Bounds& box : (*changes)[i].rebuilt) {
+      const auto known = std::find_if(edited_places.begin(), edited_places.end(),
+                                      [&](const EditedPlace& p) { return overlap(p.box, box); });
+      if (known == edited_places.end()) {
+        edited_places.push_back({box, updates});
+      } else {
+        known->box.add(box.min);
+        known->box.add(box.max);
+        known->update = updates;
+      }
+    }
+  }
+
+  // Take up what has come to rest
+  const auto at_rest =
+      std::partition(edited_places.begin(), edited_places.end(),
+                     [&](const EditedPlace& p) { return updates - p.update < kRestUpdates; });
+  if (at_rest == edited_places.end()) return;
+  std::vector<int> near;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    const vec3 home = store.probe_home_ws(probe);
+    const ProbeGrid& grid = store.grid_of(probe);
+    if (std::any_of(at_rest, edited_places.end(),
+                    [&](const EditedPlace& p) { return may_light(p.box, home, grid); })) {
+      near.push_back(probe);
+    }
+  }
+  edited_places.erase(at_rest, edited_places.end());
+  const std::vector<int> moved = place(world, near);
+  for (const int probe : moved) records[probe].served = 0;
+  if (!moved.empty()) settle_in(world, moved);
+}
+
+/// Has a probe forget what it knows of its surroundings; its light stays until it is traced.
+void IrradianceField::State::forget_place(int probe) {
+  const std::vector<vec2> nothing(
+      static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
+  records[probe].samples = 0.0f;
+  traces[probe] = {};
+  store.blend_moments(probe, nothing, 1.0f, 0u);
+}
+
+void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes,
+                                          bool learn_distances) {
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
+  const DistanceBlend blend(settings, sight_directions());
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<Sight> seen(sight_directions().size());
+    std::vector<Sight> around(sight_directions().size());
+    std::vector<SeenDistance> seen(around.size());
+    std::vector<vec2> moments(blend.texels());
     for (std::size_t k = begin; k < end; ++k) {
-      const vec3 position = store.probe_position_ws(probes[k]);
-      const vec3 home = probe_position(store.grid(), probe_coords(store.grid(), probes[k]));
-      look_around(world.scene(), world.tracer(), position, moving, seen);
-      reaches[probes[k]] = probe_reach(seen, position, home, store.grid().spacing);
+      const int probe = probes[k];
+      const ProbeGrid& grid = store.grid_of(probe);
+      look_around(world.scene(), world.tracer(), store.probe_position_ws(probe), grid.axes, moving,
+                  around);
+      reaches[probe] =
+          probe_reach(around, store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
+      if (!learn_distances) continue;
+      for (std::size_t i = 0; i < around.size(); ++i) {
+        seen[i] = {around[i].distance, around[i].back_face};
+      }
+      blend.moments(seen, max_probe_distance(grid), moments);
+      store.blend_moments(probe, moments, 1.0f, salt());
     }
   });
 }
@@ -55,7 +153,7 @@ void IrradianceField::State::classify(const World& world) {
   for (int i = 0; i < static_cast<int>(instances.size()); ++i) {
     if (instances[i].dynamic) moving.push_back(world.instance_bounds(i));
   }
-  classify_probes(store.grid(), reaches, moving, records);
+  classify_probes(store, reaches, moving, records);
 }
 
 }  // namespace lambent

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where probes stand, and which eight surround a point.
+// Where the probes of a volume stand, which eight surround a point, and how much the volume has to
+// say about it.
 #ifndef LAMBENT_FIELD_PROBE_GRID_H
 #define LAMBENT_FIELD_PROBE_GRID_H
 
@@ -14,25 +15,64 @@ const int kMaxProbes = 1048576;
 // so that those of short distances stay above the smallest.
 const int kDistanceUnitBits = 6;
 
-/// A regular grid of probes: probe c stands at origin_ws + c * spacing. Index = x + count.x * (y +
-/// count.y * z).
+/// A volume: a regular grid of probes, turned any way. Probe c belongs at origin_ws + axes * (c *
+/// spacing). A volume that follows the viewer keeps its probes where they are in memory as it moves
+/// on: what was the first slab becomes the last (toroidal addressing).
 struct ProbeGrid {
-  vec3 origin_ws;  ///< [m]
-  vec3 spacing;    ///< [m], > 0
-  ivec3 count;     ///< >= 2 along each axis
+  vec3 origin_ws;    ///< [m]
+  vec3 spacing;      ///< [m], > 0
+  mat3 axes;         ///< Columns: the grid's axes in world space, unit and orthogonal.
+  ivec3 count;       ///< >= 2 along each axis
+  ivec3 scroll;      ///< Probe c is stored as the one of coordinates (c + scroll) mod count; >= 0.
+  int first;         ///< Index of the probe stored first, among those of all volumes.
+  vec3 fade_centre;  ///< Of the box in which the volume counts [cells from probe 0].
+  vec3 fade_half;    ///< Half the size of that box [cells]; > 0.
 };
 
-LAMBENT_FN vec3 probe_position(ProbeGrid grid, ivec3 coords) {
-  return grid.origin_ws + grid.spacing * vec3(coords);
+LAMBENT_FN int probe_count(ProbeGrid grid) {
+  return grid.count.x * grid.count.y * grid.count.z;
 }
 
+/// A point in cells from probe 0, along the grid's axes.
+LAMBENT_FN vec3 grid_coords(ProbeGrid grid, vec3 position_ws) {
+  return ((position_ws - grid.origin_ws) * grid.axes) / grid.spacing;
+}
+
+/// The point that lies so many cells from probe 0.
+LAMBENT_FN vec3 grid_position(ProbeGrid grid, vec3 cells) {
+  return grid.origin_ws + grid.axes * (grid.spacing * cells);
+}
+
+LAMBENT_FN vec3 probe_position(ProbeGrid grid, ivec3 coords) {
+  return grid_position(grid, vec3(coords));
+}
+
+/// Smallest distance between neighbouring probes [m].
+LAMBENT_FN float smallest_spacing(ProbeGrid grid) {
+  return min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
+}
+
+/// Coordinates of the place in memory of a probe.
+LAMBENT_FN ivec3 stored_coords(ProbeGrid grid, ivec3 coords) {
+  ivec3 c = coords + grid.scroll;
+  return ivec3(c.x < grid.count.x ? c.x : c.x - grid.count.x,
+               c.y < grid.count.y ? c.y : c.y - grid.count.y,
+               c.z < grid.count.z ? c.z : c.z - grid.count.z);
+}
+
+/// Index of a probe among those of all volumes.
 LAMBENT_FN int probe_index(ProbeGrid grid, ivec3 coords) {
-  return coords.x + grid.count.x * (coords.y + grid.count.y * coords.z);
+  ivec3 c = stored_coords(grid, coords);
+  return grid.first + c.x + grid.count.x * (c.y + grid.count.y * c.z);
 }
 
 LAMBENT_FN ivec3 probe_coords(ProbeGrid grid, int index) {
-  return ivec3(index % grid.count.x, (index / grid.count.x) % grid.count.y,
-               index / (grid.count.x * grid.count.y));
+  int i = index - grid.first;
+  ivec3 c = ivec3(i % grid.count.x, (i / grid.count.x) % grid.count.y,
+                  i / (grid.count.x * grid.count.y)) -
+            grid.scroll;
+  return ivec3(c.x < 0 ? c.x + grid.count.x : c.x, c.y < 0 ? c.y + grid.count.y : c.y,
+               c.z < 0 ? c.z + grid.count.z : c.z);
 }
 
 /// The cell around a point: its lowest probe and the point's place between that and the highest, 0
@@ -47,10 +87,30 @@ struct ProbeCell {
 LAMBENT_FN ProbeCell probe_cell(ProbeGrid grid, vec3 position_ws) {
   vec3 cells = vec3(grid.count - ivec3(1));
   // In this order of arguments a NaN becomes 0
-  vec3 p = min(max(vec3(0.0f), (position_ws - grid.origin_ws) / grid.spacing), cells);
+  vec3 p = min(max(vec3(0.0f), grid_coords(grid, position_ws)), cells);
   vec3 base = min(floor(p), cells - vec3(1.0f));
   ProbeCell cell = {ivec3(base), p - base};
   return cell;
+}
+
+/// In which directions, by bits as of a corner, a cell runs over the end of memory to its
+/// beginning. Its corners lie elsewhere relative to its lowest probe then.
+LAMBENT_FN int cell_wrap(ProbeGrid grid, ivec3 base) {
+  ivec3 c = stored_coords(grid, base);
+  return (c.x + 1 == grid.count.x ? 1 : 0) | (c.y + 1 == grid.count.y ? 2 : 0) |
+         (c.z + 1 == grid.count.z ? 4 : 0);
+}
+
+// Volumes hand over to the next one across this many cells, or, where they are thinner, all their
+// way from the middle.
+const float kFadeCells = 1.0f;
+
+/// What a volume has to say about a point, 0 to 1: 1 well inside the box in which it counts, fading
+/// to 0 at its faces.
+LAMBENT_FN float volume_share(ProbeGrid grid, vec3 position_ws) {
+  vec3 inside = grid.fade_half - abs(grid_coords(grid, position_ws) - grid.fade_centre);
+  vec3 share = inside / min(grid.fade_half, vec3(kFadeCells));
+  return clamp(min(share.x, min(share.y, share.z)), 0.0f, 1.0f);
 }
 
 /// Corner 0..7 of a cell as an offset: bit 0 is x, bit 1 is y, bit 2 is z.

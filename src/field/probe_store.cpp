@@ -63,6 +63,19 @@ LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int coun
   }
 }
 
+/// Index of each corner of a cell relative to its lowest probe, where the cell runs over the end of
+/// memory in the directions `wrap`.
+CornerOffsets corner_offsets(const ivec3& count, int wrap) {
+  const ivec3 row = ivec3(1, count.x, count.x * count.y);
+  const ivec3 back = cell_corner(wrap) * count;
+  CornerOffsets offsets{};
+  for (int k = 0; k < 8; ++k) {
+    const ivec3 step = cell_corner(k) * (ivec3(1) - back) * row;
+    offsets.probe[k] = step.x + step.y + step.z;
+  }
+  return offsets;
+}
+
 template <class Value, class Texel>
 Value bilinear(const vec3& direction, int texels, Texel texel) {
   const TileFetch fetch = tile_fetch(direction, texels);
@@ -74,16 +87,34 @@ Value bilinear(const vec3& direction, int texels, Texel texel) {
 
 }  // namespace
 
-ProbeStore::ProbeStore(const ProbeGrid& grid, const FieldSettings& settings)
-    : grid_(grid),
-      probes_(grid.count.x * grid.count.y * grid.count.z),
+ProbeStore::ProbeStore(std::span<const ProbeGrid> grids, const FieldSettings& settings)
+    : grids_(grids.begin(), grids.end()),
       irradiance_texels_(settings.irradiance_texels),
       distance_texels_(settings.distance_texels),
       irradiance_format_(settings.irradiance_format),
-      distance_format_(settings.distance_format),
-      irradiance_(probes_ * tile_texels(irradiance_texels_) * words_per_irradiance_texel()),
-      distance_(probes_ * tile_texels(distance_texels_) * words_per_distance_texel()),
-      offsets_(probes_, 0u) {}
+      distance_format_(settings.distance_format) {
+  for (ProbeGrid& grid : grids_) {
+    grid.first = probes_;
+    probes_ += probe_count(grid);
+    for (int wrap = 0; wrap < 8; ++wrap) corner_table_.push_back(corner_offsets(grid.count, wrap));
+  }
+  irradiance_.resize(probes_ * tile_texels(irradiance_texels_) * words_per_irradiance_texel());
+  distance_.resize(probes_ * tile_texels(distance_texels_) * words_per_distance_texel());
+  offsets_.resize(probes_, 0u);
+}
+
+int ProbeStore::volume_of(int probe) const {
+  int volume = volumes() - 1;
+  while (probe < grids_[volume].first) --volume;
+  return volume;
+}
+
+void ProbeStore::move_volume(int volume, const ProbeGrid& grid) {
+  assert(grid.count == grids_[volume].count && grid.spacing == grids_[volume].spacing);
+  const int first = grids_[volume].first;
+  grids_[volume] = grid;
+  grids_[volume].first = first;
+}
 
 void ProbeStore::clear() {
   std::fill(irradiance_.begin(), irradiance_.end(), 0u);
@@ -91,13 +122,17 @@ void ProbeStore::clear() {
   std::fill(offsets_.begin(), offsets_.end(), 0u);
 }
 
-void ProbeStore::restore(std::span<const uint> offsets, std::span<const uint> irradiance,
+void ProbeStore::restore(int first, std::span<const uint> offsets, std::span<const uint> irradiance,
                          std::span<const uint> distance) {
-  assert(offsets.size() == offsets_.size());
-  assert(irradiance.size() == irradiance_.size() && distance.size() == distance_.size());
-  std::copy(offsets.begin(), offsets.end(), offsets_.begin());
-  std::copy(irradiance.begin(), irradiance.end(), irradiance_.begin());
-  std::copy(distance.begin(), distance.end(), distance_.begin());
+  const std::size_t irradiance_tile =
+      tile_texels(irradiance_texels_) * words_per_irradiance_texel();
+  const std::size_t distance_tile = tile_texels(distance_texels_) * words_per_distance_texel();
+  assert(first + offsets.size() <= offsets_.size());
+  assert(irradiance.size() == offsets.size() * irradiance_tile);
+  assert(distance.size() == offsets.size() * distance_tile);
+  std::copy(offsets.begin(), offsets.end(), offsets_.begin() + first);
+  std::copy(irradiance.begin(), irradiance.end(), &irradiance_[first * irradiance_tile]);
+  std::copy(distance.begin(), distance.end(), &distance_[first * distance_tile]);
 }
 
 vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {
@@ -120,7 +155,7 @@ vec2 ProbeStore::moments_texel(int probe, ivec2 with_gutter) const {
       distance_format_ == DistanceFormat::rg16f
           ? decode_half2(distance_[index])
           : vec2(uintBitsToFloat(distance_[2 * index]), uintBitsToFloat(distance_[2 * index + 1]));
-  const float unit = distance_unit(grid_);
+  const float unit = distance_unit(grid_of(probe));
   return moments * vec2(unit, unit * unit);
 }
 
@@ -160,7 +195,7 @@ void ProbeStore::blend_moments(int probe, std::span<const vec2> interior, float 
   assert(interior.size() == static_cast<std::size_t>(n) * n);
   const int words = words_per_distance_texel();
   const std::size_t tile = texel_index(probe, {0, 0}, n);
-  const float scale = 1.0f / distance_unit(grid_);
+  const float scale = 1.0f / distance_unit(grid_of(probe));
   for (int row = 0; row < n; ++row) {
     const std::size_t first = tile + static_cast<std::size_t>(row + 1) * (n + 2) + 1;
     const auto blend =

@@ -14,13 +14,34 @@
 
 namespace lambent {
 
-/// Tiles of all probes, probe after probe; a tile is (texels + 2)^2 texels, row after row, gutter
-/// included.
+/// Index of each corner of a cell relative to that of the cell's lowest probe.
+struct CornerOffsets {
+  int probe[8];
+};
+
+/// Tiles of the probes of all volumes, probe after probe; a tile is (texels + 2)^2 texels, row
+/// after row, gutter included.
 class ProbeStore {
  public:
-  ProbeStore(const ProbeGrid& grid, const FieldSettings& settings);
+  /// Volumes in the order in which points ask them; the last one answers for what is left. Sets
+  /// where each begins.
+  ProbeStore(std::span<const ProbeGrid> grids, const FieldSettings& settings);
+  ProbeStore(const ProbeGrid& grid, const FieldSettings& settings)
+      : ProbeStore(std::span(&grid, 1), settings) {}
 
-  const ProbeGrid& grid() const { return grid_; }
+  int volumes() const { return static_cast<int>(grids_.size()); }
+  const ProbeGrid& grid(int volume) const { return grids_[volume]; }
+  std::span<const ProbeGrid> grids() const { return grids_; }
+  /// Of a probe.
+  int volume_of(int probe) const;
+  const ProbeGrid& grid_of(int probe) const { return grids_[volume_of(probe)]; }
+  /// Moves a volume: everything but its shape and its place in memory may differ.
+  void move_volume(int volume, const ProbeGrid& grid);
+
+  /// Where the corners of cells lie: entry 8 v + w is of those cells of volume v that run over the
+  /// end of memory in the directions w (cell_wrap).
+  std::span<const CornerOffsets> corner_table() const { return corner_table_; }
+
   int probes() const { return probes_; }
   int irradiance_texels() const { return irradiance_texels_; }
   int distance_texels() const { return distance_texels_; }
@@ -31,7 +52,14 @@ class ProbeStore {
 
   /// Where a probe stands: on the grid, or a little off it.
   vec3 probe_position_ws(int probe) const {
-    return probe_position(grid_, probe_coords(grid_, probe)) + probe_offset(probe) * grid_.spacing;
+    const ProbeGrid& grid = grid_of(probe);
+    return probe_position(grid, probe_coords(grid, probe)) +
+           grid.axes * (probe_offset(probe) * grid.spacing);
+  }
+  /// Where it belongs.
+  vec3 probe_home_ws(int probe) const {
+    const ProbeGrid& grid = grid_of(probe);
+    return probe_position(grid, probe_coords(grid, probe));
   }
   /// Offset from the grid, in shares of a cell along each axis, at most kMaxProbeOffset.
   vec3 probe_offset(int probe) const { return decode_probe_offset(offsets_[probe]); }
@@ -56,7 +84,7 @@ class ProbeStore {
   void blend_moments(int probe, std::span<const vec2> interior, float share, uint salt);
 
   /// The encoded words, for kernels; `words_per_*_texel` of them a texel. Distances are in units of
-  /// distance_unit(grid()).
+  /// distance_unit of the volume.
   std::span<const uint> irradiance_words() const { return irradiance_; }
   std::span<const uint> distance_words() const { return distance_; }
   int words_per_irradiance_texel() const {
@@ -64,17 +92,18 @@ class ProbeStore {
   }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 
-  /// Puts back what offset_words, irradiance_words and distance_words told of a store of the same
-  /// shape.
-  void restore(std::span<const uint> offsets, std::span<const uint> irradiance,
+  /// Puts back what offset_words, irradiance_words and distance_words told of probes from `first`
+  /// on, of a store with the same tiles.
+  void restore(int first, std::span<const uint> offsets, std::span<const uint> irradiance,
                std::span<const uint> distance);
 
   /// Forgets everything: no light, distances of 0, and probes on the grid.
   void clear();
 
  private:
-  ProbeGrid grid_;
-  int probes_;
+  std::vector<ProbeGrid> grids_;
+  std::vector<CornerOffsets> corner_table_;
+  int probes_ = 0;
   int irradiance_texels_;
   int distance_texels_;
   IrradianceFormat irradiance_format_;

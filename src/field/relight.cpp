@@ -80,11 +80,30 @@ void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
 /// What a probe's rays bring back depends on.
 struct GatherInput {
   const ProbeTrace& trace;
-  const CornerOffsets& offsets;
+  const CornerOffsets* corner_table;
   const std::array<std::uint16_t, 4>* taps;  // interior texels of each place of a fetch
   const vec4* field;
   int texels;  // of a tile
 };
+
+/// Adds what a lookup reads from the field.
+__attribute__((always_inline)) inline void read_field(const GatherInput& in,
+                                                      const SurfelLookup& lookup, float sum[4]) {
+  const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
+  const CornerOffsets& offsets = in.corner_table[lookup.corners.table];
+  const float fx = lookup.fraction_x, fy = lookup.fraction_y;
+  const float shares[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy, fx * fy};
+  const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
+  for (int corner = 0; corner < 8; ++corner) {
+    const vec4* tile = base + static_cast<std::ptrdiff_t>(offsets.probe[corner]) * in.texels;
+    const float weight = lookup.corners.weight[corner];
+    for (int tap = 0; tap < 4; ++tap) {
+      const float share = weight * shares[tap];
+      const float* texel = &tile[taps[tap]].x;
+      for (int c = 0; c < 4; ++c) sum[c] += share * texel[c];
+    }
+  }
+}
 
 /// Radiance along a probe's rays, and whether they count: four floats a ray.
 LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance) {
@@ -100,38 +119,29 @@ LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance)
       continue;
     }
 
-    // Look the field up at the surfel
-    const SurfelLookup& lookup = in.trace.lookups[i];
-    const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
-    const float fx = lookup.fraction_x, fy = lookup.fraction_y;
-    const float shares[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
-                             fx * fy};
-    const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
+    // Look the field up at the surfel and send back what it reflects
     float sum[4] = {};
-    for (int corner = 0; corner < 8; ++corner) {
-      const vec4* tile = base + static_cast<std::ptrdiff_t>(in.offsets.probe[corner]) * in.texels;
-      const float weight = lookup.corners.weight[corner];
-      for (int tap = 0; tap < 4; ++tap) {
-        const float share = weight * shares[tap];
-        const float* texel = &tile[taps[tap]].x;
-        for (int c = 0; c < 4; ++c) sum[c] += share * texel[c];
-      }
-    }
-
-    // Send back what it reflects
+    read_field(in, in.trace.lookups[i], sum);
     for (int c = 0; c < 3; ++c) out[c] = surfel.albedo_over_pi[c] * (surfel.light[c] + sum[c]);
+  }
+  for (const FurtherLookup& further : in.trace.further) {
+    float sum[4] = {};
+    read_field(in, further.lookup, sum);
+    const vec3 albedo_over_pi = in.trace.surfels[further.ray].albedo_over_pi;
+    for (int c = 0; c < 3; ++c) radiance[4 * further.ray + c] += albedo_over_pi[c] * sum[c];
   }
 }
 
 }  // namespace
 
-TransportOperator::TransportOperator(const ProbeGrid& grid, std::span<const ProbeTrace> traces,
+TransportOperator::TransportOperator(std::span<const CornerOffsets> corner_table,
+                                     std::span<const ProbeTrace> traces,
                                      std::span<const int> probes, const BlendMatrix& fit,
                                      int texels)
-    : traces_(traces),
+    : corner_table_(corner_table),
+      traces_(traces),
       probes_(probes),
       fit_(fit),
-      offsets_(corner_offsets(grid)),
       texels_(texels * texels),
       taps_(static_cast<std::size_t>(texels + 1) * (texels + 1)) {
   for (int y = 0; y <= texels; ++y) {
@@ -146,7 +156,7 @@ TransportOperator::TransportOperator(const ProbeGrid& grid, std::span<const Prob
 
 void TransportOperator::gather_probe_radiance(const WorkingIrradiance& field,
                                               const ProbeTrace& trace, float* radiance) const {
-  gather_radiance({trace, offsets_, taps_.data(), field.data(), texels_}, radiance);
+  gather_radiance({trace, corner_table_.data(), taps_.data(), field.data(), texels_}, radiance);
 }
 
 void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,

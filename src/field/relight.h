@@ -24,8 +24,8 @@ namespace lambent {
 class TransportOperator {
  public:
   /// `probes` have been traced. `fit` is the matrix of tile_fit.h for tiles of `texels` x `texels`.
-  /// All arguments must outlive the operator.
-  TransportOperator(const ProbeGrid& grid, std::span<const ProbeTrace> traces,
+  /// `corner_table` is the store's. All arguments must outlive the operator.
+  TransportOperator(std::span<const CornerOffsets> corner_table, std::span<const ProbeTrace> traces,
                     std::span<const int> probes, const BlendMatrix& fit, int texels);
 
   /// One bounce: what the probes would receive if surfels were lit by `field` besides direct light.
@@ -48,10 +48,10 @@ class TransportOperator {
   template <class Gather>
   void receive(Gather gather, const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
+  std::span<const CornerOffsets> corner_table_;
   std::span<const ProbeTrace> traces_;
   std::span<const int> probes_;
   const BlendMatrix& fit_;
-  CornerOffsets offsets_;
   int texels_;                                      // interior texels of a tile
   std::vector<std::array<std::uint16_t, 4>> taps_;  // interior texels of each place of a fetch
 };

@@ -71,7 +71,7 @@ vec3 way_out(std::span<const Sight> sights, const vec3& position, const vec3& ho
   float nearest = kInfiniteDistance;
   for (const Sight& sight : sights) {
     if (!sight.back_face) continue;
-    const vec3 outside = position + sight.distance * sight.direction - margin * sight.normal_ws;
+    const vec3 outside = position + sight.distance * sight.direction - margin * sight.normal;
     const float away = length(outside - home);
     if (away >= nearest || !within_reach(outside, home, spacing)) continue;
     nearest = away;
@@ -84,9 +84,9 @@ vec3 way_out(std::span<const Sight> sights, const vec3& position, const vec3& ho
 std::vector<Plane> planes_below(std::span<const Sight> sights) {
   std::vector<Plane> planes;
   for (const Sight& sight : sights) {
-    const float cosine = -dot(sight.direction, sight.normal_ws);
+    const float cosine = -dot(sight.direction, sight.normal);
     if (sight.back_face || sight.missed() || cosine < kMinFacingCosine) continue;
-    planes.push_back({sight.normal_ws, sight.distance * cosine});
+    planes.push_back({sight.normal, sight.distance * cosine});
   }
   std::stable_sort(planes.begin(), planes.end(),
                    [](const Plane& a, const Plane& b) { return a.height < b.height; });
@@ -108,16 +108,16 @@ float room_above(std::span<const Plane> planes, const Plane& below) {
 /// even among clutter, where every step leads to another.
 bool settle(const Scene& scene, const RayTracer& tracer, int probe,
             std::span<const std::uint8_t> moving, std::span<Sight> sights, ProbeStore& store) {
-  const ProbeGrid& grid = store.grid();
-  const vec3 home = probe_position(grid, probe_coords(grid, probe));
-  const float margin = kSurfaceMargin * min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
+  const ProbeGrid& grid = store.grid_of(probe);
+  const float margin = kSurfaceMargin * smallest_spacing(grid);
   const vec3 first = store.probe_offset(probe);
   vec3 best = first;
   float least = kInfiniteDistance;
   for (int step = 0; step <= kMaxSteps; ++step) {
-    const vec3 position = store.probe_position_ws(probe);
-    look_around(scene, tracer, position, moving, sights);
-    const vec3 better = better_position(sights, position, home, grid.spacing);
+    // Along the axes of the grid, seen from where the probe belongs
+    const vec3 position = store.probe_offset(probe) * grid.spacing;
+    look_around(scene, tracer, store.probe_position_ws(probe), grid.axes, moving, sights);
+    const vec3 better = better_position(sights, position, vec3(0.0f), grid.spacing);
 
     // Compute how much the probe wants to leave, in margins
     float unrest = length(better - position) / margin;
@@ -128,7 +128,7 @@ bool settle(const Scene& scene, const RayTracer& tracer, int probe,
       least = step == 0 ? unrest - kMarginTolerance : unrest;
     }
     if (better == position) break;
-    store.set_probe_offset(probe, (better - home) / grid.spacing);
+    store.set_probe_offset(probe, better / grid.spacing);
   }
   store.set_probe_offset(probe, best);
   return best != first;
@@ -141,8 +141,14 @@ std::span<const vec3> sight_directions() {
   return directions;
 }
 
+std::vector<std::uint8_t> moving_instances(const Scene& scene) {
+  std::vector<std::uint8_t> moving(scene.instances.size());
+  for (std::size_t i = 0; i < moving.size(); ++i) moving[i] = scene.instances[i].dynamic ? 1 : 0;
+  return moving;
+}
+
 void look_around(const Scene& scene, const RayTracer& tracer, const vec3& position_ws,
-                 std::span<const std::uint8_t> moving, std::span<Sight> sights) {
+                 const mat3& axes, std::span<const std::uint8_t> moving, std::span<Sight> sights) {
   const std::span<const vec3> directions = sight_directions();
   std::vector<Ray> rays(directions.size());
   std::vector<Hit> hits(directions.size());
@@ -155,11 +161,11 @@ void look_around(const Scene& scene, const RayTracer& tracer, const vec3& positi
       rays[i].t_min = std::nextafter(hits[i].distance * (1.0f + kPastSurface), kInfiniteDistance);
       hits[i] = tracer.closest_hit(rays[i]);
     }
-    sights[i] = {directions[i], kInfiniteDistance, -directions[i], false};
+    sights[i] = {directions[i] * axes, kInfiniteDistance, -directions[i] * axes, false};
     if (hits[i].missed() || is_moving(hits[i], moving)) continue;
     const Surface surface = surface_at(scene, rays[i], hits[i]);
     sights[i].distance = hits[i].distance;
-    sights[i].normal_ws = surface.geometric_normal_ws;
+    sights[i].normal = surface.geometric_normal_ws * axes;
     sights[i].back_face = !surface.front_face && !surface.double_sided;
   }
 }
@@ -170,15 +176,15 @@ bool in_solid_matter(std::span<const Sight> sights) {
   return static_cast<float>(back_faces) > kMaxBackFaceShare * static_cast<float>(sights.size());
 }
 
-vec3 better_position(std::span<const Sight> sights, const vec3& position_ws, const vec3& home_ws,
+vec3 better_position(std::span<const Sight> sights, const vec3& from, const vec3& home,
                      const vec3& spacing) {
   const float smallest = min(spacing.x, min(spacing.y, spacing.z));
   const float margin = kSurfaceMargin * smallest;
-  if (in_solid_matter(sights)) return way_out(sights, position_ws, home_ws, spacing, margin);
+  if (in_solid_matter(sights)) return way_out(sights, from, home, spacing, margin);
 
   // Step to just in front of the nearest surface, then along it to the next one that faces another
   // way, and along both to a third
-  vec3 position = position_ws;
+  vec3 position = from;
   vec3 axes[3];
   int count = 0;
   const std::vector<Plane> planes = planes_below(sights);
@@ -195,7 +201,7 @@ vec3 better_position(std::span<const Sight> sights, const vec3& position_ws, con
     along /= steepness;
     const float rise = min(margin - plane.height, room_above(planes, plane));
     const vec3 there = position + along * (rise / max(dot(along, plane.normal), kMinSteepness));
-    if (!within_reach(there, home_ws, spacing)) continue;
+    if (!within_reach(there, home, spacing)) continue;
     axes[count++] = along;
     if (abs(rise) > kMarginTolerance * margin) position = there;
   }

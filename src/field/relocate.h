@@ -13,30 +13,35 @@
 
 namespace lambent {
 
-/// What one ray from a probe met of the scene that keeps still.
+/// What one ray from a probe met of the scene that keeps still, in the frame of the probe's grid.
 struct Sight {
   vec3 direction;  ///< Of the ray, unit.
   float distance;  ///< [m]; infinite: nothing.
-  vec3 normal_ws;  ///< Of the triangle, unit, towards the probe.
+  vec3 normal;     ///< Of the triangle, unit, towards the probe.
   bool back_face;  ///< Met the back of a single-sided surface.
 
   bool missed() const { return distance == kInfiniteDistance; }
 };
 
-/// Directions a probe looks in: the same for all probes at all times, so that probes come to rest.
+/// World-space directions a probe looks in: the same for all probes at all times, so that probes
+/// come to rest.
 std::span<const vec3> sight_directions();
 
-/// Looks around from a point. `moving` holds one flag an instance: the ray looks through those that
-/// move; instances beyond its end keep still. `sights` has one entry a direction.
+/// One flag an instance: it moves.
+std::vector<std::uint8_t> moving_instances(const Scene& scene);
+
+/// Looks around from a point; `axes` are those of the frame that sights are told in. `moving` holds
+/// one flag an instance: the ray looks through those that move; instances beyond its end keep
+/// still. `sights` has one entry a direction.
 void look_around(const Scene& scene, const RayTracer& tracer, const vec3& position_ws,
-                 std::span<const std::uint8_t> moving, std::span<Sight> sights);
+                 const mat3& axes, std::span<const std::uint8_t> moving, std::span<Sight> sights);
 
 /// True where so many sights met back faces that the point must be in solid matter.
 bool in_solid_matter(std::span<const Sight> sights);
 
-/// Where a probe that belongs at `home_ws` and sees this from `position_ws` had better stand;
-/// `position_ws` itself where it may stay. At most kMaxProbeOffset of a cell from home.
-vec3 better_position(std::span<const Sight> sights, const vec3& position_ws, const vec3& home_ws,
+/// Where a probe that belongs at `home` and sees this from `from` had better stand; `from` itself
+/// where it may stay. At most kMaxProbeOffset of a cell from home. All in the sights' frame.
+vec3 better_position(std::span<const Sight> sights, const vec3& from, const vec3& home,
                      const vec3& spacing);
 
 /// Moves some probes until they stand well, then leaves them. Returns those that moved, in the

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields to and from files.
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -27,14 +28,23 @@ Expected<void> check_scene(const std::string& path, const SceneIdentity& made_fo
   return fail(path, "", "is of another scene: one as large, but of another shape");
 }
 
+bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
+  return a.irradiance_texels == b.irradiance_texels && a.distance_texels == b.distance_texels &&
+         a.irradiance_format == b.irradiance_format && a.distance_format == b.distance_format;
+}
+
 }  // namespace
 
 /// Takes the place of all light that the field holds.
-void IrradianceField::State::restore(const FieldVolume& volume, std::uint32_t updates_so_far,
-                                     const World& world) {
-  store.restore(volume.offsets, volume.irradiance, volume.distance);
-  records = volume.records;
-  updates = static_cast<int>(updates_so_far);
+void IrradianceField::State::restore(const FieldFile& file, const World& world) {
+  for (int v = 0; v < store.volumes(); ++v) {
+    const FieldVolume& volume = file.volumes[v];
+    const int first = store.grid(v).first;
+    store.restore(first, volume.offsets, volume.irradiance, volume.distance);
+    std::copy(volume.records.begin(), volume.records.end(), records.begin() + first);
+  }
+  updates = static_cast<int>(file.updates);
+  placed_revision = world.revision();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(tile_texels());
   double sum = 0.0;
@@ -55,27 +65,44 @@ void IrradianceField::State::restore(const FieldVolume& volume, std::uint32_t up
   if (settings.visibility == Visibility::hybrid) sights.look(world.tracer(), store, all);
 }
 
+/// A volume as a file holds it: probes in the order of the grid, wherever they are in memory.
+FieldVolume IrradianceField::State::volume_for_file(int volume, const World& world) const {
+  FieldVolume result;
+  result.grid = store.grid(volume);
+  result.role = roles[volume];
+  result.irradiance_texels = store.irradiance_texels();
+  result.distance_texels = store.distance_texels();
+  result.irradiance_format = store.irradiance_format();
+  result.distance_format = store.distance_format();
+  const ProbeGrid& stored = store.grid(volume);
+  result.grid.scroll = ivec3(0);
+  result.grid.first = 0;
+  const std::size_t irradiance_tile = store.irradiance_words().size() / store.probes();
+  const std::size_t distance_tile = store.distance_words().size() / store.probes();
+  for (int i = 0; i < probe_count(stored); ++i) {
+    const int probe = probe_index(stored, probe_coords(result.grid, i));
+    ProbeRecord& record = result.records.emplace_back(records[probe]);
+    // What waits to follow an edit has averaged another light than the world's
+    if (record.revision != world.revision()) record.samples = 0.0f;
+    result.offsets.push_back(store.offset_words()[probe]);
+    const auto irradiance =
+        store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
+    const auto distance = store.distance_words().subspan(probe * distance_tile, distance_tile);
+    result.irradiance.insert(result.irradiance.end(), irradiance.begin(), irradiance.end());
+    result.distance.insert(result.distance.end(), distance.begin(), distance.end());
+  }
+  return result;
+}
+
 Expected<void> save_field(const std::string& path, const IrradianceField& field,
                           const World& world) {
   const IrradianceField::State& state = *field.state_;
-  const ProbeStore& store = state.store;
   FieldFile file;
   file.updates = static_cast<std::uint32_t>(state.updates);
   file.scene = identify(world.scene(), state.settings);
-  FieldVolume& volume = file.volumes.emplace_back();
-  volume.grid = state.grid;
-  volume.irradiance_texels = store.irradiance_texels();
-  volume.distance_texels = store.distance_texels();
-  volume.irradiance_format = store.irradiance_format();
-  volume.distance_format = store.distance_format();
-  volume.records = state.records;
-  for (ProbeRecord& record : volume.records) {
-    // What waits to follow an edit has averaged another light than the world's
-    if (record.revision != world.revision()) record.samples = 0.0f;
+  for (int volume = 0; volume < state.store.volumes(); ++volume) {
+    file.volumes.push_back(state.volume_for_file(volume, world));
   }
-  volume.offsets.assign(store.offset_words().begin(), store.offset_words().end());
-  volume.irradiance.assign(store.irradiance_words().begin(), store.irradiance_words().end());
-  volume.distance.assign(store.distance_words().begin(), store.distance_words().end());
   return write_file_atomically(path, encode_field(file));
 }
 
@@ -87,23 +114,26 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
   if (const auto fine = check_scene(path, file->scene, scene); !fine) {
     return tl::unexpected(fine.error());
   }
-  if (file->volumes.size() != 1) {
-    return fail(path, "",
-                "holds " + std::to_string(file->volumes.size()) + " volumes; a field has one");
+  const FieldVolume& last = file->volumes.back();
+  std::vector<Volume> volumes;
+  for (const FieldVolume& volume : file->volumes) {
+    if (!same_tiles(volume, last)) return fail(path, "", "has volumes whose tiles differ");
+    volumes.push_back({volume.grid, volume.role});
   }
-  FieldVolume& volume = file->volumes.front();
-  const FieldSettings merged = volume.store_settings(settings);
+  const FieldSettings merged = last.store_settings(settings);
   Expected<IrradianceField> field = IrradianceField::make(merged, {});
   if (!field) return tl::unexpected(field.error());
-  // The very grid, to the bit
-  field->state_ = std::make_unique<IrradianceField::State>(merged, volume.grid);
+  // The very grids, to the bit
+  field->state_ = std::make_unique<IrradianceField::State>(merged, volumes);
 
   const bool same_light = file->scene.light == scene.light;
   if (!same_light) {
     // What it holds is where to start from, but no average of what is to be found
-    for (ProbeRecord& record : volume.records) record.samples = 0.0f;
+    for (FieldVolume& volume : file->volumes) {
+      for (ProbeRecord& record : volume.records) record.samples = 0.0f;
+    }
   }
-  field->state_->restore(volume, file->updates, world);
+  field->state_->restore(*file, world);
   return LoadedField{std::move(*field), same_light};
 }
 

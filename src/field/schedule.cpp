@@ -86,21 +86,29 @@ std::uint64_t RayCost::rays_within(double ms) const {
   return std::max<std::uint64_t>(kRayClasses.front(), static_cast<std::uint64_t>(ms / cost));
 }
 
-Schedule schedule_all(std::span<const ProbeRecord> records, int rays_per_probe) {
+Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
+                      std::span<const ProbeRecord> records, int rays_per_probe,
+                      std::uint32_t update) {
   Schedule schedule;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    if (is_live(records[i])) schedule.probes.push_back(static_cast<int>(i));
+  for (int volume = 0; volume < store.volumes(); ++volume) {
+    const std::uint32_t period = 1u << roles[volume].level;
+    const int first = store.grid(volume).first;
+    for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
+      if (!is_live(records[probe])) continue;
+      // Not all of a volume's probes in the same update
+      const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
+      if (turn || records[probe].served == 0) schedule.probes.push_back(probe);
+    }
   }
   schedule.rays.assign(schedule.probes.size(), rays_per_probe);
   return schedule;
 }
 
-Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> records,
-                         const FieldSettings& settings, std::uint64_t ray_budget,
-                         std::uint32_t update, const std::optional<glm::vec3>& viewer_ws) {
+Schedule schedule_within(const ProbeStore& store, std::span<const VolumeRole> roles,
+                         std::span<const ProbeRecord> records, const FieldSettings& settings,
+                         std::uint64_t ray_budget, std::uint32_t update,
+                         const std::optional<glm::vec3>& viewer_ws) {
   // Compute how urgent each probe is: by the error it has, and beyond all others where it is old
-  const vec3 spacing = store.grid().spacing;
-  const float cell = std::max({spacing.x, spacing.y, spacing.z});
   std::vector<Candidate> candidates;
   candidates.reserve(records.size());
   double noise_sum = 0.0;
@@ -112,13 +120,16 @@ Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> r
     const std::uint32_t age = update - record.served;
     const bool old = record.served == 0 || age >= kMaxProbeAge;
     if (!old && record.samples >= longest) continue;
-    const float noise = std::sqrt(noise_around(store.grid(), records, probe));
+    const int volume = store.volume_of(probe);
+    const ProbeGrid& grid = store.grid(volume);
+    const float noise = std::sqrt(noise_around(grid, records, probe));
     const float error = noise / std::sqrt(std::max(record.samples, 1.0f));
     if (!old && error < kSettledError) continue;
-    float worth = 1.0f;
+    float worth = std::ldexp(1.0f, -roles[volume].level);
     if (viewer_ws) {
+      const float cell = max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
       const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;
-      worth = kHalfWorthCells / (kHalfWorthCells + cells);
+      worth *= kHalfWorthCells / (kHalfWorthCells + cells);
     }
     const float urgency = old ? static_cast<float>(age) + 1.0f : std::min(error * worth, 1.0f);
     candidates.push_back({urgency, noise, probe});

@@ -16,6 +16,7 @@
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/surfels.h"
+#include "field/volumes.h"
 
 namespace lambent {
 
@@ -40,13 +41,17 @@ struct Schedule {
   std::vector<int> rays;    ///< Of each, one of the ray classes.
 };
 
-/// Every probe that is not off, with the settings' rays.
-Schedule schedule_all(std::span<const ProbeRecord> records, int rays_per_probe);
+/// Every probe that is not off and whose volume's turn it is, and those never served, with the
+/// settings' rays. `update` counts from 1.
+Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
+                      std::span<const ProbeRecord> records, int rays_per_probe,
+                      std::uint32_t update);
 
-/// The most urgent probes within a budget of rays. `update` counts from 1.
-Schedule schedule_within(const ProbeStore& store, std::span<const ProbeRecord> records,
-                         const FieldSettings& settings, std::uint64_t ray_budget,
-                         std::uint32_t update, const std::optional<glm::vec3>& viewer_ws);
+/// The most urgent probes within a budget of rays, likewise.
+Schedule schedule_within(const ProbeStore& store, std::span<const VolumeRole> roles,
+                         std::span<const ProbeRecord> records, const FieldSettings& settings,
+                         std::uint64_t ray_budget, std::uint32_t update,
+                         const std::optional<glm::vec3>& viewer_ws);
 
 /// Groups the scheduled probes by their rays, and draws the rays' directions.
 std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,

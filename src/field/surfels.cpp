@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/surfels.h"
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 
 #include "core/parallel.h"
 #include "shared/packing.h"
@@ -22,7 +24,8 @@ RaySet::RaySet(const FieldSettings& settings, int rays, uint update_number)
       irradiance_blend(settings.irradiance_texels, 1.0f, directions) {}
 
 std::size_t ProbeTrace::bytes() const {
-  return surfels.size() * sizeof(Surfel) + lookups.size() * sizeof(SurfelLookup);
+  return surfels.size() * sizeof(Surfel) + lookups.size() * sizeof(SurfelLookup) +
+         further.size() * sizeof(FurtherLookup);
 }
 
 Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) {
@@ -121,6 +124,7 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
     for (std::size_t k = begin; k < end; ++k) {
       ProbeTrace& trace = traces[probes[k]];
       trace.lookups.resize(trace.surfels.size());
+      trace.further.clear();
       most_rays = max(most_rays, static_cast<int>(trace.surfels.size()));
     }
     // Neighbouring probes' rays of one direction tend to end in the same cell: asked one after the
@@ -132,25 +136,62 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
         const Surfel& surfel = trace.surfels[ray];
         // What reflects nothing does not ask what lights it
         if (!surfel.reflects()) continue;
-        if (!surfel.receives_gi) {
-          trace.lookups[ray] = {};
-          continue;
-        }
+        trace.lookups[ray] = {};
+        if (!surfel.receives_gi) continue;
         reflecting.push_back({probes[k], ray});
         queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
                            -trace.rays->directions[ray]});
       }
     }
-    std::vector<CornerWeights> weights(queries.size());
-    rays += visible_corner_weights(store, by, queries, weights);
-    for (std::size_t i = 0; i < queries.size(); ++i) {
-      const TileFetch fetch = tile_fetch(queries[i].normal_ws, texels);
-      traces[reflecting[i].probe].lookups[reflecting[i].ray] = {
-          weights[i], static_cast<std::uint32_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
+    QueryWeights weights;
+    rays += find_weights(store, by, queries, weights);
+    std::vector<std::uint8_t> answered(queries.size(), 0);
+    for (std::size_t i = 0; i < weights.corners.size(); ++i) {
+      const std::uint32_t query = weights.query[i];
+      const TileFetch fetch = tile_fetch(queries[query].normal_ws, texels);
+      const SurfelLookup lookup = {
+          weights.corners[i],
+          static_cast<std::uint32_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
           fetch.fraction.x, fetch.fraction.y};
+      ProbeTrace& trace = traces[reflecting[query].probe];
+      const int ray = reflecting[query].ray;
+      if (answered[query] == 0) {
+        trace.lookups[ray] = lookup;
+      } else {
+        trace.further.push_back({static_cast<std::uint32_t>(ray), lookup});
+      }
+      answered[query] = 1;
     }
   });
   return rays;
+}
+
+std::vector<int> probes_reading(std::span<const int> read, std::span<const int> among,
+                                const ProbeStore& store, std::span<const ProbeTrace> traces) {
+  std::vector<std::uint8_t> is_read(store.probes(), 0), reads(among.size(), 0);
+  for (const int probe : read) is_read[probe] = 1;
+  const std::span<const CornerOffsets> corner_table = store.corner_table();
+  const auto reads_one = [&](const CornerWeights& corners) {
+    const CornerOffsets& offsets = corner_table[corners.table];
+    return std::any_of(std::begin(offsets.probe), std::end(offsets.probe),
+                       [&](int offset) { return is_read[corners.base + offset] != 0; });
+  };
+  parallel_chunks(among.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const ProbeTrace& trace = traces[among[k]];
+      bool one = std::any_of(trace.further.begin(), trace.further.end(),
+                             [&](const FurtherLookup& f) { return reads_one(f.lookup.corners); });
+      for (std::size_t i = 0; i < trace.lookups.size() && !one; ++i) {
+        one = trace.surfels[i].reflects() && reads_one(trace.lookups[i].corners);
+      }
+      reads[k] = one ? 1 : 0;
+    }
+  });
+  std::vector<int> readers;
+  for (std::size_t k = 0; k < among.size(); ++k) {
+    if (reads[k] != 0) readers.push_back(among[k]);
+  }
+  return readers;
 }
 
 }  // namespace lambent

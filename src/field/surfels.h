@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "field/blend.h"
-#include "field/lookup_cpu.h"
+#include "field/lookup_volumes.h"
 #include "field/probe_store.h"
 #include "field/visibility.h"
 #include "lambent/field.h"
@@ -48,6 +48,12 @@ struct SurfelLookup {
   float fraction_x, fraction_y;
 };
 
+/// What a surfel reads besides, where volumes blend into each other.
+struct FurtherLookup {
+  std::uint32_t ray;
+  SurfelLookup lookup;
+};
+
 /// The rays of one update, and what they weigh in a tile's texels. Probes that trace as many rays
 /// in one update share one.
 struct RaySet {
@@ -65,6 +71,7 @@ struct ProbeTrace {
   std::shared_ptr<const RaySet> rays;  ///< Null: never traced.
   std::vector<Surfel> surfels;         ///< One a ray.
   std::vector<SurfelLookup> lookups;   ///< One a ray; undefined where nothing is reflected.
+  std::vector<FurtherLookup> further;  ///< Of surfels that read several volumes.
 
   std::size_t bytes() const;
 };
@@ -98,5 +105,10 @@ std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const T
 /// Finds the lookups of the probes' surfels. Returns the rays that their visibility took.
 std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
                                   std::span<const int> probes, std::span<ProbeTrace> traces);
+
+/// Those `among` traced probes some of whose surfels may read one of the probes `read`, in the
+/// order of `among`.
+std::vector<int> probes_reading(std::span<const int> read, std::span<const int> among,
+                                const ProbeStore& store, std::span<const ProbeTrace> traces);
 
 }  // namespace lambent

@@ -126,10 +126,14 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     budget = budget == 0 ? learned : std::min(budget, learned);
   }
 
+  if (request.viewer_ws) statistics.probes_recycled = s.follow_viewer(world, *request.viewer_ws);
   if (s.updates == 0) {
     std::vector<int> all(s.records.size());
     std::iota(all.begin(), all.end(), 0);
     s.place(world, all);
+    s.placed_revision = world.revision();
+  } else {
+    s.place_edited(world);
   }
   s.classify(world);
   statistics.place_ms = watch.lap();
@@ -143,10 +147,10 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.followed_last = followed != Followed::nothing && !trace;
   if (trace) {
     const auto update = static_cast<uint>(s.updates);
-    const Schedule schedule = budget == 0
-                                  ? schedule_all(s.records, s.settings.rays_per_probe)
-                                  : schedule_within(s.store, s.records, s.settings, budget - spent,
-                                                    update + 1, request.viewer_ws);
+    const Schedule schedule =
+        budget == 0 ? schedule_all(s.store, s.roles, s.records, s.settings.rays_per_probe, update)
+                    : schedule_within(s.store, s.roles, s.records, s.settings, budget - spent,
+                                      update + 1, request.viewer_ws);
     s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
   }
   ++s.updates;

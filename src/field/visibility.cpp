@@ -15,9 +15,6 @@ constexpr int kCorners = 8;
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
 constexpr std::size_t kCellsPerTask = 64;
 
-// Small batches keep the weights between the two kernels in the first-level cache.
-constexpr std::size_t kBatch = 256;
-
 // Where a probe's distances let so small a share through, and the probe that matters most does not
 // see it, it is hidden; a larger share is worth a ray.
 constexpr float kWorthARay = 0.05f;
@@ -31,18 +28,16 @@ struct Question {
 /// Rays of a batch of lookups, gathered to be traced together.
 class CornerRays {
  public:
-  explicit CornerRays(const ProbeStore& store)
-      : store_(store),
-        offsets_(corner_offsets(store.grid())),
-        spacing_min_(
-            min(store.grid().spacing.x, min(store.grid().spacing.y, store.grid().spacing.z))) {}
+  CornerRays(const ProbeStore& store, int volume)
+      : store_(store), spacing_min_(smallest_spacing(store.grid(volume))) {}
 
   /// Asks whether the corner is seen from the point where its distances are asked, which is off the
   /// surface: a ray along it meets no rounding error.
-  void ask(const FieldQuery& query, int base, std::size_t index, int corner) {
+  void ask(const FieldQuery& query, int base, std::uint32_t table, std::size_t index, int corner) {
     const vec3 start =
         biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
-    const vec3 way = store_.probe_position_ws(base + offsets_.probe[corner]) - start;
+    const int probe = base + store_.corner_table()[table].probe[corner];
+    const vec3 way = store_.probe_position_ws(probe) - start;
     const float distance = max(length(way), kMinProbeDistance);
     rays_.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
     questions_.push_back({index, corner});
@@ -61,7 +56,6 @@ class CornerRays {
 
  private:
   const ProbeStore& store_;
-  CornerOffsets offsets_;
   float spacing_min_;
   std::vector<Ray> rays_;
   std::vector<Question> questions_;
@@ -78,16 +72,16 @@ bool normalize_weights(CornerWeights& weights) {
 }
 
 /// A ray to each corner that could count.
-std::uint64_t exact_weights(const ProbeStore& store, const RayTracer& tracer,
+std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer& tracer,
                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
-  CornerRays rays(store);
+  CornerRays rays(store, volume);
   std::vector<CornerTerms> terms(queries.size());
-  corner_terms(store, queries, terms);
+  corner_terms(store, volume, queries, terms);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     for (int k = 0; k < kCorners; ++k) {
       if (terms[i].trilinear[k] * terms[i].wrap[k] <= 0.0f) continue;
       terms[i].visibility[k] = 1.0f;
-      rays.ask(queries[i], terms[i].base, i, k);
+      rays.ask(queries[i], terms[i].base, terms[i].table, i, k);
     }
   }
   const std::uint64_t traced = rays.answer(tracer, [&](const Question& question) {
@@ -95,9 +89,9 @@ std::uint64_t exact_weights(const ProbeStore& store, const RayTracer& tracer,
   });
 
   // Where no probe is seen, distances decide
-  corner_weights(store, queries, result);
+  corner_weights(store, volume, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    CornerWeights seen{terms[i].base, {}};
+    CornerWeights seen{terms[i].base, terms[i].table, {}};
     for (int k = 0; k < kCorners; ++k) {
       if (terms[i].wrap[k] * terms[i].visibility[k] <= 0.0f) continue;
       seen.weight[k] = terms[i].trilinear[k] * combined_weight(terms[i].wrap[k], 1.0f);
@@ -108,10 +102,10 @@ std::uint64_t exact_weights(const ProbeStore& store, const RayTracer& tracer,
 }
 
 /// Distances, checked where the probe that matters most does not see another that matters.
-std::uint64_t hybrid_weights(const ProbeStore& store, const VisibilityRays& by,
+std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                              std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
-  corner_weights(store, queries, result);
-  CornerRays rays(store);
+  corner_weights(store, volume, queries, result);
+  CornerRays rays(store, volume);
   std::vector<std::size_t> checked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const std::uint64_t cell = by.sights->of_cell(result[i].base);
@@ -124,7 +118,7 @@ std::uint64_t hybrid_weights(const ProbeStore& store, const VisibilityRays& by,
       if (weight[k] < kWorthARay) {
         weight[k] = 0.0f;
       } else {
-        rays.ask(queries[i], result[i].base, i, k);
+        rays.ask(queries[i], result[i].base, result[i].table, i, k);
       }
     }
     checked.push_back(i);
@@ -139,13 +133,10 @@ std::uint64_t hybrid_weights(const ProbeStore& store, const VisibilityRays& by,
 
 }  // namespace
 
-ProbeSights::ProbeSights(const ProbeGrid& grid)
-    : cells_(static_cast<std::size_t>(grid.count.x) * grid.count.y * grid.count.z, kAllSeen) {}
+ProbeSights::ProbeSights(int probes) : cells_(probes, kAllSeen) {}
 
 std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store,
                                 std::span<const int> probes) {
-  const ProbeGrid& grid = store.grid();
-  const CornerOffsets offsets = corner_offsets(grid);
   std::atomic<std::uint64_t> traced = 0;
   parallel_chunks(probes.size(), kCellsPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
@@ -153,9 +144,13 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
     std::vector<std::uint8_t> occluded;
     for (std::size_t c = begin; c < end; ++c) {
       const int base = probes[c];
+      const int volume = store.volume_of(base);
+      const ProbeGrid& grid = store.grid(volume);
       // The last probes of a row are no cell's lowest
       const ivec3 coords = probe_coords(grid, base);
       if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
+      const CornerOffsets& offsets = store.corner_table()[static_cast<std::size_t>(
+          kCorners * volume + cell_wrap(grid, coords))];
       rays.clear();
       pairs.clear();
       for (int i = 0; i < kCorners; ++i) {
@@ -179,32 +174,18 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
   return traced;
 }
 
-std::uint64_t visible_corner_weights(const ProbeStore& store, const VisibilityRays& by,
+std::uint64_t visible_corner_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                                      std::span<const FieldQuery> queries,
                                      std::span<CornerWeights> result) {
   if (by.tracer != nullptr && by.mode == Visibility::exact) {
-    return exact_weights(store, *by.tracer, queries, result);
+    return exact_weights(store, volume, *by.tracer, queries, result);
   }
   if (by.tracer != nullptr && by.mode == Visibility::hybrid) {
     assert(by.sights != nullptr);
-    return hybrid_weights(store, by, queries, result);
+    return hybrid_weights(store, volume, by, queries, result);
   }
-  corner_weights(store, queries, result);
+  corner_weights(store, volume, queries, result);
   return 0;
-}
-
-std::uint64_t visible_irradiance(const ProbeStore& store, const VisibilityRays& by,
-                                 std::span<const FieldQuery> queries, std::span<vec3> result) {
-  assert(queries.size() == result.size());
-  CornerWeights weights[kBatch];
-  std::uint64_t traced = 0;
-  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
-    const std::size_t count = std::min(kBatch, queries.size() - first);
-    const std::span<const FieldQuery> batch = queries.subspan(first, count);
-    traced += visible_corner_weights(store, by, batch, {weights, count});
-    weighted_irradiance(store, batch, {weights, count}, result.subspan(first, count));
-  }
-  return traced;
 }
 
 }  // namespace lambent

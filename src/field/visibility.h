@@ -17,7 +17,7 @@ namespace lambent {
 class ProbeSights {
  public:
   /// Every probe sees every other.
-  explicit ProbeSights(const ProbeGrid& grid);
+  explicit ProbeSights(int probes);
 
   /// Looks again in the cells whose lowest probes these are. Returns the rays traced.
   std::uint64_t look(const RayTracer& tracer, const ProbeStore& store, std::span<const int> probes);
@@ -36,13 +36,9 @@ struct VisibilityRays {
   const ProbeSights* sights = nullptr;  ///< Of the probes; hybrid needs it.
 };
 
-/// Weights for each query. Single-threaded. Returns the rays traced.
-std::uint64_t visible_corner_weights(const ProbeStore& store, const VisibilityRays& by,
+/// Weights for each query in one volume. Single-threaded. Returns the rays traced.
+std::uint64_t visible_corner_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                                      std::span<const FieldQuery> queries,
                                      std::span<CornerWeights> result);
-
-/// Irradiance for each query, likewise.
-std::uint64_t visible_irradiance(const ProbeStore& store, const VisibilityRays& by,
-                                 std::span<const FieldQuery> queries, std::span<vec3> result);
 
 }  // namespace lambent

@@ -26,7 +26,8 @@ SceneSnapshot::Sky sky_of(const Environment& e) {
 }
 
 Placement placement_of(const Instance& instance) {
-  return {instance.mesh, instance.world_from_object, instance.receives_gi, instance_mask(instance)};
+  return {instance.mesh, instance.world_from_object, instance.receives_gi, instance.dynamic,
+          instance_mask(instance)};
 }
 
 std::size_t hash_of(const Placement& placement) {
@@ -219,6 +220,7 @@ class Comparison {
     const Bounds box = world_box(snapshot, placement);
     std::vector<Bounds>& moved = edits_.changes.moved;
     if (!box.empty() && (moved.empty() || moved.back() != box)) moved.push_back(box);
+    if (!box.empty() && !placement.dynamic) edits_.changes.rebuilt.push_back(box);
   }
 
   const SceneSnapshot& before_;

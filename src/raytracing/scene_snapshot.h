@@ -18,6 +18,7 @@ struct SceneSnapshot {
     int mesh;
     glm::mat4 world_from_object;
     bool receives_gi;
+    bool dynamic;
     std::uint32_t mask;
     bool operator==(const Placement&) const = default;
   };

@@ -10,6 +10,7 @@
 #include "scene/gltf_extensions.h"
 #include "scene/gltf_meshopt.h"
 #include "scene/gltf_schema.h"
+#include "scene/gltf_volumes.h"
 
 namespace lambent::gltf {
 namespace {
@@ -292,6 +293,7 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   if (root.contains("buffers")) LAMBENT_CHECK(read_buffers(document, root["buffers"], chunks));
   read_skies(document, root);
   read_node_flags(document, root);
+  read_node_volumes(document, root);
   read_channels(document, root);
   remove_extras(root);
   take_out(document, root);

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "lambent/animation.h"
 #include "lambent/error.h"
+#include "lambent/scene.h"
 #include "scene/tinygltf.h"
 
 namespace lambent::gltf {
@@ -62,6 +64,7 @@ struct Document {
   std::vector<ImageSource> images;
   std::vector<AnimationSource> animations;  ///< Without channels that make no sense.
   std::vector<NodeFlags> node_flags;        ///< One a node.
+  std::map<int, ProbeVolume> node_volumes;  ///< Of nodes that ask for one; not placed yet.
   std::vector<std::vector<int>>
       primitive_indices;                  ///< Accessor of each mesh's primitives' indices; or -1.
   std::vector<Bytes> decompressed_views;  ///< Of views with EXT_meshopt_compression; else empty.

@@ -14,6 +14,7 @@
 #include "scene/gltf_meshes.h"
 #include "scene/gltf_nodes.h"
 #include "scene/gltf_textures.h"
+#include "scene/gltf_volumes.h"
 #include "scene/pose.h"
 
 namespace lambent {
@@ -61,6 +62,7 @@ class Importer {
       motion_->add_light(index, source, static_cast<int>(scene_.lights.size()));
       scene_.lights.push_back(std::move(imported));
     }
+    place_volume(document_, index, world_from_node, scene_);
     if (node.mesh < 0) return {};
     LAMBENT_TRY(joint_from_bind, read_skin(node.skin));
     const Deformation deformation = deformation_of(tree, node, joint_from_bind);

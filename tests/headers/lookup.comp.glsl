@@ -9,7 +9,11 @@
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Probes { vec4 irradiance_and_distance[]; } probes;
 layout(scalar, binding = 1) buffer Points { vec3 points[]; } io;
-layout(scalar, push_constant) uniform Constants { ProbeGrid grid; } constants;
+layout(scalar, binding = 2) readonly buffer Volumes { ProbeGrid grids[]; } volumes;
+
+ProbeGrid fetch_grid(int volume) {
+  return volumes.grids[volume];
+}
 
 vec2 fetch_moments(int probe, vec3 direction) {
   float mean = probes.irradiance_and_distance[probe].w + 0.0 * direction.x;
@@ -29,5 +33,5 @@ vec3 fetch_irradiance(int probe, vec3 direction) {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   vec3 up = vec3(0.0, 1.0, 0.0);
-  io.points[i] = lookup_irradiance(constants.grid, io.points[i], up, up);
+  io.points[i] = lookup_irradiance(volumes.grids.length(), io.points[i], up, up);
 }

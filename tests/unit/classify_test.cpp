@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "field/volumes.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
@@ -56,7 +57,7 @@ TEST(ProbeStates, AreNewUntilTraced) {
 }
 
 TEST(ProbeStates, MayLightWhatIsWithinACellAndTheBias) {
-  const ProbeGrid grid{vec3(0.0f), vec3(1.0f, 2.0f, 1.0f), ivec3(4)};
+  const ProbeGrid grid = still_grid({vec3(0.0f), vec3(1.0f, 2.0f, 1.0f), ivec3(4)});
   // The bias is 0.225 of the smallest spacing
   const vec3 home(1.0f, 2.0f, 1.0f);
   const auto box_at = [](float x, float y) {
@@ -73,7 +74,7 @@ TEST(ProbeStates, MayLightWhatIsWithinACellAndTheBias) {
 ProbeReach reach_in(const Scene& scene) {
   const World world(scene);
   std::vector<Sight> sights(sight_directions().size());
-  look_around(scene, world.tracer(), vec3(0.0f), {}, sights);
+  look_around(scene, world.tracer(), vec3(0.0f), mat3(1.0f), {}, sights);
   return probe_reach(sights, vec3(0.0f), vec3(0.0f), vec3(1.0f));
 }
 
@@ -88,18 +89,18 @@ TEST(ProbeReaches, TellMatterSurfacesAndAirApart) {
 }
 
 TEST(ProbeStates, OfAFieldFollowWhatMoves) {
-  const ProbeGrid grid{vec3(0.0f), vec3(1.0f), ivec3(4)};
+  const ProbeStore store(still_grid({vec3(0.0f), vec3(1.0f), ivec3(4)}), {});
   std::vector<ProbeReach> reaches(64, kAir);
   reaches[0] = kMatter;
   reaches[1] = kSurface;
   std::vector<ProbeRecord> records(64);
   const Bounds thing{vec3(2.9f), vec3(3.1f)};
-  classify_probes(grid, reaches, {&thing, 1}, records);
+  classify_probes(store, reaches, {&thing, 1}, records);
   EXPECT_EQ(records[0].state, ProbeState::off);
   EXPECT_EQ(records[1].state, ProbeState::newly_vigilant);
   EXPECT_EQ(records[2].state, ProbeState::sleeping);
   EXPECT_EQ(records[63].state, ProbeState::newly_awake);
-  classify_probes(grid, reaches, {}, records);
+  classify_probes(store, reaches, {}, records);
   EXPECT_EQ(records[63].state, ProbeState::sleeping);
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
@@ -53,7 +54,7 @@ struct Edited {
 
 /// Luminance at points all over the field, facing six ways.
 std::vector<double> light_of(const IrradianceField& field) {
-  const FieldGrid& grid = field.grid();
+  const FieldGrid& grid = field.grids()[0];
   std::vector<FieldQuery> queries;
   constexpr int kPoints = 4;
   for (int i = 0; i < kPoints * kPoints * kPoints; ++i) {
@@ -230,6 +231,40 @@ TEST(FieldEdit, WhatDoesNotReceiveStaysDarkForTheNextBounce) {
   for (Instance& instance : scene.instances) instance.receives_gi = true;
   const Edited limited("cube", one_bounce, 4);
   EXPECT_NEAR(first_bounce, mean(light_of(limited.field)), 0.002 * all_bounces);
+}
+
+std::vector<uint> offsets_of(const IrradianceField& field) {
+  const auto words = field.store().offset_words();
+  return {words.begin(), words.end()};
+}
+
+TEST(FieldEdit, ProbesMakeWayForWhatIsBuiltAmongThemOnceItKeepsStill) {
+  Edited edited("cornell");
+  const std::vector<uint> before = offsets_of(edited.field);
+  // The tall block wanders, frame by frame, though nobody said that it would
+  Instance& block = edited.scene.instances.back();
+  ASSERT_FALSE(block.dynamic);
+  const Bounds bounds = open_bounds(edited.world);
+  for (int i = 0; i < 12; ++i) {
+    block.world_from_object[3].x += 0.01f * (bounds.max.x - bounds.min.x);
+    edited.follow();
+    EXPECT_EQ(offsets_of(edited.field), before) << i;
+  }
+  for (int i = 0; i < 16; ++i) edited.field.update(edited.world);
+  EXPECT_NE(offsets_of(edited.field), before);
+  // They stand where those of a field made for the scene as it is now do, and hold its light
+  const IrradianceField fresh = edited.settled();
+  std::vector<double> held, expected;
+  for (int probe = 0; probe < fresh.probes(); ++probe) {
+    EXPECT_EQ(edited.field.store().offset_words()[probe], fresh.store().offset_words()[probe]);
+    EXPECT_EQ(edited.field.records()[probe].state, fresh.records()[probe].state);
+    if (fresh.records()[probe].state == ProbeState::off) continue;
+    for (int t = 1; t <= 4; ++t) {
+      held.push_back(luminance(edited.field.store().irradiance_texel(probe, {t, t})));
+      expected.push_back(luminance(fresh.store().irradiance_texel(probe, {t, t})));
+    }
+  }
+  EXPECT_LT(relative_rmse(held, expected), 0.06);
 }
 
 TEST(FieldEdit, ABudgetIsKeptAndTheLightArrivesAfterAFewUpdates) {

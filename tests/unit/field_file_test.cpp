@@ -49,12 +49,16 @@ std::vector<FieldQuery> queries_in(const FieldGrid& grid) {
 /// A volume with every value that a file can hold, and no two probes alike.
 FieldVolume made_volume(IrradianceFormat irradiance, DistanceFormat distance) {
   FieldVolume volume;
-  volume.grid = {{-1.0f, 0.5f, 2.0f}, {0.5f, 1.0f, 0.25f}, {3, 2, 2}};
+  volume.grid = still_grid({{-1.0f, 0.5f, 2.0f}, {0.5f, 1.0f, 0.25f}, {3, 2, 2}});
+  volume.grid.axes = mat3(vec3(0, 0, -1), vec3(0, 1, 0), vec3(1, 0, 0));
+  volume.grid.fade_centre = {1.25f, 0.5f, 0.75f};
+  volume.grid.fade_half = {0.75f, 0.5f, 0.25f};
+  volume.role = {true, 3};
   volume.irradiance_texels = 2;
   volume.distance_texels = 5;
   volume.irradiance_format = irradiance;
   volume.distance_format = distance;
-  const int probes = volume.grid.probes();
+  const int probes = probe_count(volume.grid);
   for (int i = 0; i < probes; ++i) {
     ProbeRecord record;
     record.samples = 1.5f * static_cast<float>(i);
@@ -92,7 +96,12 @@ TEST(FieldFile, KeepsEveryNumberOfEveryFormatAndVolume) {
   ASSERT_EQ(read->volumes.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) {
     const FieldVolume &a = file.volumes[i], &b = read->volumes[i];
-    EXPECT_EQ(a.grid.origin, b.grid.origin);
+    EXPECT_EQ(a.grid.origin_ws, b.grid.origin_ws);
+    EXPECT_EQ(a.grid.axes, b.grid.axes);
+    EXPECT_EQ(a.grid.fade_centre, b.grid.fade_centre);
+    EXPECT_EQ(a.grid.fade_half, b.grid.fade_half);
+    EXPECT_EQ(a.role.follows_viewer, b.role.follows_viewer);
+    EXPECT_EQ(a.role.level, b.role.level);
     EXPECT_EQ(a.grid.spacing, b.grid.spacing);
     EXPECT_EQ(a.grid.count, b.grid.count);
     EXPECT_EQ(a.irradiance_texels, b.irradiance_texels);
@@ -121,14 +130,19 @@ TEST(FieldFile, StandsWhereTheDocumentSays) {
     return value;
   };
   EXPECT_EQ(std::memcmp(bytes.data(), "LAMBENTF", 8), 0);
-  EXPECT_EQ(u32(8), 1u);             // version
+  EXPECT_EQ(u32(8), 2u);             // version
   EXPECT_EQ(u32(16), bytes.size());  // size
   EXPECT_EQ(u32(24), 1u);            // volumes
   EXPECT_EQ(u32(28), 11u);           // updates
   EXPECT_EQ(u32(64), bytes.size() - 64);
-  EXPECT_EQ(u32(64 + 24), 0xBF800000u);  // origin.x = -1
-  EXPECT_EQ(u32(64 + 48), 3u);           // count.x
-  const std::size_t records = 128, tiles = records + 24 * 12;
+  EXPECT_EQ(u32(64 + 24), 0xBF800000u);   // origin.x = -1
+  EXPECT_EQ(u32(64 + 48), 3u);            // count.x
+  EXPECT_EQ(u32(64 + 72), 0xBF800000u);   // axes[0].z = -1
+  EXPECT_EQ(u32(64 + 100), 0x3FA00000u);  // fade_centre.x = 1.25
+  EXPECT_EQ(u32(64 + 112), 0x3F400000u);  // fade_half.x = 0.75
+  EXPECT_EQ(u32(64 + 124), 1u);           // follows the viewer
+  EXPECT_EQ(u32(64 + 128), 3u);           // level
+  const std::size_t records = 64 + 132, tiles = records + 24 * 12;
   EXPECT_EQ(u32(records + 24), encode_probe_offset({0.04f, -0.04f, 0.02f}));
   EXPECT_EQ(u32(records + 24 + 4), 1u);           // sleeping
   EXPECT_EQ(u32(records + 24 + 8), 0x3FC00000u);  // samples = 1.5
@@ -183,7 +197,7 @@ TEST(FieldFile, RefusesAnyBitThatFlipped) {
 }
 
 TEST(FieldFile, RefusesOtherVersions) {
-  EXPECT_THAT(refusal_with(8, 2), HasSubstr("is of version 2; version 1 can be read"));
+  EXPECT_THAT(refusal_with(8, 1), HasSubstr("is of version 1; version 2 can be read"));
   EXPECT_THAT(refusal_with(8, 0), HasSubstr("is of version 0"));
 }
 
@@ -209,6 +223,12 @@ TEST(FieldFile, RefusesNumbersThatNoFieldHas) {
   EXPECT_THAT(refusal_with(volume + 48, 1u << 19u), HasSubstr("more probes"));
   EXPECT_THAT(refusal_with(volume + 48, 1u << 17u), HasSubstr("does not fit its probes"));
   EXPECT_THAT(refusal_with(volume + 60, 0x3F800000u), HasSubstr("unit"));
+  EXPECT_THAT(refusal_with(volume + 64, 0x3F800000u), HasSubstr("no rotation"));
+  EXPECT_THAT(refusal_with(volume + 64, kNan), HasSubstr("no rotation"));
+  EXPECT_THAT(refusal_with(volume + 100, kInfinity), HasSubstr("counts within a box"));
+  EXPECT_THAT(refusal_with(volume + 112, 0u), HasSubstr("counts within a box"));
+  EXPECT_THAT(refusal_with(volume + 124, 2u), HasSubstr("role"));
+  EXPECT_THAT(refusal_with(volume + 128, 17u), HasSubstr("role"));
   const std::size_t record = volume + kVolumeHeaderBytes + kRecordBytes;
   EXPECT_THAT(refusal_with(record, 1u << 31u), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record, 512u), HasSubstr("record of probe 1"));
@@ -250,12 +270,12 @@ TEST_F(SavedField, IsTheSameToTheBit) {
     const LoadedField loaded = load();
     EXPECT_TRUE(loaded.same_light);
     EXPECT_EQ(words_of(loaded.field.store()), words_of(field.store()));
-    EXPECT_EQ(loaded.field.grid().origin, field.grid().origin);
-    EXPECT_EQ(loaded.field.grid().spacing, field.grid().spacing);
+    EXPECT_EQ(loaded.field.grids()[0].origin, field.grids()[0].origin);
+    EXPECT_EQ(loaded.field.grids()[0].spacing, field.grids()[0].spacing);
     EXPECT_EQ(loaded.field.updates(), 3);
-    const std::vector<FieldQuery> queries = queries_in(field.grid());
+    const std::vector<FieldQuery> queries = queries_in(field.grids()[0]);
     EXPECT_EQ(test::look_up(loaded.field, queries), test::look_up(field, queries));
-    for (int p = 0; p < field.grid().probes(); ++p) {
+    for (int p = 0; p < field.probes(); ++p) {
       EXPECT_EQ(loaded.field.records()[p].samples, field.records()[p].samples);
       EXPECT_EQ(loaded.field.records()[p].noise, field.records()[p].noise);
     }
@@ -288,7 +308,7 @@ TEST_F(SavedField, StartsItsAverageAnewUnderOtherLight) {
   ASSERT_TRUE(loaded) << loaded.error().message();
   EXPECT_FALSE(loaded->same_light);
   // The words are there ...
-  const std::vector<FieldQuery> queries = queries_in(loaded->field.grid());
+  const std::vector<FieldQuery> queries = queries_in(loaded->field.grids()[0]);
   const float before = test::look_up(loaded->field, queries)[7].g;
   EXPECT_GT(before, 0.0f);
   // ... and one update replaces them
@@ -303,7 +323,7 @@ TEST_F(SavedField, FollowsEditsThatCameBeforeItsFirstUpdate) {
   Expected<LoadedField> loaded = load_field(path, small_field(), world);
   ASSERT_TRUE(loaded) << loaded.error().message();
   EXPECT_TRUE(loaded->same_light);
-  const std::vector<FieldQuery> queries = queries_in(loaded->field.grid());
+  const std::vector<FieldQuery> queries = queries_in(loaded->field.grids()[0]);
   const float before = test::look_up(loaded->field, queries)[7].g;
   for (Light& light : scene.lights) light.intensity *= 3.0f;
   for (Material& material : scene.materials) material.emission *= 3.0f;

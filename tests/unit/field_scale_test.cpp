@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "field/lookup_cpu.h"
+#include "field/volumes.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 
@@ -15,7 +16,7 @@ namespace {
 std::vector<CornerWeights> weights_at_scale(float scale, DistanceFormat format) {
   FieldSettings settings;
   settings.distance_format = format;
-  ProbeStore store({vec3(0.0f), vec3(scale), ivec3(2)}, settings);
+  ProbeStore store(still_grid({vec3(0.0f), vec3(scale), ivec3(2)}), settings);
   const int texels = store.distance_texels() * store.distance_texels();
   RandomStream random = make_random_stream(5, 6, 7);
   for (int probe = 0; probe < store.probes(); ++probe) {
@@ -33,7 +34,7 @@ std::vector<CornerWeights> weights_at_scale(float scale, DistanceFormat format) 
     queries.push_back({scale * place, normal, normal});
   }
   std::vector<CornerWeights> weights(queries.size());
-  corner_weights(store, queries, weights);
+  corner_weights(store, 0, queries, weights);
   return weights;
 }
 

@@ -7,6 +7,7 @@
 
 #include "field/probe_store.h"
 #include "field/tile_fit.h"
+#include "field/volumes.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 
@@ -53,7 +54,7 @@ ProbeStore random_store(int irradiance_texels, int distance_texels) {
   settings.distance_texels = distance_texels;
   settings.irradiance_format = IrradianceFormat::float32;
   settings.distance_format = DistanceFormat::rg32f;
-  ProbeStore store({vec3(0.0f), vec3(1.0f), ivec3(2)}, settings);
+  ProbeStore store(still_grid({vec3(0.0f), vec3(1.0f), ivec3(2)}), settings);
   RandomStream random = make_random_stream(1, 2, 3);
   std::vector<vec3> irradiance(irradiance_texels * irradiance_texels);
   std::vector<vec2> moments(distance_texels * distance_texels);

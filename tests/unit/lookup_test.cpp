@@ -7,58 +7,31 @@
 #include <cmath>
 #include <numeric>
 
-#include "field/lookup_cpu.h"
+#include "field/lookup_volumes.h"
+#include "field/volumes.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 #include "support/field_scenes.h"
+#include "support/random_store.h"
 
 namespace lambent {
 namespace {
 
 using test::look_up;
 using test::make_field;
+using test::random_unit;
+using test::SharedLookup;
 using test::Stage;
 
-/// The lookup that CPU and GPU share, over a store.
-struct SharedLookup {
-  const ProbeStore& store;
-
-  vec2 fetch_moments(int probe, vec3 direction) { return store.moments(probe, direction); }
-  vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
-  vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }
-#include "field/lookup.inl.h"
-};
-
-vec3 random_unit(RandomStream& random) {
-  const vec2 u = next_uniform2(random);
-  const float z = 2.0f * u.x - 1.0f, radius = sqrt(max(0.0f, 1.0f - z * z));
-  return {radius * cos(kTwoPi * u.y), radius * sin(kTwoPi * u.y), z};
-}
-
 ProbeGrid uneven_grid() {
-  return {vec3(-1.0f, 0.5f, 2.0f), vec3(0.7f, 1.1f, 0.9f), ivec3(4, 3, 5)};
+  return still_grid({vec3(-1.0f, 0.5f, 2.0f), vec3(0.7f, 1.1f, 0.9f), ivec3(4, 3, 5)});
 }
 
-/// Probes off the grid that hold random light and see random distances, of which the mean square is
-/// at least the mean's square.
 ProbeStore random_store(const FieldSettings& settings) {
   ProbeStore store(uneven_grid(), settings);
-  RandomStream random = make_random_stream(11, 22, 33);
-  std::vector<vec3> irradiance(settings.irradiance_texels * settings.irradiance_texels);
-  std::vector<vec2> moments(settings.distance_texels * settings.distance_texels);
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    for (vec3& texel : irradiance) texel = 5.0f * vec3(next_uniform2(random), next_uniform(random));
-    for (vec2& texel : moments) {
-      const float mean = 1.5f * next_uniform(random);
-      texel = {mean, mean * mean * (1.05f + next_uniform(random))};
-    }
-    store.store_irradiance(probe, irradiance, 1u);
-    store.blend_moments(probe, moments, 1.0f, 1u);
-    const vec3 offset(next_uniform2(random), next_uniform(random));
-    store.set_probe_offset(probe, kMaxProbeOffset * (2.0f * offset - 1.0f));
-  }
+  test::fill_randomly(store);
   return store;
 }
 
@@ -104,25 +77,25 @@ TEST_P(Lookup, OfManyPointsEqualsTheSharedLookup) {
   const ProbeStore tested = store();
   SharedLookup shared{tested};
   // Not a multiple of any batch
-  const std::vector<FieldQuery> queries = random_queries(tested.grid(), 1237);
+  const std::vector<FieldQuery> queries = random_queries(tested.grid(0), 1237);
   std::vector<vec3> result(queries.size());
-  lookup_irradiance(tested, queries, result);
+  lookup_irradiance(tested, {}, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const FieldQuery& q = queries[i];
     const vec3 expected =
-        shared.lookup_irradiance(tested.grid(), q.position_ws, q.normal_ws, q.to_viewer_ws);
+        shared.lookup_irradiance(tested.volumes(), q.position_ws, q.normal_ws, q.to_viewer_ws);
     EXPECT_LT(glm::distance(result[i], expected), kTolerance * glm::length(expected)) << i;
   }
 }
 
 TEST_P(Lookup, WeightsAddUpToOneAndTellWhatTheLookupReads) {
   const ProbeStore tested = store();
-  const std::vector<FieldQuery> queries = random_queries(tested.grid(), 301);
+  const std::vector<FieldQuery> queries = random_queries(tested.grid(0), 301);
   std::vector<CornerWeights> weights(queries.size());
   std::vector<vec3> result(queries.size());
-  corner_weights(tested, queries, weights);
-  lookup_irradiance(tested, queries, result);
-  const CornerOffsets offsets = corner_offsets(tested.grid());
+  corner_weights(tested, 0, queries, weights);
+  lookup_irradiance(tested, {}, queries, result);
+  const CornerOffsets offsets = tested.corner_table()[0];
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const auto& w = weights[i].weight;
     EXPECT_NEAR(std::accumulate(std::begin(w), std::end(w), 0.0f), 1.0f, 1e-5f);
@@ -156,7 +129,7 @@ ProbeStore store_of(Value value) {
                               vec2(100.0f, 10000.0f));
   for (int probe = 0; probe < store.probes(); ++probe) {
     const std::vector<vec3> light(settings.irradiance_texels * settings.irradiance_texels,
-                                  vec3(value(probe_coords(store.grid(), probe))));
+                                  vec3(value(probe_coords(store.grid(0), probe))));
     store.store_irradiance(probe, light, 0u);
     store.blend_moments(probe, far, 1.0f, 0u);
   }
@@ -165,16 +138,16 @@ ProbeStore store_of(Value value) {
 
 TEST(IrradianceLookup, OfConstantLightIsThatLightEverywhere) {
   const ProbeStore store = store_of([](const ivec3&) { return 0.75f; });
-  std::vector<FieldQuery> queries = random_queries(store.grid(), 500);
+  std::vector<FieldQuery> queries = random_queries(store.grid(0), 500);
   for (std::size_t i = 0; i < 100; ++i) queries[i].position_ws *= 1e4f;
   std::vector<vec3> result(queries.size());
-  lookup_irradiance(store, queries, result);
+  lookup_irradiance(store, {}, queries, result);
   for (const vec3& e : result) EXPECT_LT(glm::distance(e, vec3(0.75f)), 1e-5f);
 }
 
 TEST(IrradianceLookup, BeyondTheVolumeReadsTheNearestProbes) {
   const ProbeStore store = store_of([](const ivec3& c) { return static_cast<float>(c.x); });
-  const ProbeGrid& grid = store.grid();
+  const ProbeGrid& grid = store.grid(0);
   std::vector<FieldQuery> queries = random_queries(grid, 200);
   const float end = grid.origin_ws.x + grid.spacing.x * static_cast<float>(grid.count.x - 1);
   for (std::size_t i = 0; i < queries.size(); ++i) {
@@ -182,7 +155,7 @@ TEST(IrradianceLookup, BeyondTheVolumeReadsTheNearestProbes) {
                                           : end + 0.3f * static_cast<float>(i);
   }
   std::vector<vec3> result(queries.size());
-  lookup_irradiance(store, queries, result);
+  lookup_irradiance(store, {}, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const float expected = i % 2 == 0 ? 0.0f : static_cast<float>(grid.count.x - 1);
     EXPECT_NEAR(result[i].x, expected, 1e-4f) << i;
@@ -193,10 +166,10 @@ TEST(IrradianceLookup, IsLinearInTheLight) {
   const ProbeStore once = store_of([](const ivec3& c) { return 1.0f + c.x + 0.3f * c.y * c.z; });
   const ProbeStore thrice =
       store_of([](const ivec3& c) { return 3.0f * (1.0f + c.x + 0.3f * c.y * c.z); });
-  const std::vector<FieldQuery> queries = random_queries(once.grid(), 100);
+  const std::vector<FieldQuery> queries = random_queries(once.grid(0), 100);
   std::vector<vec3> a(queries.size()), b(queries.size());
-  lookup_irradiance(once, queries, a);
-  lookup_irradiance(thrice, queries, b);
+  lookup_irradiance(once, {}, queries, a);
+  lookup_irradiance(thrice, {}, queries, b);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     EXPECT_LT(glm::distance(3.0f * a[i], b[i]), 1e-5f * glm::length(b[i]));
   }
@@ -211,7 +184,7 @@ TEST(IrradianceLookup, SurvivesNumbersThatAreNone) {
   queries[3].normal_ws = vec3(0.0f);
   queries[4].to_viewer_ws = vec3(NAN);
   std::vector<vec3> result(queries.size());
-  lookup_irradiance(store, queries, result);  // reads no memory but the store's
+  lookup_irradiance(store, {}, queries, result);  // reads no memory but the store's
   EXPECT_NEAR(result[5].x, 1.0f, 1e-5f);
 }
 

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "field/volumes.h"
 #include "shared/random.h"
 
 namespace lambent {
@@ -23,7 +24,7 @@ ProbeStore make_store(IrradianceFormat irradiance, DistanceFormat distance) {
   FieldSettings settings;
   settings.irradiance_format = irradiance;
   settings.distance_format = distance;
-  return {{vec3(0.0f), vec3(1.0f), ivec3(8, 8, 5)}, settings};
+  return {still_grid({vec3(0.0f), vec3(1.0f), ivec3(8, 8, 5)}), settings};
 }
 
 uint salt_of(int update) {

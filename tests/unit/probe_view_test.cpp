@@ -52,12 +52,12 @@ TEST_F(ProbeView, SpheresStandWhereProbesDo) {
   const Image* probes = image.find("probes");
   ASSERT_NE(probes, nullptr);
   int seen = 0, hidden = 0;
-  for (int probe = 0; probe < field.grid().probes(); ++probe) {
+  for (int probe = 0; probe < field.probes(); ++probe) {
     const glm::vec3 at = project(field.store().probe_position_ws(probe));
     if (at.x < 1 || at.y < 1 || at.x >= kWidth - 1 || at.y >= kHeight - 1) continue;
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     const float scene_depth = image.find("depth")->at(x, y)[0];
-    const float margin = 0.2f * field.grid().spacing.x;
+    const float margin = 0.2f * field.grids()[0].spacing.x;
     if (at.z < scene_depth - margin) {
       EXPECT_EQ(probes->at(x, y)[3], 1.0f) << probe;
       ++seen;
@@ -96,7 +96,7 @@ TEST_F(ProbeView, ShowsWhatProbesHold) {
   const int probe = 21;
   const glm::vec3 centre = field.store().probe_position_ws(probe);
   const glm::vec3 way = glm::normalize(glm::vec3(0.3f, 0.2f, 1.0f));
-  const Camera camera = look_at(centre + 0.3f * field.grid().spacing.x * way, centre, 0.02f);
+  const Camera camera = look_at(centre + 0.3f * field.grids()[0].spacing.x * way, centre, 0.02f);
   LayeredImage image{9, 9, {{"", Image(9, 9, 3)}}};
   draw_probes(stage.world, field, camera, {ProbeAspect::irradiance, 0.1f}, image);
   const float* pixel = image.find("probes")->at(4, 4);

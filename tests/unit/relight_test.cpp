@@ -8,6 +8,7 @@
 
 #include "field/distances.h"
 #include "field/tile_fit.h"
+#include "field/volumes.h"
 #include "support/field_scenes.h"
 
 namespace lambent {
@@ -22,7 +23,7 @@ class Transport {
  public:
   Transport(const Stage& stage, const FieldSettings& settings)
       : grid_(fit_grid(settings, stage.bounds()).value()),
-        store_({grid_.origin, grid_.spacing, grid_.count}, settings),
+        store_(still_grid(grid_), settings),
         fit_(settings.irradiance_texels * settings.irradiance_texels,
              settings.irradiance_texels * settings.irradiance_texels,
              tile_fit_matrix(settings.irradiance_texels)),
@@ -40,7 +41,7 @@ class Transport {
 
   TransportOperator make_operator() const { return make_operator(group_.probes); }
   TransportOperator make_operator(std::span<const int> probes) const {
-    return {store_.grid(), traces_, probes, fit_, texels_};
+    return {store_.corner_table(), traces_, probes, fit_, texels_};
   }
   WorkingIrradiance darkness() const {
     return WorkingIrradiance(static_cast<std::size_t>(store_.probes()) * texels_ * texels_,

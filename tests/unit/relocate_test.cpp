@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "field/volumes.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
@@ -24,7 +25,7 @@ constexpr float kMargin = 0.15f, kOff = 0.06f;
 
 /// Eight probes a metre apart, of which the last stands at (0, 0, 0).
 ProbeStore one_cell() {
-  return {{vec3(-1.0f), vec3(1.0f), ivec3(2)}, FieldSettings{}};
+  return {still_grid({vec3(-1.0f), vec3(1.0f), ivec3(2)}), FieldSettings{}};
 }
 constexpr int kAtOrigin = 7;
 
@@ -105,7 +106,7 @@ std::vector<vec3> offsets_in(const Stage& stage, int rounds, int threads) {
   tbb::task_arena arena(threads);
   std::vector<vec3> offsets;
   arena.execute([&] {
-    ProbeStore store({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}, FieldSettings{});
+    ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
     for (int i = 0; i < rounds; ++i) {
       relocate_probes(stage.scene, stage.world.tracer(), all_probes(store), {}, store);
     }

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "field/lookup.h"
+#include "field/volumes.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "shared/random.h"
@@ -63,7 +64,7 @@ TEST(Visibility, MomentsAreNearlyDarkBehindASealedWall) {
 struct Traced {
   explicit Traced(const Stage& stage)
       : field(test::make_field(stage, settings_of(Visibility::moments), 1)),
-        sights(field.store().grid()) {
+        sights(field.store().probes()) {
     std::vector<int> probes(field.store().probes());
     std::iota(probes.begin(), probes.end(), 0);
     rays = sights.look(stage.world.tracer(), field.store(), probes);
@@ -71,7 +72,8 @@ struct Traced {
   std::vector<CornerWeights> weights(const Stage& stage, Visibility mode,
                                      std::span<const FieldQuery> queries) const {
     std::vector<CornerWeights> result(queries.size());
-    visible_corner_weights(field.store(), {mode, &stage.world.tracer(), &sights}, queries, result);
+    visible_corner_weights(field.store(), 0, {mode, &stage.world.tracer(), &sights}, queries,
+                           result);
     return result;
   }
   IrradianceField field;
@@ -103,7 +105,7 @@ TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {
   const Traced traced(stage);
   const std::vector<FieldQuery> queries = test::seen_points(stage);
   std::vector<CornerWeights> result(queries.size());
-  visible_corner_weights(traced.field.store(), {Visibility::hybrid, nullptr, &traced.sights},
+  visible_corner_weights(traced.field.store(), 0, {Visibility::hybrid, nullptr, &traced.sights},
                          queries, result);
   const auto moments = traced.weights(stage, Visibility::moments, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_TRUE(same(result[i], moments[i]));
@@ -113,11 +115,11 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
   const Stage stage("two-rooms");
   const Traced traced(stage);
   const ProbeStore& store = traced.field.store();
-  const ProbeGrid& grid = store.grid();
+  const ProbeGrid& grid = store.grid(0);
   const float smallest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
   const std::vector<FieldQuery> queries = test::seen_points(stage);
   const auto exact = traced.weights(stage, Visibility::exact, queries);
-  const CornerOffsets offsets = corner_offsets(grid);
+  const CornerOffsets& offsets = store.corner_table()[0];
   int hidden = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const FieldQuery& q = queries[i];
@@ -146,8 +148,8 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
 TEST(ProbeSights, KnowWhichProbesOfACellAWallParts) {
   const Scene wall = test::scene_of({test::box_mesh({-9.0f, -9.0f, 0.4f}, {9.0f, 9.0f, 0.6f})});
   const World world(wall);
-  const ProbeStore store({vec3(0.0f), vec3(1.0f), ivec3(2, 2, 3)}, FieldSettings{});
-  ProbeSights sights(store.grid());
+  const ProbeStore store(still_grid({vec3(0.0f), vec3(1.0f), ivec3(2, 2, 3)}), FieldSettings{});
+  ProbeSights sights(store.probes());
   const int probes[] = {0, 1, 4, 8};
   // Two cells of 28 pairs each; the others' lowest probes are beyond the grid's last cell
   EXPECT_EQ(sights.look(world.tracer(), store, probes), 56u);

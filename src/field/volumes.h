@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The volumes of a field: which there are, and how they follow the viewer.
+#pragma once
+
+#include <vector>
+
+#include "field/probe_grid.h"
+#include "lambent/error.h"
+#include "lambent/field.h"
+
+namespace lambent {
+
+inline constexpr int kMaxCascades = 16;
+
+/// Whether the columns are unit and orthogonal.
+bool is_rotation(const mat3& axes);
+
+/// What is known of a volume besides its grid.
+struct VolumeRole {
+  bool follows_viewer = false;
+  int level = 0;  ///< Of a cascade: 0 the finest. Volumes of level L are updated every 2^L updates.
+};
+
+/// A volume as it is asked for.
+struct Volume {
+  ProbeGrid grid;
+  VolumeRole role;
+};
+
+/// The grid of a volume that stays where it is. It counts within its box and, fading, a cell
+/// around.
+ProbeGrid still_grid(const FieldGrid& grid);
+
+/// Where the probes of a volume belong.
+FieldGrid field_grid(const ProbeGrid& grid);
+
+/// The volumes that the settings ask for, in the order in which points ask them. Cascades lie
+/// around the middle of the bounds. Fails as IrradianceField::make does.
+Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
+                                           const Bounds& scene_bounds);
+
+/// The same volume once it has followed the viewer: in whole cells, and not before the viewer is
+/// kScrollSlack of them from its middle. The box in which it counts moves with the viewer smoothly,
+/// and never reaches the slabs that came into view last.
+ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws);
+
+/// Probes of `next` that belong where `before`, the same volume earlier, had none.
+std::vector<int> recycled_probes(const ProbeGrid& before, const ProbeGrid& next);
+
+}  // namespace lambent
