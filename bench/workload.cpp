@@ -96,7 +96,10 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const ShadeHitsSettings shading = surfel_shading(settings, set);
 
   // Shade each probe's hits for the sake of the shadow rays
-  const std::vector<int> probes = schedule_all(work.field.records(), set.rays()).probes;
+  const std::vector<VolumeRole> roles(1);  // the field's own grid alone
+  const std::vector<int> probes = schedule_all(store, roles, work.field.records(), set.rays(),
+                                               static_cast<std::uint32_t>(update))
+                                      .probes;
   const std::size_t rays = set.directions.size();
   std::vector<std::vector<Ray>> shadows(probes.size());
   UpdateRays result;

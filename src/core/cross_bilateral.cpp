@@ -2,7 +2,9 @@
 #include "core/cross_bilateral.h"
 
 #include "core/simd_levels.h"
+#include "shared/color.h"
 #include "shared/cross_bilateral.h"
+#include "shared/relight.h"
 
 namespace lambent {
 namespace {
@@ -12,10 +14,12 @@ namespace {
 
 }  // namespace
 
-PlaneLayout::PlaneLayout(int picture_width, int picture_height, int guard_width)
-    : width(picture_width), height(picture_height), guard(guard_width) {
-  // A guard between rows serves the end of one and the start of the next
-  stride = (width + guard + kLanes - 1) / kLanes * kLanes;
+PlaneLayout::PlaneLayout(int picture_width, int picture_height, int plane_count, int guard_width)
+    : width(picture_width), height(picture_height), planes(plane_count), guard(guard_width) {
+  // A guard between planes serves the end of one and the start of the next
+  const auto whole_lanes = [](int count) { return (count + kLanes - 1) / kLanes * kLanes; };
+  lead = whole_lanes(guard);
+  stride = whole_lanes(width) + lead;
   size = row(height + guard) + kLanes;
 }
 
@@ -33,8 +37,14 @@ std::vector<BlurTap> period_taps(int period) {
 }
 
 void cross_bilateral_row(const BlurSource& here, std::span<const BlurSource> neighbours,
-                         const Planes3& out, int count, float plane_tolerance) {
+                         const Planes& out, int count, float plane_tolerance) {
   static const auto kernel = LAMBENT_BEST_LEVEL(blur_row);
+  kernel(here, neighbours.data(), neighbours.size(), out, count, 1.0f / plane_tolerance);
+}
+
+void cross_bilateral_row_relit(const BlurSource& here, std::span<const BlurSource> neighbours,
+                               const Planes& out, int count, float plane_tolerance) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(blur_row_relit);
   kernel(here, neighbours.data(), neighbours.size(), out, count, 1.0f / plane_tolerance);
 }
 

@@ -7,16 +7,16 @@ struct GuideLanes {
   Lanes x, y, z, nx, ny, nz;
 };
 
-LAMBENT_FORCE_INLINE void load_guide(GuideLanes& lanes, const GuidePlanes& guide, int i) {
-  load(lanes.x, guide.position.at[0] + i);
-  load(lanes.y, guide.position.at[1] + i);
-  load(lanes.z, guide.position.at[2] + i);
-  load(lanes.nx, guide.normal.at[0] + i);
-  load(lanes.ny, guide.normal.at[1] + i);
-  load(lanes.nz, guide.normal.at[2] + i);
+LAMBENT_FORCE_INLINE void load_guide(GuideLanes& lanes, const ConstPlanes& guide, int i) {
+  load(lanes.x, guide.at(kPositionPlane) + i);
+  load(lanes.y, guide.at(kPositionPlane + 1) + i);
+  load(lanes.z, guide.at(kPositionPlane + 2) + i);
+  load(lanes.nx, guide.at(kNormalPlane) + i);
+  load(lanes.ny, guide.at(kNormalPlane + 1) + i);
+  load(lanes.nz, guide.at(kNormalPlane + 2) + i);
 }
 
-/// cross_bilateral_weight, for lanes.
+/// relit_bilateral_weight, for lanes.
 LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
                                        const GuideLanes& there, const Lanes& inverse_tolerance) {
   const Lanes cosine = here.nx * there.nx + here.ny * there.ny + here.nz * there.nz;
@@ -27,43 +27,86 @@ LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
   const Lanes beyond = distance * inverse_tolerance;
   const Lanes near = 1.0f - beyond * beyond;
   const Lanes sixteenth = (fourth * fourth) * (fourth * fourth);
-  const Lanes power = (sixteenth * sixteenth) * (sixteenth * sixteenth);
-  weight = power * near;
+  weight = sixteenth * near;
   keep(weight, (cosine > 0.0f) & (near > 0.0f));
 }
 
+/// Light and what it is relit with.
+struct BlurLanes {
+  Lanes light[kLightPlanes], relighting[kLightPlanes];
+};
+
+LAMBENT_FORCE_INLINE void load_blurred(BlurLanes& lanes, const ConstPlanes& planes, int i) {
+  for (int c = 0; c < kLightPlanes; ++c) {
+    Lanes word;
+    load(word, planes.at(c) + i);
+    unpack_halves(lanes.light[c], lanes.relighting[c], word);
+  }
+}
+
+/// The means of row `i` of pixels and their neighbours.
+LAMBENT_FORCE_INLINE void blur(BlurLanes& sums, const GuideLanes& here, const BlurSource& centre,
+                               const BlurSource* neighbours, std::size_t neighbour_count,
+                               float inverse_tolerance, int i) {
+  Lanes tolerance;
+  load(tolerance, centre.guide.at(kInverseDepthPlane) + i);
+  tolerance *= inverse_tolerance;
+  load_blurred(sums, centre.light, i);
+  Lanes sum = Lanes{} + 1.0f;
+  for (std::size_t k = 0; k < neighbour_count; ++k) {
+    const BlurSource& source = neighbours[k];
+    GuideLanes there;
+    BlurLanes blurred;
+    Lanes weight;
+    load_guide(there, source.guide, i);
+    lane_weights(weight, here, there, tolerance);
+    weight *= source.weight;
+    sum += weight;
+    load_blurred(blurred, source.light, i);
+    for (int c = 0; c < kLightPlanes; ++c) {
+      sums.light[c] += weight * blurred.light[c];
+      sums.relighting[c] += weight * blurred.relighting[c];
+    }
+  }
+  const Lanes scale = 1.0f / sum;
+  for (int c = 0; c < kLightPlanes; ++c) {
+    sums.light[c] *= scale;
+    sums.relighting[c] *= scale;
+  }
+}
+
 static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
-                     std::size_t neighbour_count, const Planes3& out, int count,
+                     std::size_t neighbour_count, const Planes& out, int count,
                      float inverse_tolerance) {
   for (int i = 0; i < count; i += kLanes) {
-    GuideLanes here, there;
-    Lanes tolerance, r, g, b;
+    GuideLanes here;
+    BlurLanes blurred;
     load_guide(here, centre.guide, i);
-    load(tolerance, centre.guide.inverse_depth + i);
-    tolerance *= inverse_tolerance;
-    load(r, centre.value.at[0] + i);
-    load(g, centre.value.at[1] + i);
-    load(b, centre.value.at[2] + i);
-
-    // Add the neighbours
-    Lanes sum = Lanes{} + 1.0f;
-    for (std::size_t k = 0; k < neighbour_count; ++k) {
-      const BlurSource& source = neighbours[k];
-      Lanes weight, value;
-      load_guide(there, source.guide, i);
-      lane_weights(weight, here, there, tolerance);
-      weight *= source.weight;
-      sum += weight;
-      load(value, source.value.at[0] + i);
-      r += weight * value;
-      load(value, source.value.at[1] + i);
-      g += weight * value;
-      load(value, source.value.at[2] + i);
-      b += weight * value;
+    blur(blurred, here, centre, neighbours, neighbour_count, inverse_tolerance, i);
+    for (int c = 0; c < kLightPlanes; ++c) {
+      Lanes word;
+      pack_halves(word, blurred.light[c], blurred.relighting[c]);
+      store(out.at(c) + i, word);
     }
-    const Lanes scale = 1.0f / sum;
-    store(out.at[0] + i, r * scale);
-    store(out.at[1] + i, g * scale);
-    store(out.at[2] + i, b * scale);
+  }
+}
+
+static void blur_row_relit(const BlurSource& centre, const BlurSource* neighbours,
+                           std::size_t neighbour_count, const Planes& out, int count,
+                           float inverse_tolerance) {
+  for (int i = 0; i < count; i += kLanes) {
+    GuideLanes here;
+    BlurLanes blurred;
+    load_guide(here, centre.guide, i);
+    blur(blurred, here, centre, neighbours, neighbour_count, inverse_tolerance, i);
+
+    // relit_share, for lanes
+    const Lanes light = blurred.light[0] * kRedLuminance + blurred.light[1] * kGreenLuminance +
+                        blurred.light[2] * kBlueLuminance;
+    const Lanes brought = blurred.relighting[0] * here.nx + blurred.relighting[1] * here.ny +
+                          blurred.relighting[2] * here.nz;
+    Lanes share = brought / light + kHorizonLight;
+    keep(share, (share > 0.0f) & (light > 0.0f));
+    for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
   }
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Segovia et al., "Non-interleaved Deferred Shading of Interleaved Sample Patterns",
 // Graphics Hardware 2006; Gruen and Bavoil, US 9,129,443 B2, 2015.
+#include <cmath>
 #include "rsm/gather.h"
+
 #include "rsm/geometry.h"
+#include "shared/color.h"
+#include "shared/relight.h"
 
 namespace lambent {
 namespace {
@@ -29,15 +33,20 @@ void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
   kernel(row, texels, places, count);
 }
 
-void sum_terms(const GuidePlanes& points, int count, std::span<const RsmTexel> texels,
+void sum_terms(const ConstPlanes& points, int count, std::span<const RsmTexel> texels,
                TermSums* sums) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_terms);
   kernel(points, count, texels.data(), texels.size(), sums);
 }
 
-void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]) {
+void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
   static const auto kernel = LAMBENT_BEST_LEVEL(add_fetched);
-  kernel(row, first, fields);
+  kernel(row, first, fields, ways);
+}
+
+void make_relightable(const GatherRow& row) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(relightable);
+  kernel(row);
 }
 
 }  // namespace lambent

@@ -107,8 +107,9 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
     const LaneMaps maps = lane_maps(disk, first_column + i * column_step, column_step, sub_row);
     vec2 middle[kLanes];
     for (int l = 0; l < kLanes; ++l) {
-      const ConstPlanes3& at = row.guide.position;
-      middle[l] = project(disk.map->projection, {at.at[0][i + l], at.at[1][i + l], at.at[2][i + l]},
+      const float* position = row.guide.at(kPositionPlane) + i + l;
+      const std::ptrdiff_t y = row.guide.stride, z = 2 * y;
+      middle[l] = project(disk.map->projection, {position[0], position[y], position[z]},
                           disk.map->resolution);
     }
     for (int k = 0; k < static_cast<int>(disk.samples.size()) / subs; ++k) {
@@ -120,7 +121,7 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
         read_sample(disk, maps, l, sub_row, middle[l] + sample.offset,
                     sample.weight * static_cast<float>(subs), fields);
       }
-      gather_fetched(row, i, fields);
+      gather_fetched(row, i, fields, row.ways.first != nullptr && k % kTexelsPerWay == 0);
     }
   }
 }

@@ -6,84 +6,145 @@
 /// Pixels that gather, in registers.
 struct GatherLanes {
   Lanes x, y, z, nx, ny, nz;
-  Lanes red, green, blue;
+  Lanes light[kLightPlanes];
+  Lanes ways[kWayPlanes];
 };
 
-LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const GuidePlanes& guide, int i) {
-  load(p.x, guide.position.at[0] + i);
-  load(p.y, guide.position.at[1] + i);
-  load(p.z, guide.position.at[2] + i);
-  load(p.nx, guide.normal.at[0] + i);
-  load(p.ny, guide.normal.at[1] + i);
-  load(p.nz, guide.normal.at[2] + i);
+LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const ConstPlanes& guide, int i) {
+  load(p.x, guide.at(kPositionPlane) + i);
+  load(p.y, guide.at(kPositionPlane + 1) + i);
+  load(p.z, guide.at(kPositionPlane + 2) + i);
+  load(p.nx, guide.at(kNormalPlane) + i);
+  load(p.ny, guide.at(kNormalPlane + 1) + i);
+  load(p.nz, guide.at(kNormalPlane + 2) + i);
 }
 
-LAMBENT_FORCE_INLINE void load_pixels(GatherLanes& p, const GatherRow& row, int i) {
-  load_points(p, row.guide, i);
-  load(p.red, row.light.at[0] + i);
-  load(p.green, row.light.at[1] + i);
-  load(p.blue, row.light.at[2] + i);
+LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool ways) {
+  for (int c = 0; c < kLightPlanes; ++c) load(p.light[c], row.light.at(c) + i);
+  for (int c = 0; c < kWayPlanes && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
 }
 
-LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row, int i) {
-  store(row.light.at[0] + i, p.red);
-  store(row.light.at[1] + i, p.green);
-  store(row.light.at[2] + i, p.blue);
+LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
+  for (Lanes& light : p.light) light = Lanes{};
+  for (Lanes& way : p.ways) way = Lanes{};
 }
 
-/// bounded_geometry_term times pi. `T` is a float where all pixels ask the same texel, or Lanes
-/// where each asks one of its own.
+LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row, int i,
+                                      bool ways) {
+  for (int c = 0; c < kLightPlanes; ++c) store(row.light.at(c) + i, p.light[c]);
+  for (int c = 0; c < kWayPlanes && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
+}
+
+/// A texel as a gather reads it; flux is over pi. `T` is a float where all pixels ask the same
+/// texel, or Lanes where each asks one of its own.
 template <class T>
-LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const T& x, const T& y,
-                                     const T& z, const T& nx, const T& ny, const T& nz,
-                                     const T& softening) {
-  const Lanes dx = x - p.x, dy = y - p.y, dz = z - p.z;
-  const Lanes below_texel = nx * dx + ny * dy + nz * dz;
-  const Lanes above_point = p.nx * dx + p.ny * dy + p.nz * dz;
-  const Lanes c = -(p.nx * nx + p.ny * ny + p.nz * nz);
-  const Lanes square = dx * dx + dy * dy + dz * dz + softening;
+struct TexelFields {
+  T x, y, z, nx, ny, nz, softening, red, green, blue;
+};
+
+/// From pixels to a texel.
+struct Way {
+  Lanes x, y, z;       // [m]
+  Lanes below_texel;   // of its plane [m]
+  Lanes fourth_power;  // of the softened distance [m^4]
+  LaneInts lit;        // where each is above the other's plane
+};
+
+/// Finds the way to a texel, and what bounded_geometry_term divides by its fourth power, times pi.
+template <class T>
+LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, Way& way, const GatherLanes& p,
+                                          const TexelFields<T>& t) {
+  way.x = t.x - p.x;
+  way.y = t.y - p.y;
+  way.z = t.z - p.z;
+  way.below_texel = t.nx * way.x + t.ny * way.y + t.nz * way.z;
+  const Lanes above_point = p.nx * way.x + p.ny * way.y + p.nz * way.z;
+  const Lanes c = -(p.nx * t.nx + p.ny * t.ny + p.nz * t.nz);
+  const Lanes square = way.x * way.x + way.y * way.y + way.z * way.z + t.softening;
   const Lanes compensation =
       kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
-  term = (softening * compensation - below_texel * above_point) / (square * square);
-  keep(term, (below_texel < 0.0f) & (above_point > 0.0f));
+  way.fourth_power = square * square;
+  way.lit = (way.below_texel < 0.0f) & (above_point > 0.0f);
+  numerator = t.softening * compensation - way.below_texel * above_point;
 }
 
-/// Adds what texels bring to the pixels; flux is over pi.
+/// bounded_geometry_term times pi.
 template <class T>
-LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const T& x, const T& y, const T& z, const T& nx,
-                                    const T& ny, const T& nz, const T& softening, const T& red,
-                                    const T& green, const T& blue) {
+LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const TexelFields<T>& t) {
+  Way way;
+  texel_numerator(term, way, p, t);
+  term /= way.fourth_power;
+  keep(term, way.lit);
+}
+
+template <class T>
+LAMBENT_FORCE_INLINE void add_light(GatherLanes& p, const TexelFields<T>& t, const Lanes& term) {
+  p.light[0] += term * t.red;
+  p.light[1] += term * t.green;
+  p.light[2] += term * t.blue;
+}
+
+/// Adds what a texel brings to the pixels, and if asked the ways to it.
+template <class T>
+LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool ways) {
   Lanes term;
-  texel_term<T>(term, p, x, y, z, nx, ny, nz, softening);
-  p.red += term * red;
-  p.green += term * green;
-  p.blue += term * blue;
+  if (!ways) {
+    texel_term(term, p, t);
+    return add_light(p, t, term);
+  }
+  // Divide once for both
+  Way way;
+  texel_numerator(term, way, p, t);
+  Lanes inverse = 1.0f / way.fourth_power;
+  keep(inverse, way.lit);
+  add_light(p, t, term * inverse);
+  const T flux = t.red * kRedLuminance + t.green * kGreenLuminance + t.blue * kBlueLuminance;
+  const Lanes share = way.below_texel * inverse * -flux;
+  p.ways[0] += share * way.x;
+  p.ways[1] += share * way.y;
+  p.ways[2] += share * way.z;
+}
+
+LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
+  return {t.position_ws.x,   t.position_ws.y,  t.position_ws.z, t.normal_ws.x,
+          t.normal_ws.y,     t.normal_ws.z,    t.softening,     t.flux.x * kInvPi,
+          t.flux.y * kInvPi, t.flux.z * kInvPi};
 }
 
 /// Adds texels that all pixels ask alike; texel_at(k) finds the k-th.
 template <class TexelAt>
 LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
-                                       const TexelAt& texel_at) {
+                                       const TexelAt& texel_at, bool ways) {
+  constexpr std::size_t kStep = kTexelsPerWay;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
-    load_pixels(pixels, row, i);
-    for (std::size_t k = 0; k < count; ++k) {
-      const RsmTexel& t = texel_at(k);
-      add_texel(pixels, t.position_ws.x, t.position_ws.y, t.position_ws.z, t.normal_ws.x,
-                t.normal_ws.y, t.normal_ws.z, t.softening, t.flux.x * kInvPi, t.flux.y * kInvPi,
-                t.flux.z * kInvPi);
+    load_points(pixels, row.guide, i);
+    clear_light(pixels);
+    std::size_t k = 0;
+    for (; ways && k + kStep <= count; k += kStep) {
+      add_texel(pixels, fields_of(texel_at(k)), true);
+      for (std::size_t j = 1; j < kStep; ++j) {
+        add_texel(pixels, fields_of(texel_at(k + j)), false);
+      }
     }
-    store_light(pixels, row, i);
+    for (; k < count; ++k) {
+      add_texel(pixels, fields_of(texel_at(k)), ways && k % kStep == 0);
+    }
+    store_light(pixels, row, i, ways);
   }
 }
 
 static void contiguous(const GatherRow& row, const RsmTexel* texels, std::size_t count) {
-  gather_alike(row, count, [=](std::size_t k) -> const RsmTexel& { return texels[k]; });
+  const auto texel_at = [=](std::size_t k) -> const RsmTexel& { return texels[k]; };
+  if (row.ways.first != nullptr) return gather_alike(row, count, texel_at, true);
+  gather_alike(row, count, texel_at, false);
 }
 
 static void scattered(const GatherRow& row, const RsmTexel* rendered, const std::uint32_t* places,
                       std::size_t count) {
-  gather_alike(row, count, [=](std::size_t k) -> const RsmTexel& { return rendered[places[k]]; });
+  const auto texel_at = [=](std::size_t k) -> const RsmTexel& { return rendered[places[k]]; };
+  if (row.ways.first != nullptr) return gather_alike(row, count, texel_at, true);
+  gather_alike(row, count, texel_at, false);
 }
 
 /// A field of the texels that lanes ask for: `floats` points to that field of the first texel.
@@ -96,52 +157,82 @@ LAMBENT_FORCE_INLINE void fetch(Lanes& lanes, const float* floats, const std::ui
 
 static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count) {
+  const bool ways = row.ways.first != nullptr;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
-    load_pixels(pixels, row, i);
+    load_points(pixels, row.guide, i);
+    clear_light(pixels);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t* at = places + k * kLanes;
-      Lanes x, y, z, nx, ny, nz, softening, red, green, blue;
-      fetch(x, &texels->position_ws.x, at);
-      fetch(y, &texels->position_ws.y, at);
-      fetch(z, &texels->position_ws.z, at);
-      fetch(nx, &texels->normal_ws.x, at);
-      fetch(ny, &texels->normal_ws.y, at);
-      fetch(nz, &texels->normal_ws.z, at);
-      fetch(softening, &texels->softening, at);
-      fetch(red, &texels->flux.x, at);
-      fetch(green, &texels->flux.y, at);
-      fetch(blue, &texels->flux.z, at);
-      add_texel<Lanes>(pixels, x, y, z, nx, ny, nz, softening, red * kInvPi, green * kInvPi,
-                       blue * kInvPi);
+      TexelFields<Lanes> t;
+      fetch(t.x, &texels->position_ws.x, at);
+      fetch(t.y, &texels->position_ws.y, at);
+      fetch(t.z, &texels->position_ws.z, at);
+      fetch(t.nx, &texels->normal_ws.x, at);
+      fetch(t.ny, &texels->normal_ws.y, at);
+      fetch(t.nz, &texels->normal_ws.z, at);
+      fetch(t.softening, &texels->softening, at);
+      fetch(t.red, &texels->flux.x, at);
+      fetch(t.green, &texels->flux.y, at);
+      fetch(t.blue, &texels->flux.z, at);
+      t.red *= kInvPi;
+      t.green *= kInvPi;
+      t.blue *= kInvPi;
+      add_texel(pixels, t, ways && k % kTexelsPerWay == 0);
     }
-    store_light(pixels, row, i);
+    store_light(pixels, row, i, ways);
   }
 }
 
 /// Adds the light of one texel a pixel, its fields already fetched: position, normal, softening,
 /// flux over pi.
-static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes]) {
+static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
   GatherLanes pixels;
-  load_pixels(pixels, row, first);
+  load_points(pixels, row.guide, first);
+  load_light(pixels, row, first, ways);
   Lanes f[kTexelFields];
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
-  add_texel<Lanes>(pixels, f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]);
-  store_light(pixels, row, first);
+  add_texel(pixels, TexelFields<Lanes>{f[0], f[1], f[2], f[3], f[4], f[5], f[6], f[7], f[8], f[9]},
+            ways);
+  store_light(pixels, row, first, ways);
+}
+
+/// relighting (shared/relight.h), for lanes.
+static void relightable(const GatherRow& row) {
+  for (int i = 0; i < row.count; i += kLanes) {
+    GatherLanes p;
+    load_points(p, row.guide, i);
+    load_light(p, row, i, true);
+    const Lanes light =
+        p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance + p.light[2] * kBlueLuminance;
+    const Lanes across = p.ways[0] * p.nx + p.ways[1] * p.ny + p.ways[2] * p.nz;
+    const Lanes square = p.ways[0] * p.ways[0] + p.ways[1] * p.ways[1] + p.ways[2] * p.ways[2];
+    Lanes least;
+    for (int l = 0; l < kLanes; ++l) least[l] = kLeastDirectedCosine * std::sqrt(square[l]);
+    const Lanes bound = across > least ? across : least;
+    Lanes scale = light / bound;
+    keep(scale, bound > light * kLeastDirectedShare);
+    const Lanes rest = light * (1.0f - kHorizonLight) - across * scale;
+    const Lanes normal[] = {p.nx, p.ny, p.nz};
+    for (int c = 0; c < kLightPlanes; ++c) {
+      Lanes word;
+      pack_halves(word, p.light[c], p.ways[c] * scale + normal[c] * rest);
+      store(row.light.at(c) + i, word);
+    }
+  }
 }
 
 /// For each texel, the sums over points of its term and of the term's square.
-static void add_terms(const GuidePlanes& points, int count, const RsmTexel* texels,
+static void add_terms(const ConstPlanes& points, int count, const RsmTexel* texels,
                       std::size_t texel_count, TermSums* sums) {
   for (std::size_t k = 0; k < texel_count; ++k) {
-    const RsmTexel& t = texels[k];
+    const TexelFields<float> t = fields_of(texels[k]);
     Lanes terms = Lanes{}, squares = Lanes{};
     for (int i = 0; i < count; i += kLanes) {
       Lanes term;
       GatherLanes p;
       load_points(p, points, i);
-      texel_term(term, p, t.position_ws.x, t.position_ws.y, t.position_ws.z, t.normal_ws.x,
-                 t.normal_ws.y, t.normal_ws.z, t.softening);
+      texel_term(term, p, t);
       terms += term;
       squares += term * term;
     }

@@ -39,15 +39,7 @@ constexpr uint kViewSalt = 0x56494557u, kDealSalt = 0x4445414cu;
 /// Points of the view, as planes; those beyond the last see nothing.
 struct ViewPoints {
   explicit ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
-  GuidePlanes planes() const {
-    const auto plane = [&](int i) {
-      return floats.data() + static_cast<std::ptrdiff_t>(i) * capacity;
-    };
-    GuidePlanes result;
-    result.position.at = {plane(0), plane(1), plane(2)};
-    result.normal.at = {plane(3), plane(4), plane(5)};
-    return result;
-  }
+  ConstPlanes planes() const { return {floats.data(), capacity}; }
   std::vector<float> floats;
   int capacity, count = 0;
 };
@@ -63,8 +55,10 @@ ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
     const std::size_t pixel = static_cast<std::size_t>(at.y) * view.width + at.x;
     if (view.normals_ws[pixel] == vec3(0.0f)) continue;
     for (int c = 0; c < 3; ++c) {
-      points.floats[c * points.capacity + points.count] = view.positions_ws[pixel][c];
-      points.floats[(3 + c) * points.capacity + points.count] = view.normals_ws[pixel][c];
+      points.floats[(kPositionPlane + c) * points.capacity + points.count] =
+          view.positions_ws[pixel][c];
+      points.floats[(kNormalPlane + c) * points.capacity + points.count] =
+          view.normals_ws[pixel][c];
     }
     ++points.count;
   }
@@ -205,6 +199,16 @@ RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView
   lights.rendered.push_back({});
   lights.rendered.back().softening = 1.0f;
   for (std::vector<std::uint32_t>& sub_map : dealt) sub_map.resize(longest, dark);
+
+  // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
+  // together the ways to all
+  for (std::size_t s = 0; s < dealt.size(); ++s) {
+    for (std::size_t k = 0; k + kTexelsPerWay <= longest; k += kTexelsPerWay) {
+      const auto first = dealt[s].begin() + static_cast<std::ptrdiff_t>(k);
+      std::rotate(first, first + static_cast<std::ptrdiff_t>(s % kTexelsPerWay),
+                  first + kTexelsPerWay);
+    }
+  }
 
   lights.starts.push_back(0);
   for (const std::vector<std::uint32_t>& sub_map : dealt) {

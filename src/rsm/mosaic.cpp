@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rsm/mosaic.h"
 
+#include <algorithm>
+
 #include "rsm/deinterleave.h"
 
 namespace lambent {
 namespace {
 
-constexpr int kPlanes = 13;
-constexpr int kInverseDepth = 6, kFirstLight = 7, kSecondLight = 10;
+constexpr int kFirstLight = kGuidePlanes, kSecondLight = kFirstLight + kLightPlanes;
+constexpr int kPlanes = kSecondLight + kLightPlanes;
+
+// Places of a sub-image that are filled before those of the next: what is read of the view for the
+// first is still in the nearest cache for the others.
+constexpr int kPlacesAtOnce = 64;
 
 /// Quotient rounded down, of any sign.
 int floor_div(int value, int divisor) {
@@ -46,43 +52,42 @@ void Mosaic::reshape(int width, int height, int sub_images, int reach) {
   current_ = kFirstLight;
   next_ = kSecondLight;
   layout_ = PlaneLayout(sub_image_size(width, 0, sub_images), sub_image_size(height, 0, sub_images),
-                        (reach + sub_images - 1) / sub_images);
-  floats_.assign(layout_.size * kPlanes * sub_images * sub_images, 0.0f);
+                        kPlanes, (reach + sub_images - 1) / sub_images);
+  floats_ = AlignedFloats(layout_.size * sub_images * sub_images);
 }
 
 std::size_t Mosaic::place(int i, int j, int row, int dx, int dy, int plane) const {
   const int column_step = floor_div(i + dx, sub_images_), row_step = floor_div(j + dy, sub_images_);
   const int sub_x = i + dx - column_step * sub_images_, sub_y = j + dy - row_step * sub_images_;
   const auto sub = static_cast<std::size_t>(sub_y * sub_images_ + sub_x);
-  return (sub * kPlanes + plane) * layout_.size + layout_.row(row + row_step) + column_step;
+  return sub * layout_.size + layout_.row(row + row_step) +
+         static_cast<std::size_t>(plane) * layout_.stride + column_step;
 }
 
-GuidePlanes Mosaic::guide(int i, int j, int row, int dx, int dy) const {
-  const float* first = floats_.data() + place(i, j, row, dx, dy, 0);
-  const std::size_t size = layout_.size;
-  GuidePlanes result;
-  result.position.at = {first, first + size, first + 2 * size};
-  result.normal.at = {first + 3 * size, first + 4 * size, first + 5 * size};
-  result.inverse_depth = first + kInverseDepth * size;
-  return result;
+ConstPlanes Mosaic::guide(int i, int j, int row, int dx, int dy) const {
+  return {floats_.data() + place(i, j, row, dx, dy, 0), layout_.stride};
 }
 
-Planes3 Mosaic::light(Light which, int i, int j, int row, int dx, int dy) {
+Planes Mosaic::light(Light which, int i, int j, int row, int dx, int dy) {
   const int plane = which == Light::current ? current_ : next_;
-  float* first = floats_.data() + place(i, j, row, dx, dy, plane);
-  return {{first, first + layout_.size, first + 2 * layout_.size}};
+  return {floats_.data() + place(i, j, row, dx, dy, plane), layout_.stride};
 }
 
-void Mosaic::fill_row(const RsmView& view, int i, int j, int row) {
-  const int y = pixel_of_sub_image({i, j}, {0, row}, sub_images_).y;
+void Mosaic::fill_row(const RsmView& view, int y) {
   if (y >= height_) return;
-  const int count = sub_image_size(width_, i, sub_images_);
-  const std::size_t first = static_cast<std::size_t>(y) * width_ + i;
-  float* const start = floats_.data() + place(i, j, row, 0, 0, 0);
-  const std::size_t size = layout_.size;
-  copy_strided(view.positions_ws.data() + first, sub_images_, count, start, size);
-  copy_strided(view.normals_ws.data() + first, sub_images_, count, start + 3 * size, size);
-  invert_strided(view.depths.data() + first, sub_images_, count, start + kInverseDepth * size);
+  const int p = sub_images_, places = sub_image_size(width_, 0, p);
+  const auto stride = static_cast<std::size_t>(layout_.stride);
+  for (int first = 0; first < places; first += kPlacesAtOnce) {
+    for (int i = 0; i < p; ++i) {
+      const int count = std::min(kPlacesAtOnce, sub_image_size(width_, i, p) - first);
+      if (count <= 0) continue;
+      const std::size_t from = static_cast<std::size_t>(y) * width_ + first * p + i;
+      float* const to = floats_.data() + place(i, y % p, y / p, 0, 0, 0) + first;
+      copy_strided(view.positions_ws.data() + from, p, count, to, stride);
+      copy_strided(view.normals_ws.data() + from, p, count, to + kNormalPlane * stride, stride);
+      invert_strided(view.depths.data() + from, p, count, to + kInverseDepthPlane * stride);
+    }
+  }
 }
 
 }  // namespace lambent

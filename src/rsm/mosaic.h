@@ -2,13 +2,14 @@
 // The camera's picture as p x p sub-images, or as one where it is not restructured (p = 1).
 //
 // Sub-images lie one after the other, (0, 0), (1, 0), ..., all with the layout of the largest. Each
-// has its planes one after the other: position x, y, z, normal x, y, z, one over depth, light r, g,
-// b, blurred light r, g, b. A place that a smaller sub-image does not have sees nothing.
+// is row after row, and each row its planes one after the other, so that what passes read together
+// lies together: position x, y, z, normal x, y, z, one over depth, light (LightPlanes), light that
+// is being blurred. A place that a smaller sub-image does not have sees nothing.
 #pragma once
 
 #include <utility>
-#include <vector>
 
+#include "core/aligned_floats.h"
 #include "core/cross_bilateral.h"
 #include "lambent/rsm.h"
 
@@ -25,15 +26,15 @@ class Mosaic {
   int sub_images() const { return sub_images_; }
   const PlaneLayout& layout() const { return layout_; }
 
-  /// Copies a row of sub-image (i, j) out of the view.
-  void fill_row(const RsmView& view, int i, int j, int row);
+  /// Copies row y of the view to its places in sub-images (0, y mod p), (1, y mod p), ...
+  void fill_row(const RsmView& view, int y);
 
   /// First pixel of a row of sub-image (i, j), `dx`, `dy` pixels of the picture away from there:
   /// the neighbour's sub-image may be another. Up to `reach` pixels away.
-  GuidePlanes guide(int i, int j, int row, int dx = 0, int dy = 0) const;
+  ConstPlanes guide(int i, int j, int row, int dx = 0, int dy = 0) const;
   /// The light that passes read, and the planes that they may write meanwhile.
   enum class Light { current, next };
-  Planes3 light(Light which, int i, int j, int row, int dx = 0, int dy = 0);
+  Planes light(Light which, int i, int j, int row, int dx = 0, int dy = 0);
   /// Makes what was written what is read.
   void swap_lights() { std::swap(current_, next_); }
 
@@ -43,7 +44,7 @@ class Mosaic {
   int width_ = 0, height_ = 0, sub_images_ = 0, reach_ = 0;
   PlaneLayout layout_;
   int current_ = 0, next_ = 0;  // first plane of each light
-  std::vector<float> floats_;
+  AlignedFloats floats_;
 };
 
 }  // namespace lambent

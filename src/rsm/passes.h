@@ -12,6 +12,9 @@
 
 namespace lambent {
 
+/// Whether anything is blurred, and light therefore gathered so that it can be relit.
+bool blurs(const RsmSettings& settings);
+
 /// Copies the view into the mosaic, which restructures it where there is more than one sub-image,
 /// and gathers `lights` at every pixel: RsmPattern::whole. Both row by row, so that what was copied
 /// is still in the cache. Returns the rays traced for visibility.

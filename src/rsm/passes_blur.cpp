@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <memory>
 
 #include "core/parallel.h"
 #include "rsm/deinterleave.h"
+#include "rsm/gather.h"
 #include "rsm/passes.h"
 
 namespace lambent {
 namespace {
-
-using LightPlanes = Mosaic::Light;
 
 // Rows that a task blurs together. More repeat less of their neighbours' work, fewer stay in the
 // second-level cache.
@@ -19,20 +17,14 @@ constexpr int kRowsPerTask = 32;
 /// stay in the cache until they were blurred vertically, too.
 class RowRing {
  public:
-  RowRing(int rows, int stride)
-      : rows_(rows),
-        stride_(stride),
-        plane_(static_cast<std::size_t>(rows) * stride),
-        floats_(std::make_unique_for_overwrite<float[]>(3 * plane_)) {}
-  Planes3 row(int y) {
-    float* first = floats_.get() + static_cast<std::size_t>(y % rows_) * stride_;
-    return {{first, first + plane_, first + 2 * plane_}};
-  }
+  RowRing(int rows, int width)
+      : rows_(rows), layout_(width, rows, kLightPlanes, 0), floats_(layout_.size) {}
+  Planes row(int y) { return {floats_.data() + layout_.row(y % rows_), layout_.stride}; }
 
  private:
-  int rows_, stride_;
-  std::size_t plane_;
-  std::unique_ptr<float[]> floats_;
+  int rows_;
+  PlaneLayout layout_;
+  AlignedFloats floats_;
 };
 
 /// Farthest tap.
@@ -44,16 +36,16 @@ int reach(std::span<const BlurTap> taps) {
 
 /// Blurs row `row` of sub-image (i, j) along the picture's rows, taps `unit` pixels apart.
 void blur_along_row(Mosaic& mosaic, int i, int j, int row, int unit, std::span<const BlurTap> taps,
-                    const Planes3& out, float tolerance) {
+                    const Planes& out, float tolerance) {
   std::vector<BlurSource> neighbours;
   for (const BlurTap& tap : taps) {
     for (const int dx : {-unit * tap.distance, unit * tap.distance}) {
       neighbours.push_back({mosaic.guide(i, j, row, dx, 0),
-                            mosaic.light(LightPlanes::current, i, j, row, dx, 0), tap.weight});
+                            mosaic.light(Mosaic::Light::current, i, j, row, dx, 0), tap.weight});
     }
   }
   cross_bilateral_row(
-      {mosaic.guide(i, j, row), mosaic.light(LightPlanes::current, i, j, row), 1.0f}, neighbours,
+      {mosaic.guide(i, j, row), mosaic.light(Mosaic::Light::current, i, j, row), 1.0f}, neighbours,
       out, mosaic.layout().width, tolerance);
 }
 
@@ -69,7 +61,7 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
     const int first = static_cast<int>(task) / (p * p) * kRowsPerTask;
     const int last = std::min(rows, first + kRowsPerTask);
     const int from = std::max(0, first - margin), to = std::min(rows, last + margin);
-    RowRing band(2 * margin + 1, mosaic.layout().stride);
+    RowRing band(2 * margin + 1, mosaic.layout().width);
     std::vector<BlurSource> neighbours;
     int ready = from;
     for (int row = first; row < last; ++row) {
@@ -85,7 +77,7 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
         }
       }
       cross_bilateral_row({mosaic.guide(i, j, row), band.row(row), 1.0f}, neighbours,
-                          mosaic.light(LightPlanes::next, i, j, row), mosaic.layout().width,
+                          mosaic.light(Mosaic::Light::next, i, j, row), mosaic.layout().width,
                           settings.plane_tolerance);
     }
   });
@@ -95,15 +87,15 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
 namespace {
 
 /// Writes a row of the picture, given as a row of each of its sub-images.
-void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes3> subs,
+void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes> subs,
                     std::span<glm::vec3> picture) {
   glm::vec3* to = picture.data() + static_cast<std::size_t>(y) * mosaic.width();
   const int p = mosaic.sub_images();
   for (int x = 0, place = 0; x < mosaic.width(); x += p, ++place) {
     const int count = std::min(p, mosaic.width() - x);
     for (int i = 0; i < count; ++i) {
-      const ConstPlanes3& from = subs[i];
-      to[x + i] = {from.at[0][place], from.at[1][place], from.at[2][place]};
+      const ConstPlanes& from = subs[i];
+      to[x + i] = {from.at(0)[place], from.at(1)[place], from.at(2)[place]};
     }
   }
 }
@@ -111,13 +103,13 @@ void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes3> s
 /// Blurs rows [first, last) of the picture, and writes them there.
 void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings, Mosaic& mosaic,
                      int first, int last, std::span<glm::vec3> picture) {
-  const int p = mosaic.sub_images(), stride = mosaic.layout().stride, margin = reach(taps);
+  const int p = mosaic.sub_images(), width = mosaic.layout().width, margin = reach(taps);
   const int from = std::max(0, first - margin), to = std::min(mosaic.height(), last + margin);
   // A row of the picture is p rows of sub-images, one after the other
-  RowRing band((2 * margin + 1) * p, stride);
+  RowRing band((2 * margin + 1) * p, width);
   std::vector<BlurSource> neighbours;
-  RowRing blurred(p, stride);
-  std::vector<ConstPlanes3> subs;
+  RowRing relit(p, width);
+  std::vector<ConstPlanes> subs;
   int ready = from;
   for (int y = first; y < last; ++y) {
     for (; ready < std::min(to, y + margin + 1); ++ready) {
@@ -136,9 +128,9 @@ void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings,
               {mosaic.guide(i, other % p, other / p), band.row(other * p + i), tap.weight});
         }
       }
-      cross_bilateral_row({mosaic.guide(i, y % p, y / p), band.row(y * p + i), 1.0f}, neighbours,
-                          blurred.row(i), mosaic.layout().width, settings.plane_tolerance);
-      subs.push_back(blurred.row(i));
+      cross_bilateral_row_relit({mosaic.guide(i, y % p, y / p), band.row(y * p + i), 1.0f},
+                                neighbours, relit.row(i), width, settings.plane_tolerance);
+      subs.push_back(relit.row(i));
     }
     interleave_row(mosaic, y, subs, picture);
   }
@@ -152,11 +144,16 @@ void interleave(std::span<const BlurTap> taps, const RsmSettings& settings, Mosa
   parallel_chunks(mosaic.height(), kRowsPerTask, [&](std::size_t begin, std::size_t end) {
     const int first = static_cast<int>(begin), last = static_cast<int>(end);
     if (!taps.empty()) return interleave_band(taps, settings, mosaic, first, last, picture);
-    std::vector<ConstPlanes3> subs;
+    std::vector<ConstPlanes> subs;
+    RowRing relit(p, mosaic.layout().width);
     for (int y = first; y < last; ++y) {
       subs.clear();
       for (int i = 0; i < p; ++i) {
-        subs.push_back(mosaic.light(LightPlanes::current, i, y % p, y / p));
+        const Planes light = mosaic.light(Mosaic::Light::current, i, y % p, y / p);
+        subs.push_back(blurs(settings) ? relit.row(i) : light);
+        if (!blurs(settings)) continue;
+        cross_bilateral_row_relit({mosaic.guide(i, y % p, y / p), light, 1.0f}, {}, relit.row(i),
+                                  mosaic.layout().width, settings.plane_tolerance);
       }
       interleave_row(mosaic, y, subs, picture);
     }

@@ -11,8 +11,6 @@
 namespace lambent {
 namespace {
 
-using LightPlanes = Mosaic::Light;
-
 // Rows of the picture that a task works on.
 constexpr std::size_t kRowsPerTask = 16;
 
@@ -21,39 +19,42 @@ struct RowOf {
   int i, j, row;
 };
 
-/// Calls body(RowOf) for every row of every sub-image, on all cores. Rows that hold pixels of one
-/// row of the picture follow each other, so that it is read from the nearest cache.
-template <class Body>
-void for_each_row(const Mosaic& mosaic, Body body) {
+/// For every row of the picture, on all cores: calls body(RowOf, ways) for the rows of sub-images
+/// that hold its pixels, after before(y). `ways` has room for those of one row.
+template <class Before, class Body>
+void for_each_row(const Mosaic& mosaic, Before before, Body body) {
   const auto p = static_cast<std::size_t>(mosaic.sub_images());
   const auto rows = static_cast<std::size_t>(mosaic.layout().height);
+  const int stride = mosaic.layout().stride;
   parallel_chunks(rows * p, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
+    AlignedFloats ways(static_cast<std::size_t>(kWayPlanes) * stride);
     for (std::size_t y = begin; y < end; ++y) {
+      before(static_cast<int>(y));
       for (std::size_t i = 0; i < p; ++i) {
-        body(RowOf{static_cast<int>(i), static_cast<int>(y % p), static_cast<int>(y / p)});
+        body(RowOf{static_cast<int>(i), static_cast<int>(y % p), static_cast<int>(y / p)},
+             Planes{ways.data(), stride});
       }
     }
   });
 }
 
-GatherRow gather_row(Mosaic& mosaic, const RowOf& at) {
-  return {mosaic.guide(at.i, at.j, at.row), mosaic.light(LightPlanes::current, at.i, at.j, at.row),
-          mosaic.layout().width};
+GatherRow gather_row(Mosaic& mosaic, const RowOf& at, const Planes& ways) {
+  return {mosaic.guide(at.i, at.j, at.row),
+          mosaic.light(Mosaic::Light::current, at.i, at.j, at.row), ways, mosaic.layout().width};
 }
 
 void clear(const GatherRow& row) {
-  for (float* plane : row.light.at) std::fill(plane, plane + row.count, 0.0f);
+  for (int c = 0; c < kLightPlanes; ++c) std::fill_n(row.light.at(c), row.count, 0.0f);
+  if (row.ways.first == nullptr) return;
+  for (int c = 0; c < kWayPlanes; ++c) std::fill_n(row.ways.at(c), row.count, 0.0f);
 }
 
 /// A part of a row, `count` pixels from `first` on.
 GatherRow part_of(const GatherRow& row, int first, int count) {
   GatherRow part = row;
-  for (int c = 0; c < 3; ++c) {
-    part.guide.position.at[c] += first;
-    part.guide.normal.at[c] += first;
-    part.light.at[c] += first;
-  }
-  part.guide.inverse_depth += first;
+  part.guide.first += first;
+  part.light.first += first;
+  if (part.ways.first != nullptr) part.ways.first += first;
   part.count = count;
   return part;
 }
@@ -114,10 +115,9 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
   std::optional<PlaceTables> tables;
   if (mixed) tables.emplace(lights, settings);
   std::atomic<std::uint64_t> rays = 0;
-  for_each_row(mosaic, [&](const RowOf& at) {
-    mosaic.fill_row(view, at.i, at.j, at.row);
-    const GatherRow row = gather_row(mosaic, at);
-    clear(row);
+  const auto fill = [&](int y) { mosaic.fill_row(view, y); };
+  for_each_row(mosaic, fill, [&](const RowOf& at, const Planes& ways) {
+    const GatherRow row = gather_row(mosaic, at, blurs(settings) ? ways : Planes());
     const int sub = sub_map_of({at.i, at.j}, n);
     if (mixed) {
       gather_mixed_row(row, at.row, lights, settings, *tables);
@@ -126,14 +126,16 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
     } else {
       gather_contiguous(row, sub_map(lights, sub));
     }
-    if (settings.visibility_rays == 0) return;
-    const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
-    const std::size_t pixel = static_cast<std::size_t>(first.y) * mosaic.width() + first.x;
-    for (int x = 0; x < (mixed ? row.count : 1); ++x) {
-      const int own = mixed ? sub_map_of({x, at.row}, n) : sub;
-      rays += dim_by_visibility(world, mixed ? part_of(row, x, 1) : row, sub_map(lights, own),
-                                settings.visibility_rays, pixel + x, p, settings.seed);
+    if (settings.visibility_rays > 0) {
+      const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
+      const std::size_t pixel = static_cast<std::size_t>(first.y) * mosaic.width() + first.x;
+      for (int x = 0; x < (mixed ? row.count : 1); ++x) {
+        const int own = mixed ? sub_map_of({x, at.row}, n) : sub;
+        rays += dim_by_visibility(world, mixed ? part_of(row, x, 1) : row, sub_map(lights, own),
+                                  settings.visibility_rays, pixel + x, p, settings.seed);
+      }
     }
+    if (row.ways.first != nullptr) make_relightable(row);
   });
   return rays;
 }
@@ -142,10 +144,15 @@ void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps
                   const RsmSettings& settings, Mosaic& mosaic) {
   const int n = settings.sub_maps, p = mosaic.sub_images();
   const auto count = static_cast<uint>((settings.texels + n * n - 1) / (n * n) * n * n);
-  for_each_row(mosaic, [&](const RowOf& at) {
-    mosaic.fill_row(view, at.i, at.j, at.row);
-    clear(gather_row(mosaic, at));
-  });
+  // Ways are kept where blurs will write
+  const bool blurred = blurs(settings);
+  const auto row_at = [&](const RowOf& at) {
+    return gather_row(mosaic, at,
+                      blurred ? mosaic.light(Mosaic::Light::next, at.i, at.j, at.row) : Planes());
+  };
+  const auto fill = [&](int y) { mosaic.fill_row(view, y); };
+  const auto nothing = [](int) {};
+  for_each_row(mosaic, fill, [&](const RowOf& at, const Planes&) { clear(row_at(at)); });
   for (const ReflectiveShadowMap& map : maps) {
     const float radius = settings.disk_radius * static_cast<float>(map.resolution);
     std::vector<DiskSample> samples(count);
@@ -159,11 +166,14 @@ void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps
     disk.texels = disk.restructured ? restructured.data() : map.texels.data();
     disk.samples = samples;
     disk.softening = settings.softening;
-    for_each_row(mosaic, [&](const RowOf& at) {
+    for_each_row(mosaic, nothing, [&](const RowOf& at, const Planes&) {
       const ivec2 first = pixel_of_sub_image({at.i, at.j}, {0, at.row}, p);
-      gather_disk(gather_row(mosaic, at), disk, first.x, p, first.y % n);
+      gather_disk(row_at(at), disk, first.x, p, first.y % n);
     });
   }
+  if (!blurred) return;
+  for_each_row(mosaic, nothing,
+               [&](const RowOf& at, const Planes&) { make_relightable(row_at(at)); });
 }
 
 }  // namespace lambent

@@ -39,6 +39,10 @@ std::vector<BlurTap> irregular_taps() {
   return taps;
 }
 
+bool blurs_picture(const RsmSettings& settings) {
+  return settings.final_blur && settings.sub_images > 1;
+}
+
 /// How far the blurs look [pixels of the picture].
 int blur_reach(const RsmSettings& settings) {
   const int irregular = settings.irregular_blur ? kIrregularDistances[2] : 0;
@@ -111,6 +115,10 @@ Expected<void> check(const RsmSettings& s) {
   return {};
 }
 
+bool blurs(const RsmSettings& settings) {
+  return settings.sub_blur_radius > 0 || settings.irregular_blur || blurs_picture(settings);
+}
+
 void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap> maps,
                          const RsmView& view, const RsmSettings& settings, RsmIrradiance& result,
                          bool keep_stages) {
@@ -166,7 +174,7 @@ void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap
   finish("rsm.sub_blur");
   keep_current("rsm.interleaved");
 
-  const bool blur = settings.final_blur && settings.sub_images > 1;
+  const bool blur = blurs_picture(settings);
   interleave(blur ? period_taps(settings.sub_images) : std::vector<BlurTap>(), settings, mosaic,
              result.irradiance);
   finish("rsm.interleave");

@@ -55,15 +55,15 @@ std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
   std::vector<Ray> asked;
   std::vector<int> pixels;
   std::vector<float> brought;
-  const auto at = [](const ConstPlanes3& planes, int x) {
-    return vec3(planes.at[0][x], planes.at[1][x], planes.at[2][x]);
+  const auto at = [&](int plane, int x) {
+    return vec3(row.guide.at(plane)[x], row.guide.at(plane + 1)[x], row.guide.at(plane + 2)[x]);
   };
   for (int x = 0; x < row.count; ++x) {
-    const vec3 normal = at(row.guide.normal, x);
+    const vec3 normal = at(kNormalPlane, x);
     if (normal == vec3(0.0f)) continue;
     const std::size_t before = asked.size();
     const auto pixel = static_cast<uint>(first_pixel + x * pixel_step);
-    draw_rays(at(row.guide.position, x), normal, texels, brought, rays,
+    draw_rays(at(kPositionPlane, x), normal, texels, brought, rays,
               make_random_stream(pixel, kVisibilitySalt, seed), asked);
     if (asked.size() > before) pixels.push_back(x);
   }
@@ -74,7 +74,7 @@ std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
     int arrived = 0;
     for (std::size_t i = p * per_pixel; i < (p + 1) * per_pixel; ++i) arrived += 1 - occluded[i];
     const float share = static_cast<float>(arrived) / static_cast<float>(rays);
-    for (int c = 0; c < 3; ++c) row.light.at[c][pixels[p]] *= share;
+    for (int c = 0; c < kLightPlanes; ++c) row.light.at(c)[pixels[p]] *= share;
   }
   return asked.size();
 }

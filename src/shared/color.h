@@ -6,9 +6,14 @@
 
 LAMBENT_BEGIN
 
-/// Relative luminance of linear Rec. 709 (ITU-R BT.709-6, item 3.2).
+// Shares of the linear Rec. 709 primaries in relative luminance (ITU-R BT.709-6, item 3.2).
+const float kRedLuminance = 0.2126f;
+const float kGreenLuminance = 0.7152f;
+const float kBlueLuminance = 0.0722f;
+
+/// Relative luminance of linear Rec. 709.
 LAMBENT_FN float luminance(vec3 linear) {
-  return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f));
+  return dot(linear, vec3(kRedLuminance, kGreenLuminance, kBlueLuminance));
 }
 
 /// IEC 61966-2-1 (sRGB) decoding of one channel, 0 to 1.

@@ -9,20 +9,31 @@
 
 LAMBENT_BEGIN
 
-/// Weight, 0 to 1, of a pixel for another one. `offset` leads from the other one's point to its
-/// own; `inverse_tolerance` is one over the distance [1/m] from the other one's plane at which it
-/// counts for nothing. The plane, not depth alone: a floor seen at a grazing angle is one surface.
-/// The 64th power of the cosine halves the weight at 8 degrees: light on bumps differs that much.
-/// Pixels that see nothing have a normal of 0 and count for nothing.
-LAMBENT_FN float cross_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
+/// Weight, 0 to 1, of a pixel for another one, whose light is relit for that one's normal
+/// (shared/relight.h). `offset` leads from the other one's point to its own; `inverse_tolerance` is
+/// one over the distance [1/m] from the other one's plane at which it counts for nothing. The
+/// plane, not depth alone: a floor seen at a grazing angle is one surface. The 16th power of the
+/// cosine halves the weight at 17 degrees: bumps count, other surfaces do not. Pixels that see
+/// nothing have a normal of 0 and count for nothing.
+LAMBENT_FN float relit_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
                                         float inverse_tolerance) {
   float cosine = max(0.0f, dot(normal, other_normal));
   float square = cosine * cosine;
   float fourth = square * square;
   float beyond = dot(normal, offset) * inverse_tolerance;
-  float sixteenth = (fourth * fourth) * (fourth * fourth);
-  float power = (sixteenth * sixteenth) * (sixteenth * sixteenth);
-  return power * max(0.0f, 1.0f - beyond * beyond);
+  return (fourth * fourth) * (fourth * fourth) * max(0.0f, 1.0f - beyond * beyond);
+}
+
+/// The same for light that is taken as it is. The 64th power of the cosine halves the weight at 8
+/// degrees: light on bumps differs that much.
+LAMBENT_FN float cross_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
+                                        float inverse_tolerance) {
+  float cosine = max(0.0f, dot(normal, other_normal));
+  float square = cosine * cosine;
+  float sixteenth = (square * square) * (square * square);
+  sixteenth *= sixteenth;
+  return (sixteenth * sixteenth) *
+         relit_bilateral_weight(offset, normal, other_normal, inverse_tolerance);
 }
 
 LAMBENT_END

@@ -146,7 +146,8 @@ vec3 unoccluded_bounce(const Stage& stage, const vec3& position, const vec3& nor
                                shadow_ray(s.position_ws, s.geometric_normal_ws, light))) {
                          return;
                        }
-                       sum += s.reflectance.diffuse * light.perpendicular_irradiance * cosine;
+                       sum += effective_albedo(s.reflectance, cosine) *
+                              light.perpendicular_irradiance * cosine;
                      });
       ray.t_min = hit.distance * 1.0001f + 1e-4f;
     }
@@ -154,34 +155,40 @@ vec3 unoccluded_bounce(const Stage& stage, const vec3& position, const vec3& nor
   return sum / static_cast<float>(rays);
 }
 
+/// Mean of the exhaustive gather over that of one bounce without visibility by rays, of which few
+/// at each point suffice for the mean; at every `step`-th of the chosen pixels.
+double over_unoccluded_bounce(const RsmStage& work, std::size_t step, const char* name) {
+  constexpr int kRays = 64;
+  const std::size_t count = work.chosen.size() / step;
+  std::vector<vec3> bounce(count);
+  parallel_chunks(count, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      bounce[i] = unoccluded_bounce(work.stage, work.few_positions[i * step],
+                                    work.few_normals[i * step], kRays);
+    }
+  });
+  double ours = 0.0, truth = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    ours += luminance(work.exhaustive[i * step]);
+    truth += luminance(bounce[i]);
+  }
+  std::printf("rsm %s: exhaustive mean over one bounce without visibility %.4f\n", name,
+              ours / truth);
+  return ours / truth;
+}
+
 TEST(RsmAgainstExhaustive, IsWithinFivePercentOnCornell) {
   const Scene scene = scenes::make("cornell-spot").value();
   const RsmStage work(scene, scene.cameras[0]);
   const Errors errors = errors_of(work, "cornell-spot");
-  // Bar: 5 %, and 2 % of energy
+  // Bars of this and the next test: 5 % and 8 % of error, 2 % of energy
   EXPECT_LT(errors.relative_rmse, 0.05);
   EXPECT_NEAR(errors.mean_ratio, 1.0, 0.02);
-
-  // One bounce by rays, of which few at each point suffice for the mean
-  constexpr int kRays = 64;
-  const std::vector<vec3>& points = work.few_positions;
-  std::vector<vec3> bounce(points.size());
-  parallel_chunks(points.size(), 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      bounce[i] = unoccluded_bounce(work.stage, points[i], work.few_normals[i], kRays);
-    }
-  });
-  double ours = 0.0, truth = 0.0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    ours += luminance(work.exhaustive[i]);
-    truth += luminance(bounce[i]);
-  }
-  std::printf("rsm cornell-spot: exhaustive mean over one bounce without visibility %.4f\n",
-              ours / truth);
-  EXPECT_NEAR(errors.mean_ratio * ours / truth, 1.0, 0.02);
+  const double over_bounce = over_unoccluded_bounce(work, 1, "cornell-spot");
+  EXPECT_NEAR(errors.mean_ratio * over_bounce, 1.0, 0.02);
 }
 
-TEST(RsmAgainstExhaustive, KeepsItsErrorOnSponza) {
+TEST(RsmAgainstExhaustive, IsWithinEightPercentOnSponza) {
   const std::filesystem::path path = test::shared_dir() / "scenes" / "Sponza/Sponza.gltf";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
   Scene scene = load_scene(path.string()).value();
@@ -193,10 +200,12 @@ TEST(RsmAgainstExhaustive, KeepsItsErrorOnSponza) {
   const RsmStage work(std::move(scene),
                       look_at({-10.2f, 1.7f, 4.0f}, {-9.0f, 1.4f, -3.0f}, 70.0f * kPi / 180.0f));
   const Errors errors = errors_of(work, "Sponza");
-  // The bar is 0.08, and missed: the blurs take the detail of normal maps with the pattern. This
-  // holds what is reached
-  EXPECT_LT(errors.relative_rmse, 0.20);
+  EXPECT_LT(errors.relative_rmse, 0.08);
   EXPECT_NEAR(errors.mean_ratio, 1.0, 0.02);
+  // Rays through all of Sponza are many: few points
+  constexpr std::size_t kPointStep = 4;
+  const double over_bounce = over_unoccluded_bounce(work, kPointStep, "Sponza");
+  EXPECT_NEAR(errors.mean_ratio * over_bounce, 1.0, 0.02);
 }
 
 }  // namespace
