@@ -16,7 +16,7 @@ inline constexpr std::array<char, 8> kFieldMagic = {'L', 'A', 'M', 'B', 'E', 'N'
 inline constexpr std::size_t kChecksumOffset = 12;
 inline constexpr std::size_t kSizeOffset = 16;  // and where what the checksum covers begins
 inline constexpr std::size_t kHeaderBytes = 64;
-inline constexpr std::size_t kVolumeHeaderBytes = 132;
+inline constexpr std::size_t kVolumeHeaderBytes = 144;
 inline constexpr std::size_t kRecordBytes = 24;
 
 // Volumes of one field: more are not a field but a broken file.

@@ -158,6 +158,7 @@ class Reader {
     for (int axis = 0; axis < 3; ++axis) grid.axes[axis] = read_vec3(in_);
     grid.fade_centre = read_vec3(in_);
     grid.fade_half = read_vec3(in_);
+    grid.fade_cells = read_vec3(in_);
 
     for (int axis = 0; axis < 3; ++axis) {
       const float spacing = grid.spacing[axis];
@@ -166,7 +167,7 @@ class Reader {
         return bad(place_, "stands at a place, or with a spacing, that makes no sense");
       }
       if (!std::isfinite(grid.fade_centre[axis]) || !std::isfinite(grid.fade_half[axis]) ||
-          !(grid.fade_half[axis] > 0.0f)) {
+          !(grid.fade_half[axis] > 0.0f) || !(grid.fade_cells[axis] > 0.0f)) {
         return bad(place_, "counts within a box that makes no sense");
       }
     }

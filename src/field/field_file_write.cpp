@@ -35,6 +35,7 @@ void write_volume(const FieldVolume& volume, ByteWriter& out) {
   for (int axis = 0; axis < 3; ++axis) write_vec3(grid.axes[axis], out);
   write_vec3(grid.fade_centre, out);
   write_vec3(grid.fade_half, out);
+  write_vec3(grid.fade_cells, out);
   out.u32(volume.role.follows_viewer ? 1 : 0);
   out.u32(static_cast<std::uint32_t>(volume.role.level));
 

@@ -27,6 +27,7 @@ struct ProbeGrid {
   int first;         ///< Index of the probe stored first, among those of all volumes.
   vec3 fade_centre;  ///< Of the box in which the volume counts [cells from probe 0].
   vec3 fade_half;    ///< Half the size of that box [cells]; > 0.
+  vec3 fade_cells;   ///< Across so many cells within its faces the volume hands over; > 0.
 };
 
 LAMBENT_FN int probe_count(ProbeGrid grid) {
@@ -101,15 +102,11 @@ LAMBENT_FN int cell_wrap(ProbeGrid grid, ivec3 base) {
          (c.z + 1 == grid.count.z ? 4 : 0);
 }
 
-// Volumes hand over to the next one across this many cells, or, where they are thinner, all their
-// way from the middle.
-const float kFadeCells = 1.0f;
-
 /// What a volume has to say about a point, 0 to 1: 1 well inside the box in which it counts, fading
-/// to 0 at its faces.
+/// to 0 at its faces; where it is thin, all the way from the middle.
 LAMBENT_FN float volume_share(ProbeGrid grid, vec3 position_ws) {
   vec3 inside = grid.fade_half - abs(grid_coords(grid, position_ws) - grid.fade_centre);
-  vec3 share = inside / min(grid.fade_half, vec3(kFadeCells));
+  vec3 share = inside / min(grid.fade_half, grid.fade_cells);
   return clamp(min(share.x, min(share.y, share.z)), 0.0f, 1.0f);
 }
 

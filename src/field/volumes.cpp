@@ -32,6 +32,11 @@ constexpr int kMinCascadeProbes = 4;
 // Probes of a volume for which neither count nor spacing is given.
 constexpr int kVolumeBudget = 512;
 
+// Cells across which volumes hand over to the next one, from one beyond their probes ...
+constexpr float kFadeCells = 1.0f;
+// ... and as a share of a long axis, so that who walks sees nothing of it.
+constexpr float kFadeShare = 0.125f;
+
 // Columns of a rotation are unit and orthogonal to within this.
 constexpr float kRotationSlack = 1e-3f;
 
@@ -154,7 +159,8 @@ bool is_rotation(const mat3& axes) {
 
 ProbeGrid still_grid(const FieldGrid& grid) {
   const vec3 half = 0.5f * vec3(grid.count - 1);
-  return {grid.origin, grid.spacing, grid.axes, grid.count, ivec3(0), 0, half, half + kFadeCells};
+  return {grid.origin, grid.spacing, grid.axes,         grid.count,      ivec3(0),
+          0,           half,         half + kFadeCells, vec3(kFadeCells)};
 }
 
 FieldGrid field_grid(const ProbeGrid& grid) {
@@ -181,6 +187,7 @@ ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
     const Step step = follow_along(off, counts, count);
     next.fade_centre[axis] = 0.5f * (step.counts.low + step.counts.high);
     next.fade_half[axis] = 0.5f * (step.counts.high - step.counts.low);
+    next.fade_cells[axis] = max(kFadeCells, kFadeShare * static_cast<float>(count));
     place[axis] += step.cells;
     const int scroll = (grid.scroll[axis] + step.cells) % count;
     next.scroll[axis] = scroll < 0 ? scroll + count : scroll;

@@ -53,6 +53,7 @@ FieldVolume made_volume(IrradianceFormat irradiance, DistanceFormat distance) {
   volume.grid.axes = mat3(vec3(0, 0, -1), vec3(0, 1, 0), vec3(1, 0, 0));
   volume.grid.fade_centre = {1.25f, 0.5f, 0.75f};
   volume.grid.fade_half = {0.75f, 0.5f, 0.25f};
+  volume.grid.fade_cells = {2.0f, 1.0f, 4.0f};
   volume.role = {true, 3};
   volume.irradiance_texels = 2;
   volume.distance_texels = 5;
@@ -100,6 +101,7 @@ TEST(FieldFile, KeepsEveryNumberOfEveryFormatAndVolume) {
     EXPECT_EQ(a.grid.axes, b.grid.axes);
     EXPECT_EQ(a.grid.fade_centre, b.grid.fade_centre);
     EXPECT_EQ(a.grid.fade_half, b.grid.fade_half);
+    EXPECT_EQ(a.grid.fade_cells, b.grid.fade_cells);
     EXPECT_EQ(a.role.follows_viewer, b.role.follows_viewer);
     EXPECT_EQ(a.role.level, b.role.level);
     EXPECT_EQ(a.grid.spacing, b.grid.spacing);
@@ -140,9 +142,10 @@ TEST(FieldFile, StandsWhereTheDocumentSays) {
   EXPECT_EQ(u32(64 + 72), 0xBF800000u);   // axes[0].z = -1
   EXPECT_EQ(u32(64 + 100), 0x3FA00000u);  // fade_centre.x = 1.25
   EXPECT_EQ(u32(64 + 112), 0x3F400000u);  // fade_half.x = 0.75
-  EXPECT_EQ(u32(64 + 124), 1u);           // follows the viewer
-  EXPECT_EQ(u32(64 + 128), 3u);           // level
-  const std::size_t records = 64 + 132, tiles = records + 24 * 12;
+  EXPECT_EQ(u32(64 + 124), 0x40000000u);  // fade_cells.x = 2
+  EXPECT_EQ(u32(64 + 136), 1u);           // follows the viewer
+  EXPECT_EQ(u32(64 + 140), 3u);           // level
+  const std::size_t records = 64 + 144, tiles = records + 24 * 12;
   EXPECT_EQ(u32(records + 24), encode_probe_offset({0.04f, -0.04f, 0.02f}));
   EXPECT_EQ(u32(records + 24 + 4), 1u);           // sleeping
   EXPECT_EQ(u32(records + 24 + 8), 0x3FC00000u);  // samples = 1.5
@@ -227,8 +230,9 @@ TEST(FieldFile, RefusesNumbersThatNoFieldHas) {
   EXPECT_THAT(refusal_with(volume + 64, kNan), HasSubstr("no rotation"));
   EXPECT_THAT(refusal_with(volume + 100, kInfinity), HasSubstr("counts within a box"));
   EXPECT_THAT(refusal_with(volume + 112, 0u), HasSubstr("counts within a box"));
-  EXPECT_THAT(refusal_with(volume + 124, 2u), HasSubstr("role"));
-  EXPECT_THAT(refusal_with(volume + 128, 17u), HasSubstr("role"));
+  EXPECT_THAT(refusal_with(volume + 124, 0u), HasSubstr("counts within a box"));
+  EXPECT_THAT(refusal_with(volume + 136, 2u), HasSubstr("role"));
+  EXPECT_THAT(refusal_with(volume + 140, 17u), HasSubstr("role"));
   const std::size_t record = volume + kVolumeHeaderBytes + kRecordBytes;
   EXPECT_THAT(refusal_with(record, 1u << 31u), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record, 512u), HasSubstr("record of probe 1"));
