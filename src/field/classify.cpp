@@ -52,10 +52,27 @@ ProbeState state_once_traced(ProbeState state) {
   return state;
 }
 
+namespace {
+
+/// How far outside of a box a probe lights it.
+vec3 reach_around(const ProbeGrid& grid) {
+  const float smallest = min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
+  return grid.spacing + vec3(kBiasScale * kBias * smallest);
+}
+
+void classify_probe(const ProbeGrid& grid, const ProbeReach& reach, std::span<const Bounds> moving,
+                    const ivec3& place, ProbeRecord& record) {
+  const vec3 home = probe_position(grid, place);
+  const bool near_moving = std::any_of(moving.begin(), moving.end(),
+                                       [&](const Bounds& b) { return may_light(b, home, grid); });
+  record.state = next_state(record.state, reach, near_moving);
+}
+
+}  // namespace
+
 bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid) {
   if (moving.empty()) return false;
-  const float smallest = min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));
-  const vec3 around = grid.spacing + vec3(kBiasScale * kBias * smallest);
+  const vec3 around = reach_around(grid);
   return glm::all(glm::greaterThanEqual(home_ws, moving.min - around)) &&
          glm::all(glm::lessThanEqual(home_ws, moving.max + around));
 }
@@ -64,19 +81,32 @@ void classify_probes(const ProbeGrid& grid, std::span<const ProbeReach> reaches,
                      std::span<const Bounds> moving, std::span<ProbeRecord> records) {
   assert(reaches.size() == records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const vec3 home = probe_position(grid, probe_coords(grid, static_cast<int>(i)));
-    const bool near_moving = std::any_of(moving.begin(), moving.end(),
-                                         [&](const Bounds& b) { return may_light(b, home, grid); });
-    records[i].state = next_state(records[i].state, reaches[i], near_moving);
+    classify_probe(grid, reaches[i], moving, probe_coords(grid, static_cast<int>(i)), records[i]);
   }
 }
 
-ProbeCounts count_states(std::span<const ProbeRecord> records) {
-  ProbeCounts counts;
-  int* const by_state[] = {&counts.off,   &counts.sleeping,       &counts.newly_awake,
-                           &counts.awake, &counts.newly_vigilant, &counts.vigilant};
-  for (const ProbeRecord& record : records) ++*by_state[static_cast<int>(record.state)];
-  return counts;
+std::vector<int> classify_probes_near(const Bounds& box, const ProbeGrid& grid,
+                                      std::span<const ProbeReach> reaches,
+                                      std::span<const Bounds> moving,
+                                      std::span<ProbeRecord> records) {
+  std::vector<int> changed;
+  if (box.empty()) return changed;
+  // A probe more on each side, for rounding; the probe's own test decides
+  const vec3 around = reach_around(grid) + grid.spacing;
+  const vec3 last(grid.count - 1);
+  const ivec3 low(clamp((box.min - around - grid.origin_ws) / grid.spacing, vec3(0.0f), last));
+  const ivec3 high(clamp((box.max + around - grid.origin_ws) / grid.spacing, vec3(0.0f), last));
+  for (int z = low.z; z <= high.z; ++z) {
+    for (int y = low.y; y <= high.y; ++y) {
+      for (int x = low.x; x <= high.x; ++x) {
+        const int probe = probe_index(grid, {x, y, z});
+        const ProbeState before = records[probe].state;
+        classify_probe(grid, reaches[probe], moving, {x, y, z}, records[probe]);
+        if (records[probe].state != before) changed.push_back(probe);
+      }
+    }
+  }
+  return changed;
 }
 
 }  // namespace lambent

@@ -47,7 +47,9 @@ IrradianceField::State::State(const FieldSettings& field_settings, const FieldGr
       records(store.probes()),
       sights(store.grid()),
       reaches(store.probes()),
-      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {}
+      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
+      told(light.size(), vec4(0.0f)),
+      agenda(store.grid(), settings) {}
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
 IrradianceField::~IrradianceField() = default;
@@ -70,7 +72,13 @@ void IrradianceField::reset() {
   std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
   std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
   s.sights = ProbeSights(s.store.grid());
+  std::fill(s.told.begin(), s.told.end(), vec4(0.0f));
   s.edits = {};
+  s.late_sleepers.clear();
+  s.followed_revision = 0;
+  s.classified = false;
+  s.agenda.changed_all();
+  s.starting = true;
   s.followed_last = false;
   s.updates = 0;
 }

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a field's probes stand and what they are for: relocation and classification.
+#include <algorithm>
+#include <utility>
+
 #include "core/parallel.h"
 #include "field/field_state.h"
 #include "field/relocate.h"
@@ -35,6 +38,7 @@ void IrradianceField::State::place(const World& world, std::span<const int> prob
 }
 
 void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes) {
+  classified = false;
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<Sight> seen(sight_directions().size());
@@ -55,7 +59,26 @@ void IrradianceField::State::classify(const World& world) {
   for (int i = 0; i < static_cast<int>(instances.size()); ++i) {
     if (instances[i].dynamic) moving.push_back(world.instance_bounds(i));
   }
-  classify_probes(store.grid(), reaches, moving, records);
+  if (!classified) {
+    classify_probes(store.grid(), reaches, moving, records);
+    agenda.changed_all();
+  } else if (moving != moved_to) {
+    // States differ where something that moved on was or is
+    const std::size_t most = std::max(moved_to.size(), moving.size());
+    for (std::size_t i = 0; i < most; ++i) {
+      const Bounds before = i < moved_to.size() ? moved_to[i] : Bounds{};
+      const Bounds now = i < moving.size() ? moving[i] : Bounds{};
+      if (before == now) continue;
+      for (const Bounds& box : {before, now}) {
+        for (const int probe :
+             classify_probes_near(box, store.grid(), reaches, moving, records)) {
+          agenda.changed(probe);
+        }
+      }
+    }
+  }
+  moved_to = std::move(moving);
+  classified = true;
 }
 
 }  // namespace lambent

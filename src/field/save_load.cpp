@@ -35,6 +35,8 @@ void IrradianceField::State::restore(const FieldVolume& volume, std::uint32_t up
   store.restore(volume.offsets, volume.irradiance, volume.distance);
   records = volume.records;
   updates = static_cast<int>(updates_so_far);
+  starting = updates == 0;
+  agenda.changed_all();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(tile_texels());
   double sum = 0.0;

@@ -51,6 +51,12 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     statistics.probe_rays += group.hits.size();
   }
   statistics.trace_ms += watch.lap();
+  for (const TraceGroup& group : groups) {
+    for (const int probe : group.probes) {
+      // What woke before it followed an edit holds the average of another light
+      if (records[probe].revision != world.revision()) forget_light(probe, world.revision());
+    }
+  }
 
   // The mean of all updates so far, until it has become an exponential moving average
   const float longest = 1.0f / (1.0f - settings.hysteresis);
@@ -88,6 +94,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
       settings.max_bounces >= 0
           ? relight_bounces(operator_of_all, shares, settings.max_bounces, light)
           : relight(operator_of_all, shares, {}, relight_settings(), light);
+  remember_told(probes, solved.solution);
   statistics.relights += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
@@ -108,12 +115,29 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     record.served = static_cast<std::uint32_t>(updates) + 1;
     record.state = state_once_traced(record.state);
     record.revision = world.revision();
+    agenda.changed(probes[k]);
   }
   if (!probes.empty()) {
     mean_light = static_cast<float>(light_sum / static_cast<double>(probes.size()));
   }
   store_light(probes);
   statistics.blend_ms += watch.lap();
+}
+
+void IrradianceField::State::solve_start(UpdateStatistics& statistics) {
+  Stopwatch watch;
+  std::vector<int> traced;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (traces[probe].rays != nullptr) traced.push_back(probe);
+  }
+  const std::vector<float> shares(traced.size(), 1.0f);
+  const RelightResult solved = relight(transport(traced), shares, {}, relight_settings(), light);
+  statistics.relights += solved.iterations;
+  statistics.residual = solved.error;
+  statistics.change = solved.change;
+  remember_told(traced, solved.solution);
+  store_light(traced);
+  statistics.relight_ms += watch.lap();
 }
 
 UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest& request) {
@@ -143,14 +167,20 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.followed_last = followed != Followed::nothing && !trace;
   if (trace) {
     const auto update = static_cast<uint>(s.updates);
-    const Schedule schedule = budget == 0
-                                  ? schedule_all(s.records, s.settings.rays_per_probe)
-                                  : schedule_within(s.store, s.records, s.settings, budget - spent,
-                                                    update + 1, request.viewer_ws);
+    s.agenda.note(s.records);
+    const Schedule schedule =
+        budget == 0 ? schedule_all(s.records, s.settings.rays_per_probe)
+                    : s.agenda.within(s.store, budget - spent, update + 1, request.viewer_ws);
     s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
   }
+  s.agenda.note(s.records);
+  if (s.starting && s.agenda.unserved() == 0) {
+    // Probes that were traced while others knew no light have only seen a part of its bounces
+    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_start(statistics);
+    s.starting = false;
+  }
   ++s.updates;
-  statistics.states = count_states(s.records);
+  statistics.states = s.agenda.states();
   s.ray_cost.learn(statistics.probe_rays + statistics.shadow_rays, watch.lap());
   return statistics;
 }

@@ -103,5 +103,24 @@ TEST(ProbeStates, OfAFieldFollowWhatMoves) {
   EXPECT_EQ(records[63].state, ProbeState::sleeping);
 }
 
+TEST(ProbeStates, NearABoxAreThoseOfTheWholeField) {
+  const ProbeGrid grid{vec3(-1.0f, 0.0f, 2.0f), vec3(1.0f, 0.5f, 2.0f), ivec3(9, 8, 7)};
+  const std::vector<ProbeReach> reaches(9 * 8 * 7, kAir);
+  std::vector<ProbeRecord> all(reaches.size()), near(reaches.size());
+  Bounds before;
+  classify_probes(grid, reaches, {}, near);
+  for (const float x : {0.0f, 1.3f, 7.5f, 30.0f}) {
+    const Bounds thing{vec3(x, 1.0f, 4.0f), vec3(x + 0.5f, 1.9f, 8.0f)};
+    classify_probes(grid, reaches, {&thing, 1}, all);
+    for (const Bounds& box : {before, thing}) {
+      for (const int probe : classify_probes_near(box, grid, reaches, {&thing, 1}, near)) {
+        EXPECT_EQ(near[probe].state, all[probe].state);
+      }
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(near[i].state, all[i].state) << i;
+    before = thing;
+  }
+}
+
 }  // namespace
 }  // namespace lambent
