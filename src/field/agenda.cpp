@@ -18,11 +18,15 @@ constexpr std::size_t kBlocksPerTask = 64;
 
 // A probe whose light is known this well rests until its age calls it: surfaces average the noise
 // of eight.
-constexpr float kSettledError = 0.01f;
+constexpr float kSettledError = 0.005f;
 
 // What the first light of a sleeping probe is held to gain: others come first until theirs is about
 // as good as can be seen.
 constexpr float kSleepersGain = 0.02f;
+
+// No probe's noise is held to be less than this share of the mean when their turn is decided, for
+// the same reason: light would come out too dark where few rays met what is bright.
+constexpr float kLeastNoise = 0.5f;
 
 // Keeps the gain of probes that lost their light finite: samples of the least number of rays.
 constexpr float kFewestSamples = 0.1f;
@@ -140,12 +144,13 @@ void ProbeAgenda::note_record(std::span<const ProbeRecord> records, int probe) {
   if (entry.served == 0) ++unserved_;
 }
 
-/// The noise of a probe is the mean over it and its neighbours: its own is the lower the less of
-/// what is bright it has met so far, and resting on it would leave the light too dark for good.
+/// The noise of a probe is not held to be less than the mean over it and its neighbours: its own is
+/// the lower the less of what is bright it has met so far, and resting on it would leave the light
+/// too dark for good.
 void ProbeAgenda::note_noise(std::span<const ProbeRecord> records, int probe) {
   Entry& entry = entries_[probe];
   const ProbeRecord& own = records[probe];
-  entry.noise = entry.gain = 0.0f;
+  entry.noise = entry.gain = entry.thin = 0.0f;
   if (entry.served == kNotLive) return;
   float sum = own.noise;
   int count = 1;
@@ -154,7 +159,7 @@ void ProbeAgenda::note_noise(std::span<const ProbeRecord> records, int probe) {
     sum += records[neighbour].noise;
     ++count;
   });
-  entry.noise = std::sqrt(sum / static_cast<float>(count));
+  entry.noise = std::sqrt(std::max(own.noise, sum / static_cast<float>(count)));
   if (own.state == ProbeState::sleeping) {
     entry.gain = kSleepersGain;
     return;
@@ -163,14 +168,17 @@ void ProbeAgenda::note_noise(std::span<const ProbeRecord> records, int probe) {
   const float samples = std::max(own.samples, kFewestSamples);
   if (own.samples >= longest_ || entry.noise < kSettledError * std::sqrt(samples)) return;
   entry.gain = entry.noise / samples;
+  entry.thin = 1.0f / samples;
 }
 
 void ProbeAgenda::note_block(std::size_t block) {
-  Block sum{0.0f, kNotLive, 0.0f, 0};
+  Block sum;
+  sum.served = kNotLive;
   const std::size_t end = std::min((block + 1) * kBlock, entries_.size());
   for (std::size_t i = block * kBlock; i < end; ++i) {
     const Entry& entry = entries_[i];
     sum.gain = std::max(sum.gain, entry.gain);
+    sum.thin = std::max(sum.thin, entry.thin);
     sum.served = std::min(sum.served, entry.served);
     if (entry.gain == 0.0f) continue;
     sum.noise_sum += entry.noise;
@@ -220,13 +228,18 @@ Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
   std::vector<Candidate> blocks;
   double noise_sum = 0.0;
   std::int64_t unsettled = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    const Block& block = blocks_[b];
+  for (const Block& block : blocks_) {
     noise_sum += block.noise_sum;
     unsettled += block.unsettled;
+  }
+  const double mean_noise = unsettled > 0 ? noise_sum / static_cast<double>(unsettled) : 0.0;
+  const float least = kLeastNoise * static_cast<float>(mean_noise);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block& block = blocks_[b];
     // The oldest is the most urgent if it is old; if not, none is old
     const std::uint32_t served = is_old(block.served, update) ? block.served : kNotLive;
-    const float urgency = urgency_of(block.gain, served, update, 1.0f);
+    const float urgency =
+        urgency_of(std::max(block.gain, least * block.thin), served, update, 1.0f);
     if (urgency > 0.0f) blocks.push_back({urgency, static_cast<int>(b)});
   }
   const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };
@@ -249,12 +262,12 @@ Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
         const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;
         worth = kHalfWorthCells / (kHalfWorthCells + cells);
       }
-      best.add({urgency_of(entry.gain, entry.served, update, worth), probe});
+      best.add({urgency_of(std::max(entry.gain, least * entry.thin), entry.served, update, worth),
+                probe});
     }
   }
 
   // Serve the most urgent ones until the rays are spent
-  const double mean_noise = unsettled > 0 ? noise_sum / static_cast<double>(unsettled) : 0.0;
   std::vector<std::pair<int, int>> chosen;
   std::uint64_t spent = 0;
   for (const Candidate& candidate : best.take()) {

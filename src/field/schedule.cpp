@@ -11,8 +11,9 @@ namespace {
 // From a class on to where the next one is as near, as a factor: the root of their ratio.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// The noise of a probe follows about so many of its last updates.
-constexpr float kNoiseMemory = 8.0f;
+// The noise of a probe follows about so many of its last updates: what few rays meet, a shorter
+// memory would forget.
+constexpr float kNoiseMemory = 32.0f;
 // Noise below this is not believed after few updates: a probe that saw nothing bright yet may.
 constexpr float kMinNoise = 1e-4f;
 

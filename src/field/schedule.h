@@ -80,14 +80,16 @@ class ProbeAgenda {
  private:
   /// What decides about a probe.
   struct Entry {
-    float noise = 0.0f;        ///< Standard deviation of what an update tells, around the probe.
-    float gain = 0.0f;         ///< By how much its error falls with each ray, in proportion; 0: it rests.
+    float noise = 0.0f;  ///< Standard deviation of what an update tells, around the probe.
+    float gain = 0.0f;   ///< By how much its error falls with each ray, in proportion; 0: it rests.
+    float thin = 0.0f;   ///< The same per noise.
     std::uint32_t served = 0;  ///< Update that served it last; 0: none; the largest: not live.
     ProbeState state = ProbeState::off;
   };
   /// What decides about a block of probes that follow one another.
   struct Block {
     float gain = 0.0f;         ///< The largest.
+    float thin = 0.0f;         ///< Likewise.
     std::uint32_t served = 0;  ///< The smallest.
     float noise_sum = 0.0f;    ///< Of the probes that do not rest, ...
     int unsettled = 0;         ///< ... so many.

@@ -101,7 +101,9 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   statistics.probes_traced += static_cast<int>(probes.size());
   statistics.relight_ms += watch.lap();
 
-  // What was blended in is a share of how far the rays were from what was held
+  // What was blended in is a share of how far the rays were from what was held. Noise is held to
+  // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
+  // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
   const auto texels = static_cast<std::size_t>(tile_texels());
   const float darkest = kDarkShare * mean_light;
   double light_sum = 0.0;
@@ -110,7 +112,9 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     const TileLight held(&light[probes[k] * texels], texels), before(&history[k * texels], texels);
     const float square = relative_square(held, before, darkest);
     light_sum += mean_luminance(held);
-    learn_noise(square / (shares[k] * shares[k]), weights[k], record);
+    const float brightness =
+        mean_light > 0.0f ? max(mean_luminance(before), darkest) / mean_light : 1.0f;
+    learn_noise(square * brightness / (shares[k] * shares[k]), weights[k], record);
     record.samples = min(record.samples, longest);
     record.served = static_cast<std::uint32_t>(updates) + 1;
     record.state = state_once_traced(record.state);
@@ -118,7 +122,13 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     agenda.changed(probes[k]);
   }
   if (!probes.empty()) {
-    mean_light = static_cast<float>(light_sum / static_cast<double>(probes.size()));
+    const auto traced = static_cast<float>(probes.size());
+    const float now = static_cast<float>(light_sum) / traced;
+    const ProbeCounts& states = agenda.states();
+    const int live = store.probes() - states.off - states.sleeping;
+    const float share =
+        mean_light > 0.0f ? min(traced / max(static_cast<float>(live), 1.0f), 1.0f) : 1.0f;
+    mean_light += share * (now - mean_light);
   }
   store_light(probes);
   statistics.blend_ms += watch.lap();
