@@ -18,7 +18,7 @@ constexpr std::size_t kBlocksPerTask = 64;
 
 // A probe whose light is known this well rests until its age calls it: surfaces average the noise
 // of eight.
-constexpr float kSettledError = 0.005f;
+constexpr float kSettledError = 0.01f;
 
 // What the first light of a sleeping probe is held to gain: others come first until theirs is about
 // as good as can be seen.
@@ -214,11 +214,22 @@ void ProbeAgenda::note(std::span<const ProbeRecord> records) {
 }
 
 /// In proportion to the noise; but first a few each, so that all have some light soon.
-int ProbeAgenda::rays_of(const Entry& entry, double mean_noise) const {
+int ProbeAgenda::rays_of(const Entry& entry, float mean_noise) const {
   if (entry.served == 0) return kRayClasses.front();
-  const bool unknown = entry.state == ProbeState::sleeping || mean_noise <= 0.0;
-  const double share = unknown ? 1.0 : entry.noise / mean_noise;
-  return ray_class_for(static_cast<float>(rays_per_probe_ * share));
+  const bool unknown = entry.state == ProbeState::sleeping || mean_noise <= 0.0f;
+  const float share = unknown ? 1.0f : entry.noise / mean_noise;
+  return ray_class_for(static_cast<float>(rays_per_probe_) * share);
+}
+
+/// The mean noise of the probes that do not rest.
+float ProbeAgenda::mean_noise() const {
+  double noise_sum = 0.0;
+  std::int64_t unsettled = 0;
+  for (const Block& block : blocks_) {
+    noise_sum += block.noise_sum;
+    unsettled += block.unsettled;
+  }
+  return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
 }
 
 Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
@@ -226,14 +237,8 @@ Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
                              const std::optional<glm::vec3>& viewer_ws) const {
   // Order the blocks by what the most urgent of their probes can be at most
   std::vector<Candidate> blocks;
-  double noise_sum = 0.0;
-  std::int64_t unsettled = 0;
-  for (const Block& block : blocks_) {
-    noise_sum += block.noise_sum;
-    unsettled += block.unsettled;
-  }
-  const double mean_noise = unsettled > 0 ? noise_sum / static_cast<double>(unsettled) : 0.0;
-  const float least = kLeastNoise * static_cast<float>(mean_noise);
+  const float noise = mean_noise();
+  const float least = kLeastNoise * noise;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
     // The oldest is the most urgent if it is old; if not, none is old
@@ -272,7 +277,7 @@ Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
   std::uint64_t spent = 0;
   for (const Candidate& candidate : best.take()) {
     const Entry& entry = entries_[candidate.probe];
-    const int rays = rays_of(entry, mean_noise);
+    const int rays = rays_of(entry, noise);
     if (spent + rays > ray_budget) break;
     spent += rays;
     chosen.emplace_back(candidate.probe, rays);

@@ -98,7 +98,8 @@ class ProbeAgenda {
   void note_record(std::span<const ProbeRecord> records, int probe);
   void note_noise(std::span<const ProbeRecord> records, int probe);
   void note_block(std::size_t block);
-  int rays_of(const Entry& entry, double mean_noise) const;
+  float mean_noise() const;
+  int rays_of(const Entry& entry, float mean_noise) const;
   template <class Body>
   void for_each_neighbour(int probe, Body body) const;
 

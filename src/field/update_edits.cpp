@@ -4,9 +4,9 @@
 // What averaging knew better than the rays of one update is kept: with H the light that a probe
 // holds and T E what its last rays told of the light E that there was, each texel is corrected by
 // the gain g = H / (T E). After the edit the light solves
-//   +------------------------+
+//   +---------------------------+
 //   |  E_new = g (T_new E_new)  |
-//   +------------------------+
+//   +---------------------------+
 // Where nothing changed that is H itself; where all light became k times as bright, k H; where it
 // went out, 0; and nowhere has it more noise than the change itself. T E is remembered when the
 // light is solved for, so that g holds however long a probe has waited to follow.
