@@ -49,6 +49,7 @@ IrradianceField::State::State(const FieldSettings& field_settings, const FieldGr
       reaches(store.probes()),
       light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
       told(light.size(), vec4(0.0f)),
+      told_roughly(store.probes()),
       agenda(store.grid(), settings) {}
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}

@@ -44,6 +44,8 @@ struct IrradianceField::State {
   std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
   WorkingIrradiance light;          ///< That the store holds, before it was encoded.
   WorkingIrradiance told;           ///< What of it the last rays told on their own.
+  /// 1: told is as exact as the solution, not as what the probe holds: it was traced since.
+  std::vector<std::uint8_t> told_roughly;
   ProbeAgenda agenda;
   OpenEdits edits;
   RayCost ray_cost;
@@ -80,6 +82,7 @@ struct IrradianceField::State {
   Followed follow(const World& world, std::uint64_t ray_budget,
                   const std::optional<vec3>& viewer_ws, UpdateStatistics& statistics);
   WorkingIrradiance gain_of(std::span<const int> probes) const;
+  void tell_exactly(std::span<const int> probes);
   void remember_told(std::span<const int> probes, const WorkingIrradiance& solution);
   void follow_slice(const World& world, std::span<const WorldChanges> changes,
                     std::span<const int> probes, std::span<const int> all,

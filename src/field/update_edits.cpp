@@ -121,6 +121,24 @@ void IrradianceField::State::remember_told(std::span<const int> probes,
   const auto texels = static_cast<std::size_t>(tile_texels());
   for (std::size_t k = 0; k < probes.size(); ++k) {
     std::copy_n(&solution[k * texels], texels, &told[probes[k] * texels]);
+    told_roughly[probes[k]] = 1;
+  }
+}
+
+/// Computes what the rays of probes traced since the last edit tell of the light as it is held:
+/// where it is dark, the solution's error is more than what edits are held to touch. Others keep
+/// what they told, lest changes too small to be seen be lost.
+void IrradianceField::State::tell_exactly(std::span<const int> probes) {
+  std::vector<int> rough;
+  for (const int probe : probes) {
+    if (told_roughly[probe] != 0) rough.push_back(probe);
+  }
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  WorkingIrradiance exact = light_of(told, rough, tile_texels());
+  transport(rough).apply(light, exact, exact);
+  for (std::size_t k = 0; k < rough.size(); ++k) {
+    std::copy_n(&exact[k * texels], texels, &told[rough[k] * texels]);
+    told_roughly[rough[k]] = 0;
   }
 }
 
@@ -281,6 +299,8 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
     });
   }
   if (edits.before.empty() || edits.revision != revision) {
+    // Before any surfel follows, while light and rays are of one world
+    if (edits.before.empty()) tell_exactly(all);
     edits.before = light;
     edits.gain.resize(light.size());
     edits.followed.clear();
