@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
-#include <stdexcept>
 
+#include "bench/stage.h"
 #include "core/parallel.h"
 #include "field/blend.h"
 #include "field/probe_grid.h"
@@ -14,8 +14,6 @@
 #include "field/surfels.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/shade_hits.h"
-#include "raytracing/surface.h"
-#include "scenes/builtin.h"
 
 namespace lambent::bench {
 namespace {
@@ -23,49 +21,13 @@ namespace {
 constexpr std::size_t kRaysPerTask = 1152;  // as eight probes trace together
 constexpr int kSettlingUpdates = 2;
 
-template <class Value>
-Value value_or_throw(Expected<Value> result) {
-  if (!result) throw std::runtime_error(result.error().message());
-  return std::move(*result);
-}
-
-/// One sun and a sky, as in the project's table of speeds.
-void light_up(Scene& scene) {
-  if (!scene.lights.empty() || scene.environment.radiance != glm::vec3(0.0f)) return;
-  Light sun;
-  sun.name = "sun";
-  sun.type = Light::Type::directional;
-  sun.intensity = {20.0f, 18.0f, 15.0f};
-  sun.direction_ws = glm::normalize(glm::vec3(-0.62f, -0.8f, 0.10f));
-  scene.lights.push_back(sun);
-  scene.environment.radiance = {1.5f, 2.0f, 2.6f};
-}
-
-Scene lit(Scene scene) {
-  light_up(scene);
-  return scene;
-}
-
-/// The scene's first camera, or one that looks along the scene's length from near one end.
-Camera camera_of(const Scene& scene) {
-  if (!scene.cameras.empty()) return scene.cameras.front();
-  const Bounds bounds = world_bounds(scene);
-  const glm::vec3 size = bounds.max - bounds.min;
-  constexpr float kEyeHeight = 0.15f, kDistance = 0.4f;  // shares of height and of length
-  const glm::vec3 middle = 0.5f * (bounds.min + bounds.max);
-  const glm::vec3 along = size.x >= size.z ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);
-  glm::vec3 eye = middle - kDistance * size * along;
-  eye.y = bounds.min.y + kEyeHeight * size.y;
-  return look_at(eye, eye + along, 1.0f);
-}
-
 }  // namespace
 
 Workload::Workload(std::string scene_name, Scene made)
     : name(std::move(scene_name)),
-      scene(lit(std::move(made))),
+      scene(std::move(made)),
       world(scene),
-      camera(camera_of(scene)),
+      camera(scene.cameras.front()),
       field(value_or_throw(IrradianceField::make(FieldSettings{}, open_bounds(world)))) {
   for (int i = 0; i < kSettlingUpdates; ++i) field.update(world);
 }
@@ -74,7 +36,7 @@ Workload& workload() {
   static Workload work = [] {
     const char* asked = std::getenv("LAMBENT_BENCH_SCENE");
     const std::string name = asked != nullptr && *asked != '\0' ? asked : "atrium";
-    return Workload(name, value_or_throw(scenes::open_scene(name)));
+    return Workload(name, open_stage(name));
   }();
   return work;
 }
@@ -133,16 +95,9 @@ std::vector<Ray> primary_rays(const Workload& work) {
 }
 
 std::vector<FieldQuery> pixel_queries(const Workload& work) {
-  const std::vector<Ray> rays = primary_rays(work);
-  std::vector<Hit> hits;
-  time_closest_hits(work, rays, hits);
-  std::vector<FieldQuery> queries(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    // A pixel that shows the sky costs as much as any other
-    if (hits[i].missed()) continue;
-    const Surface surface = surface_at(work.scene, rays[i], hits[i]);
-    queries[i] = {surface.position_ws, surface.normal_ws, -rays[i].direction};
-  }
+  std::vector<FieldQuery> queries = seen_points(work.world, kWidth, kHeight);
+  // A pixel that shows the sky costs as much as any other
+  queries.resize(static_cast<std::size_t>(kWidth) * kHeight);
   return queries;
 }
 

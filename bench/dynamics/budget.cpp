@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a budget of rays buys.
+#include <array>
 #include <cstdio>
+#include <limits>
 
 #include "bench/dynamics/subject.h"
 
@@ -9,6 +11,12 @@ namespace {
 
 constexpr int kPixels = 64;
 constexpr int kReferenceSamples = 1024;
+
+// Errors to reach, and how long that may take: updates, and times the rays that uniform took.
+constexpr std::array kTargets = {0.08, 0.04, 0.03};
+constexpr int kMostUpdates = 400;
+constexpr std::uint64_t kMostTimes = 2;
+constexpr std::uint64_t kAdaptiveBudget = 100000;  // rays a frame
 
 /// Rays that a full update traces, of all kinds.
 std::uint64_t full_rays(Subject& subject) {
@@ -36,34 +44,54 @@ void print_curve(const std::string& name) {
   }
 }
 
-/// The first number of probe rays at which the error against what the field settles to is not
-/// above `target`.
-std::uint64_t rays_to_error(Subject& subject, const FieldSettings& settings,
-                            const UpdateRequest& request, std::span<const FieldQuery> points,
-                            std::span<const double> settled, double target) {
-  IrradianceField field = subject.fresh_field(settings);
-  constexpr std::uint64_t kTooMany = 1ull << 32;
+/// Where the error against what a field settles to stood after so many probe rays.
+struct Mark {
+  std::uint64_t rays;
+  double error;
+};
+
+/// Follows a fresh field until the error is not above `target`, or so many rays are spent.
+std::vector<Mark> follow_error(Subject& subject, const UpdateRequest& request,
+                               std::span<const FieldQuery> points, std::span<const double> settled,
+                               double target, std::uint64_t most_rays) {
+  IrradianceField field = subject.fresh_field(subject.field.settings());
+  std::vector<Mark> marks;
   std::uint64_t rays = 0;
-  while (rays < kTooMany) {
+  for (int i = 0; i < kMostUpdates && rays < most_rays; ++i) {
     rays += field.update(subject.world, request).probe_rays;
-    if (compare(light_at(field, points), settled).relative_rmse <= target) return rays;
+    marks.push_back({rays, compare(light_at(field, points), settled).relative_rmse});
+    if (marks.back().error <= target) break;
   }
-  return rays;
+  return marks;
+}
+
+/// Rays after which the error was no longer above `target`; 0: it never was.
+std::uint64_t rays_to(std::span<const Mark> marks, double target) {
+  for (const Mark& mark : marks) {
+    if (mark.error <= target) return mark.rays;
+  }
+  return 0;
 }
 
 void compare_adaptive(const std::string& name) {
   Subject subject(name, {});
   const std::vector<FieldQuery> points = seen_points(subject, kPixels);
   const std::vector<double> settled = light_at(subject.settled_field(), points);
-  for (const double target : {0.08, 0.04, 0.02}) {
-    const glm::vec3 viewer = subject.scene.cameras.front().world_from_view[3];
-    const FieldSettings& settings = subject.field.settings();
-    const std::uint64_t uniform = rays_to_error(subject, settings, {}, points, settled, target);
-    const std::uint64_t adaptive =
-        rays_to_error(subject, settings, {100000, 0.0, viewer}, points, settled, target);
-    std::printf("| %s | %.2f | %.2f | %.2f | %.2f |\n", name.c_str(), target,
-                static_cast<double>(uniform) * 1e-6, static_cast<double>(adaptive) * 1e-6,
-                static_cast<double>(uniform) / static_cast<double>(adaptive));
+  const glm::vec3 viewer = subject.scene.cameras.front().world_from_view[3];
+  const double hardest = kTargets.back();
+  const std::vector<Mark> uniform = follow_error(subject, {}, points, settled, hardest,
+                                                 std::numeric_limits<std::uint64_t>::max());
+  const std::vector<Mark> adaptive =
+      follow_error(subject, {kAdaptiveBudget, 0.0, viewer}, points, settled, hardest,
+                   kMostTimes * uniform.back().rays);
+  for (const double target : kTargets) {
+    const auto first = static_cast<double>(rays_to(uniform, target));
+    const auto second = static_cast<double>(rays_to(adaptive, target));
+    std::printf("| %s | %.2f |", name.c_str(), target);
+    for (const double rays : {first, second}) {
+      rays > 0.0 ? std::printf(" %.2f |", rays * 1e-6) : std::printf(" not reached |");
+    }
+    first > 0.0 && second > 0.0 ? std::printf(" %.2f |\n", first / second) : std::printf(" |\n");
   }
 }
 
@@ -88,26 +116,41 @@ void measure_adaptive() {
 }
 
 void measure_moving() {
-  std::printf("### One moving object: probe rays of the schedule against those of full updates\n");
-  std::printf("| updates | probe rays a frame | relative RMSE of E against the settled light |\n");
+  std::printf(
+      "### One moving object, atrium: rays of the schedule against those of full updates\n");
+  std::printf(
+      "| updates | probe + shadow rays a frame | relative RMSE of E against the settled |\n");
   std::printf("|---|---|---|\n");
   constexpr int kFrames = 32;
-  for (const bool scheduled : {false, true}) {
+  std::vector<double> settled;
+  std::uint64_t full = 0;
+  for (const double share : {1.0, 0.5, 0.25}) {
     Subject atrium("atrium", {});
     for (int i = 0; i < 16; ++i) atrium.field.update(atrium.world);
-    std::uint64_t rays = 0;
     UpdateRequest request;
-    if (scheduled) request = {60000, 0.0, atrium.scene.cameras.front().world_from_view[3]};
+    if (full != 0) {
+      request.ray_budget = static_cast<std::uint64_t>(share * static_cast<double>(full));
+      request.viewer_ws = atrium.scene.cameras.front().world_from_view[3];
+    }
+    std::uint64_t probe_rays = 0, shadow_rays = 0;
     for (int i = 0; i < kFrames; ++i) {
       atrium.move("", {0.03f, 0.0f, 0.0f});
       atrium.apply_edits();
-      rays += atrium.field.update(atrium.world, request).probe_rays;
+      const UpdateStatistics statistics = atrium.field.update(atrium.world, request);
+      probe_rays += statistics.probe_rays / kFrames;
+      shadow_rays += statistics.shadow_rays / kFrames;
     }
+    const bool first = full == 0;
+    if (first) full = probe_rays + shadow_rays;
     const std::vector<FieldQuery> points = seen_points(atrium, kPixels);
-    const Difference difference =
-        compare(light_at(atrium.field, points), light_at(atrium.settled_field(), points));
-    std::printf("| %s | %.0f | %.4f |\n", scheduled ? "schedule" : "all probes, 144 rays",
-                static_cast<double>(rays) / kFrames, difference.relative_rmse);
+    if (first) settled = light_at(atrium.settled_field(), points);
+    const Difference difference = compare(light_at(atrium.field, points), settled);
+    const std::string label =
+        first ? "all probes, 144 rays"
+              : "schedule, " + std::to_string(static_cast<int>(100.0 * share)) + " % of the rays";
+    std::printf("| %s | %llu + %llu | %.4f |\n", label.c_str(),
+                static_cast<unsigned long long>(probe_rays),
+                static_cast<unsigned long long>(shadow_rays), difference.relative_rmse);
   }
 }
 

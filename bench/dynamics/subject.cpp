@@ -2,13 +2,9 @@
 #include "bench/dynamics/subject.h"
 
 #include <cmath>
-#include <stdexcept>
 
-#include "raytracing/camera_rays.h"
-#include "raytracing/raytracer.h"
-#include "raytracing/surface.h"
+#include "bench/stage.h"
 #include "reference/path_tracer.h"
-#include "scenes/builtin.h"
 #include "shared/color.h"
 
 namespace lambent::dynamics {
@@ -18,44 +14,16 @@ namespace {
 constexpr int kSettledUpdates = 48;
 constexpr int kSettledRays = 512;
 
-template <class T>
-T value_or_throw(Expected<T> value) {
-  if (!value) throw std::runtime_error(value.error().message());
-  return std::move(*value);
-}
-
-Scene lit_scene(const std::string& name) {
-  Scene scene = value_or_throw(scenes::open_scene(name));
-  bool lit = !scene.lights.empty() || scene.environment.radiance != glm::vec3(0.0f);
-  for (const Material& material : scene.materials) {
-    lit = lit || material.emission != glm::vec3(0.0f);
-  }
-  if (!lit) {
-    Light sun;
-    sun.type = Light::Type::directional;
-    sun.intensity = glm::vec3(10.0f);
-    sun.direction_ws = glm::normalize(glm::vec3(0.2f, -1.0f, 0.3f));
-    scene.lights.push_back(sun);
-    scene.environment.radiance = glm::vec3(1.0f);
-  }
-  if (scene.cameras.empty()) {
-    // Down the nave of Sponza, which comes without a camera
-    constexpr float kFieldOfView = 1.0471975512f;  // 60 degrees [rad]
-    scene.cameras.push_back(look_at({-8.0f, 1.5f, 0.3f}, {6.0f, 3.5f, 0.0f}, kFieldOfView));
-  }
-  return scene;
-}
-
 }  // namespace
 
 Subject::Subject(const std::string& name, const FieldSettings& settings)
-    : scene(lit_scene(name)),
+    : scene(bench::open_stage(name)),
       bounds(open_bounds(World(scene))),
       world(scene),
       field(fresh_field(settings)) {}
 
 IrradianceField Subject::fresh_field(const FieldSettings& settings) const {
-  return value_or_throw(IrradianceField::make(settings, bounds));
+  return bench::value_or_throw(IrradianceField::make(settings, bounds));
 }
 
 IrradianceField Subject::settled_field() const {
@@ -70,7 +38,7 @@ IrradianceField Subject::settled_field() const {
 }
 
 void Subject::apply_edits() {
-  value_or_throw(world.update());
+  bench::value_or_throw(world.update());
 }
 
 void Subject::move(const std::string& instance, const glm::vec3& by) {
@@ -82,18 +50,7 @@ void Subject::move(const std::string& instance, const glm::vec3& by) {
 }
 
 std::vector<FieldQuery> seen_points(const Subject& subject, int pixels_across) {
-  std::vector<FieldQuery> points;
-  const int count = pixels_across * pixels_across;
-  for (int i = 0; i < count; ++i) {
-    const Ray ray = camera_ray(subject.scene.cameras.front(), pixels_across, pixels_across,
-                               static_cast<float>(i % pixels_across) + 0.5f,
-                               static_cast<float>(i / pixels_across) + 0.5f);
-    const Hit hit = subject.world.tracer().closest_hit(ray);
-    if (hit.missed()) continue;
-    const Surface surface = surface_at(subject.scene, ray, hit);
-    points.push_back({surface.position_ws, surface.normal_ws, -ray.direction});
-  }
-  return points;
+  return bench::seen_points(subject.world, pixels_across, pixels_across);
 }
 
 std::vector<double> light_at(const IrradianceField& field, std::span<const FieldQuery> points) {

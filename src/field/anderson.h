@@ -8,10 +8,12 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "core/large_pages.h"
+
 namespace lambent {
 
 /// Irradiance of probes' interior texels, probe after probe, four floats a texel (the fourth is 0).
-using WorkingIrradiance = std::vector<glm::vec4>;
+using WorkingIrradiance = std::vector<glm::vec4, LargePages<glm::vec4>>;
 
 /// Inner product and norm over all texels; the same bits on any number of threads.
 double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b);

@@ -52,35 +52,71 @@ ProbeState state_once_traced(ProbeState state) {
   return state;
 }
 
+namespace {
+
+/// Where probes belong that may light something in a box: around a place in a grid, in cells.
+struct LitCells {
+  vec3 middle, reach;
+
+  LitCells(const Bounds& box, const ProbeGrid& grid) {
+    const vec3 half = 0.5f * (box.max - box.min);
+    middle = grid_coords(grid, box.min + half);
+    // A box along the grid's axes around the box
+    const mat3 turn(abs(grid.axes[0]), abs(grid.axes[1]), abs(grid.axes[2]));
+    const float bias = kBiasScale * kBias * smallest_spacing(grid);
+    reach = (half * turn + bias) / grid.spacing + 1.0f;
+  }
+};
+
+void classify_probe(const ProbeStore& store, const ProbeReach& reach,
+                    std::span<const Bounds> moving, int probe, ProbeRecord& record) {
+  const ProbeGrid& grid = store.grid_of(probe);
+  const vec3 home = store.probe_home_ws(probe);
+  const bool near_moving = std::any_of(moving.begin(), moving.end(),
+                                       [&](const Bounds& b) { return may_light(b, home, grid); });
+  record.state = next_state(record.state, reach, near_moving);
+}
+
+}  // namespace
+
 bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid) {
   if (moving.empty()) return false;
-  // A box along the grid's axes around the box
-  const vec3 half = 0.5f * (moving.max - moving.min);
-  const vec3 centre = grid_coords(grid, moving.min + half);
-  const mat3 turn(abs(grid.axes[0]), abs(grid.axes[1]), abs(grid.axes[2]));
-  const float bias = kBiasScale * kBias * smallest_spacing(grid);
-  const vec3 reach = (half * turn + bias) / grid.spacing + 1.0f;
-  return glm::all(glm::lessThanEqual(abs(grid_coords(grid, home_ws) - centre), reach));
+  const LitCells cells(moving, grid);
+  return glm::all(glm::lessThanEqual(abs(grid_coords(grid, home_ws) - cells.middle), cells.reach));
 }
 
 void classify_probes(const ProbeStore& store, std::span<const ProbeReach> reaches,
                      std::span<const Bounds> moving, std::span<ProbeRecord> records) {
   assert(reaches.size() == records.size());
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const ProbeGrid& grid = store.grid_of(static_cast<int>(i));
-    const vec3 home = store.probe_home_ws(static_cast<int>(i));
-    const bool near_moving = std::any_of(moving.begin(), moving.end(),
-                                         [&](const Bounds& b) { return may_light(b, home, grid); });
-    records[i].state = next_state(records[i].state, reaches[i], near_moving);
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    classify_probe(store, reaches[probe], moving, probe, records[probe]);
   }
 }
 
-ProbeCounts count_states(std::span<const ProbeRecord> records) {
-  ProbeCounts counts;
-  int* const by_state[] = {&counts.off,   &counts.sleeping,       &counts.newly_awake,
-                           &counts.awake, &counts.newly_vigilant, &counts.vigilant};
-  for (const ProbeRecord& record : records) ++*by_state[static_cast<int>(record.state)];
-  return counts;
+std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store,
+                                      std::span<const ProbeReach> reaches,
+                                      std::span<const Bounds> moving,
+                                      std::span<ProbeRecord> records) {
+  std::vector<int> changed;
+  if (box.empty()) return changed;
+  for (const ProbeGrid& grid : store.grids()) {
+    // A probe more on each side, for rounding; the probe's own test decides
+    const LitCells cells(box, grid);
+    const vec3 reach = cells.reach + 1.0f, last(grid.count - 1);
+    const ivec3 low(clamp(cells.middle - reach, vec3(0.0f), last));
+    const ivec3 high(clamp(cells.middle + reach, vec3(0.0f), last));
+    for (int z = low.z; z <= high.z; ++z) {
+      for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
+          const int probe = probe_index(grid, {x, y, z});
+          const ProbeState before = records[probe].state;
+          classify_probe(store, reaches[probe], moving, probe, records[probe]);
+          if (records[probe].state != before) changed.push_back(probe);
+        }
+      }
+    }
+  }
+  return changed;
 }
 
 }  // namespace lambent

@@ -38,7 +38,11 @@ bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid)
 void classify_probes(const ProbeStore& store, std::span<const ProbeReach> reaches,
                      std::span<const Bounds> moving, std::span<ProbeRecord> records);
 
-/// How many probes are in each state.
-ProbeCounts count_states(std::span<const ProbeRecord> records);
+/// The same for the probes that may light something in this box alone. Returns those whose state
+/// changed.
+std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store,
+                                      std::span<const ProbeReach> reaches,
+                                      std::span<const Bounds> moving,
+                                      std::span<ProbeRecord> records);
 
 }  // namespace lambent

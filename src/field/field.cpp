@@ -64,7 +64,10 @@ IrradianceField::State::State(const FieldSettings& field_settings, std::span<con
       records(store.probes()),
       sights(store.probes()),
       reaches(store.probes()),
-      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)) {
+      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
+      told(light.size(), vec4(0.0f)),
+      told_roughly(store.probes()),
+      agenda(store.probes(), roles, settings) {
   for (const ProbeGrid& grid : store.grids()) grids.push_back(field_grid(grid));
 }
 
@@ -89,8 +92,14 @@ void IrradianceField::reset() {
   std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
   std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
   s.sights = ProbeSights(s.store.probes());
+  std::fill(s.told.begin(), s.told.end(), vec4(0.0f));
   s.edits = {};
   s.edited_places.clear();
+  s.late_sleepers.clear();
+  s.followed_revision = 0;
+  s.classified = false;
+  s.agenda.changed_all();
+  s.starting = true;
   s.followed_last = false;
   s.updates = 0;
 }

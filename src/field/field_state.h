@@ -52,13 +52,21 @@ struct IrradianceField::State {
   ProbeSights sights;               ///< Kept for hybrid visibility alone.
   std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
   WorkingIrradiance light;          ///< That the store holds, before it was encoded.
+  WorkingIrradiance told;           ///< What of it the last rays told on their own.
+  /// 1: told is as exact as the solution, not as what the probe holds: it was traced since.
+  std::vector<std::uint8_t> told_roughly;
+  ProbeAgenda agenda;
   OpenEdits edits;
   std::vector<EditedPlace> edited_places;
   std::uint64_t placed_revision = 0;  ///< Of the world that edited_places know.
   RayCost ray_cost;
   int updates = 0;
-  float mean_light = 0.0f;     ///< Luminance that probes hold on average, when last traced.
-  bool followed_last = false;  ///< The last update followed edits and traced nothing else.
+  bool starting = true;     ///< Some probe has not been traced since the field knew nothing.
+  float mean_light = 0.0f;  ///< Luminance that probes hold on average, when last traced.
+  std::uint64_t followed_revision = 0;  ///< Of the world that all but sleeping probes know.
+  std::vector<int> late_sleepers;       ///< Sleeping probes that know an older world, oldest first.
+  std::size_t sleepers_a_slice = 0;     ///< ... of which so many follow in an update.
+  bool followed_last = false;           ///< The last update followed edits and traced nothing else.
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
   /// Of this update's dither.
@@ -87,6 +95,8 @@ struct IrradianceField::State {
                std::span<vec4> tiles) const;
   /// Says what each probe is for, with what moves where it is now.
   void classify(const World& world);
+  bool classified = false;       ///< That has been said since reaches were found.
+  std::vector<Bounds> moved_to;  ///< What moved when that was last said.
   VisibilityRays visibility(const World& world) const {
     return {settings.visibility, &world.tracer(), &sights};
   }
@@ -94,14 +104,22 @@ struct IrradianceField::State {
   /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
   Followed follow(const World& world, std::uint64_t ray_budget,
                   const std::optional<vec3>& viewer_ws, UpdateStatistics& statistics);
-  void keep_gain(std::span<const int> probes);
+  WorkingIrradiance gain_of(std::span<const int> probes) const;
+  void tell_exactly(std::span<const int> probes);
+  void remember_told(std::span<const int> probes, const WorkingIrradiance& solution);
   void follow_slice(const World& world, std::span<const WorldChanges> changes,
                     std::span<const int> probes, std::span<const int> all,
                     UpdateStatistics& statistics);
   void solve_edits(bool done, UpdateStatistics& statistics);
+  int settle_edits(std::span<const int> probes, const WorkingIrradiance& before,
+                   const RelightResult& solved, const WorkingIrradiance& gain, bool done);
+  /// Has some of the sleeping probes follow that others left behind.
+  void follow_sleepers(const World& world, std::span<const int> all, UpdateStatistics& statistics);
   void forget_light(int probe, std::uint64_t revision);
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
+  /// Solves for the light of all probes that have been traced, from what their last rays met.
+  void solve_start(UpdateStatistics& statistics);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
   /// Takes over what a file holds.

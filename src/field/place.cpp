@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a field's probes stand and what they are for: relocation and classification.
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "core/parallel.h"
 #include "field/distances.h"
@@ -60,6 +62,11 @@ std::vector<int> IrradianceField::State::place(const World& world, std::span<con
 }
 
 void IrradianceField::State::settle_in(const World& world, std::span<const int> moved) {
+  // Without surfels they follow no edit any more
+  std::vector<int> followed;
+  std::set_difference(edits.followed.begin(), edits.followed.end(), moved.begin(), moved.end(),
+                      std::back_inserter(followed));
+  edits.followed = std::move(followed);
   find_reaches(world, moved, /*learn_distances=*/true);
   std::vector<int> traced;
   for (int probe = 0; probe < store.probes(); ++probe) {
@@ -107,7 +114,10 @@ void IrradianceField::State::place_edited(const World& world) {
   }
   edited_places.erase(at_rest, edited_places.end());
   const std::vector<int> moved = place(world, near);
-  for (const int probe : moved) records[probe].served = 0;
+  for (const int probe : moved) {
+    records[probe].served = 0;
+    forget_light(probe, world.revision());
+  }
   if (!moved.empty()) settle_in(world, moved);
 }
 
@@ -117,11 +127,13 @@ void IrradianceField::State::forget_place(int probe) {
       static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
   records[probe].samples = 0.0f;
   traces[probe] = {};
+  agenda.changed(probe);
   store.blend_moments(probe, nothing, 1.0f, 0u);
 }
 
 void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes,
                                           bool learn_distances) {
+  classified = false;
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
   const DistanceBlend blend(settings, sight_directions());
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -153,7 +165,25 @@ void IrradianceField::State::classify(const World& world) {
   for (int i = 0; i < static_cast<int>(instances.size()); ++i) {
     if (instances[i].dynamic) moving.push_back(world.instance_bounds(i));
   }
-  classify_probes(store, reaches, moving, records);
+  if (!classified) {
+    classify_probes(store, reaches, moving, records);
+    agenda.changed_all();
+  } else if (moving != moved_to) {
+    // States differ where something that moved on was or is
+    const std::size_t most = std::max(moved_to.size(), moving.size());
+    for (std::size_t i = 0; i < most; ++i) {
+      const Bounds before = i < moved_to.size() ? moved_to[i] : Bounds{};
+      const Bounds now = i < moving.size() ? moving[i] : Bounds{};
+      if (before == now) continue;
+      for (const Bounds& box : {before, now}) {
+        for (const int probe : classify_probes_near(box, store, reaches, moving, records)) {
+          agenda.changed(probe);
+        }
+      }
+    }
+  }
+  moved_to = std::move(moving);
+  classified = true;
 }
 
 }  // namespace lambent

@@ -2,12 +2,11 @@
 // What probes hold between updates: encoded octahedral tiles with gutters.
 #pragma once
 
-#include <tbb/cache_aligned_allocator.h>
-
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/large_pages.h"
 #include "field/probe_grid.h"
 #include "field/tile.h"
 #include "lambent/field.h"
@@ -109,8 +108,8 @@ class ProbeStore {
   IrradianceFormat irradiance_format_;
   DistanceFormat distance_format_;
   // Aligned so that a row of a distance tile is one line of the cache.
-  std::vector<uint, tbb::cache_aligned_allocator<uint>> irradiance_;
-  std::vector<uint, tbb::cache_aligned_allocator<uint>> distance_;
+  std::vector<uint, LargePages<uint>> irradiance_;
+  std::vector<uint, LargePages<uint>> distance_;
   std::vector<uint> offsets_;
 };
 

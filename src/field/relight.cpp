@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.h"
 #include "core/simd.h"
@@ -241,7 +242,8 @@ RelightResult relight_bounces(const TransportOperator& transport, std::span<cons
     transport.apply(solution, history, received);
     solution.swap(received);
   }
-  return {bounces, 0.0, finish(transport, shares, history, solution, field)};
+  const double change = finish(transport, shares, history, solution, field);
+  return {bounces, 0.0, change, std::move(solution)};
 }
 
 RelightResult relight(const TransportOperator& transport, std::span<const float> shares,
@@ -286,6 +288,7 @@ RelightResult relight(const TransportOperator& transport, std::span<const float>
     result.error = image_norm > 0.0 ? share * remaining * norm(residual) / image_norm : 0.0;
     if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {
       result.change = finish(transport, shares, history, image, field);
+      result.solution = std::move(image);
       return result;
     }
 

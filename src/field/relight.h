@@ -65,7 +65,8 @@ struct RelightSettings {
 struct RelightResult {
   int iterations = 0;
   double error = 0.0;  ///< Estimated relative error of the field that the solution is blended into.
-  double change = 0.0;  ///< Of the probes' light, root mean square over root mean square.
+  double change = 0.0;         ///< Of the probes' light, root mean square over root mean square.
+  WorkingIrradiance solution;  ///< Of the probes, before a share of it was blended in.
 };
 
 /// a *= b, texel by texel

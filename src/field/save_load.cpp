@@ -45,6 +45,8 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   }
   updates = static_cast<int>(file.updates);
   placed_revision = world.revision();
+  starting = updates == 0;
+  agenda.changed_all();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(tile_texels());
   double sum = 0.0;

@@ -2,29 +2,18 @@
 #include "field/schedule.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 namespace lambent {
 namespace {
 
-// Rays of a probe in an update with a budget, as many as its noise asks for. Few classes, so that
-// many probes share one set of directions and its blend matrix.
-constexpr std::array kRayClasses = {32, 64, 128, 256, 512};
 // From a class on to where the next one is as near, as a factor: the root of their ratio.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// A probe whose light is known this well rests until its age calls it: surfaces average the noise
-// of eight.
-constexpr float kSettledError = 0.01f;
-
-// A probe is worth half as much so many cells away from the camera.
-constexpr float kHalfWorthCells = 16.0f;
-
-// The noise of a probe follows about so many of its last updates.
-constexpr float kNoiseMemory = 8.0f;
+// The noise of a probe follows about so many of its last updates: what few rays meet, a shorter
+// memory would forget.
+constexpr float kNoiseMemory = 32.0f;
 // Noise below this is not believed after few updates: a probe that saw nothing bright yet may.
 constexpr float kMinNoise = 1e-4f;
 
@@ -33,47 +22,21 @@ constexpr double kCostShare = 0.2;
 // Assumed of a ray before any was timed [ms]: a slow processor's.
 constexpr double kFirstGuessMs = 1e-3;
 
+}  // namespace
+
 bool is_live(const ProbeRecord& record) {
   if (record.state == ProbeState::off) return false;
-  // Points in open air may be asked about: a sleeping probe is traced once
-  return record.state != ProbeState::sleeping || record.served == 0;
+  // Points in open air may be asked about: a sleeping probe is traced once, and again where it has
+  // lost its light
+  return record.state != ProbeState::sleeping || record.served == 0 || record.samples == 0.0f;
 }
 
-int class_for(float rays) {
+int ray_class_for(float rays) {
   for (const int count : kRayClasses) {
     if (rays <= kBetweenClasses * static_cast<float>(count)) return count;
   }
   return kRayClasses.back();
 }
-
-/// Relative variance of what one update tells of a probe, as its neighbours have it on average: a
-/// probe's own is the lower the less of what is bright it has met so far, and resting on it would
-/// leave the light too dark for good.
-float noise_around(const ProbeGrid& grid, std::span<const ProbeRecord> records, int probe) {
-  const ivec3 place = probe_coords(grid, probe);
-  float sum = records[probe].noise;
-  int count = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int side : {-1, 1}) {
-      ivec3 next = place;
-      next[axis] += side;
-      if (next[axis] < 0 || next[axis] >= grid.count[axis]) continue;
-      const ProbeRecord& record = records[probe_index(grid, next)];
-      if (!is_live(record)) continue;
-      sum += record.noise;
-      ++count;
-    }
-  }
-  return sum / static_cast<float>(count);
-}
-
-struct Candidate {
-  float urgency;
-  float noise;  // standard deviation
-  int probe;
-};
-
-}  // namespace
 
 void RayCost::learn(std::uint64_t rays, double ms) {
   if (rays == 0) return;
@@ -101,68 +64,6 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
     }
   }
   schedule.rays.assign(schedule.probes.size(), rays_per_probe);
-  return schedule;
-}
-
-Schedule schedule_within(const ProbeStore& store, std::span<const VolumeRole> roles,
-                         std::span<const ProbeRecord> records, const FieldSettings& settings,
-                         std::uint64_t ray_budget, std::uint32_t update,
-                         const std::optional<glm::vec3>& viewer_ws) {
-  // Compute how urgent each probe is: by the error it has, and beyond all others where it is old
-  std::vector<Candidate> candidates;
-  candidates.reserve(records.size());
-  double noise_sum = 0.0;
-  const float longest = 1.0f / (1.0f - settings.hysteresis);
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    const ProbeRecord& record = records[i];
-    if (!is_live(record)) continue;
-    const int probe = static_cast<int>(i);
-    const std::uint32_t age = update - record.served;
-    const bool old = record.served == 0 || age >= kMaxProbeAge;
-    if (!old && record.samples >= longest) continue;
-    const int volume = store.volume_of(probe);
-    const ProbeGrid& grid = store.grid(volume);
-    const float noise = std::sqrt(noise_around(grid, records, probe));
-    const float error = noise / std::sqrt(std::max(record.samples, 1.0f));
-    if (!old && error < kSettledError) continue;
-    float worth = std::ldexp(1.0f, -roles[volume].level);
-    if (viewer_ws) {
-      const float cell = max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
-      const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;
-      worth *= kHalfWorthCells / (kHalfWorthCells + cells);
-    }
-    const float urgency = old ? static_cast<float>(age) + 1.0f : std::min(error * worth, 1.0f);
-    candidates.push_back({urgency, noise, probe});
-    noise_sum += noise;
-  }
-  if (candidates.empty()) return {};
-  const double mean_noise = noise_sum / static_cast<double>(candidates.size());
-
-  // Serve them in that order until the rays are spent; no more than could be served need sorting
-  const std::size_t most =
-      std::min<std::size_t>(candidates.size(), ray_budget / kRayClasses.front() + 1);
-  const auto more_urgent = [](const Candidate& a, const Candidate& b) {
-    return a.urgency != b.urgency ? a.urgency > b.urgency : a.probe < b.probe;
-  };
-  std::nth_element(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(most - 1),
-                   candidates.end(), more_urgent);
-  std::sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(most),
-            more_urgent);
-  std::vector<std::pair<int, int>> chosen;
-  std::uint64_t spent = 0;
-  for (std::size_t i = 0; i < most; ++i) {
-    const double share = mean_noise > 0.0 ? candidates[i].noise / mean_noise : 1.0;
-    const int rays = class_for(static_cast<float>(settings.rays_per_probe * share));
-    if (spent + rays > ray_budget) break;
-    spent += rays;
-    chosen.emplace_back(candidates[i].probe, rays);
-  }
-  std::sort(chosen.begin(), chosen.end());
-  Schedule schedule;
-  for (const auto& [probe, rays] : chosen) {
-    schedule.probes.push_back(probe);
-    schedule.rays.push_back(rays);
-  }
   return schedule;
 }
 

@@ -8,6 +8,7 @@
 // 1934). Probes near the camera count for more, and none waits for ever.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -23,6 +24,15 @@ namespace lambent {
 /// Updates after which a probe is served in any case, where the budget allows: two seconds at 60
 /// Hz.
 inline constexpr std::uint32_t kMaxProbeAge = 128;
+
+/// Rays of a probe in an update with a budget, as many as its noise asks for. Few classes, so that
+/// many probes share one set of directions and its blend matrix.
+inline constexpr std::array kRayClasses = {32, 64, 128, 256, 512};
+/// The class nearest to so many rays.
+int ray_class_for(float rays);
+
+/// Whether a probe takes part in updates.
+bool is_live(const ProbeRecord& record);
 
 /// Learns what a ray costs.
 class RayCost {
@@ -42,16 +52,70 @@ struct Schedule {
 };
 
 /// Every probe that is not off and whose volume's turn it is, and those never served, with the
-/// settings' rays. `update` counts from 1.
+/// settings' rays.
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
                       std::span<const ProbeRecord> records, int rays_per_probe,
                       std::uint32_t update);
 
-/// The most urgent probes within a budget of rays, likewise.
-Schedule schedule_within(const ProbeStore& store, std::span<const VolumeRole> roles,
-                         std::span<const ProbeRecord> records, const FieldSettings& settings,
-                         std::uint64_t ray_budget, std::uint32_t update,
-                         const std::optional<glm::vec3>& viewer_ws);
+/// What the scheduler keeps in mind of each probe, so that an update looks at those that changed
+/// and those that are urgent, however many rest: blocks of probes know the largest gain and the age
+/// among them. Whoever changes a record tells.
+class ProbeAgenda {
+ public:
+  /// Roles are one a volume.
+  ProbeAgenda(int probes, std::span<const VolumeRole> roles, const FieldSettings& settings);
+
+  /// A probe's record changed, or all did.
+  void changed(int probe);
+  void changed_all() { all_changed_ = true; }
+
+  /// Takes note of the changes. Records are one a probe.
+  void note(const ProbeStore& store, std::span<const ProbeRecord> records);
+
+  /// How many probes are in each state, as last noted.
+  const ProbeCounts& states() const { return states_; }
+
+  /// Probes that light something and have never been served.
+  int unserved() const { return unserved_; }
+
+  /// The most urgent probes within a budget of rays, as last noted. `update` counts from 1.
+  Schedule within(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
+                  const std::optional<glm::vec3>& viewer_ws) const;
+
+ private:
+  /// What decides about a probe.
+  struct Entry {
+    float noise = 0.0f;  ///< Standard deviation of what an update tells, around the probe.
+    float gain = 0.0f;   ///< By how much its error falls with each ray, in proportion; 0: it rests.
+    float thin = 0.0f;   ///< The same per noise.
+    std::uint32_t served = 0;  ///< Update that served it last; 0: none; the largest: not live.
+    ProbeState state = ProbeState::off;
+  };
+  /// What decides about a block of probes that follow one another.
+  struct Block {
+    float gain = 0.0f;         ///< The largest.
+    float thin = 0.0f;         ///< Likewise.
+    std::uint32_t served = 0;  ///< The smallest.
+    float noise_sum = 0.0f;    ///< Of the probes that do not rest, ...
+    int unsettled = 0;         ///< ... so many.
+  };
+
+  void note_record(std::span<const ProbeRecord> records, int probe);
+  void note_noise(const ProbeStore& store, std::span<const ProbeRecord> records, int probe);
+  void note_block(std::size_t block);
+  float mean_noise() const;
+  int rays_of(const Entry& entry, float mean_noise) const;
+
+  std::vector<VolumeRole> roles_;
+  int rays_per_probe_;
+  float longest_;  // updates that a probe's average remembers
+  std::vector<Entry> entries_;
+  std::vector<Block> blocks_;
+  std::vector<int> changed_;
+  bool all_changed_ = true;
+  ProbeCounts states_;
+  int unserved_ = 0;
+};
 
 /// Groups the scheduled probes by their rays, and draws the rays' directions.
 std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,

@@ -2,8 +2,6 @@
 // Volumes that follow the viewer: probes of the slab left behind move on to the slab that comes
 // into view, and take over the light that coarser volumes hold there.
 #include <algorithm>
-#include <iterator>
-#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -88,10 +86,6 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   }
   settle_in(world, recycled);
   store_light(recycled);
-  std::vector<int> followed;
-  std::set_difference(edits.followed.begin(), edits.followed.end(), recycled.begin(),
-                      recycled.end(), std::back_inserter(followed));
-  edits.followed = std::move(followed);
   return static_cast<int>(recycled.size());
 }
 

@@ -51,6 +51,12 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     statistics.probe_rays += group.hits.size();
   }
   statistics.trace_ms += watch.lap();
+  for (const TraceGroup& group : groups) {
+    for (const int probe : group.probes) {
+      // What woke before it followed an edit holds the average of another light
+      if (records[probe].revision != world.revision()) forget_light(probe, world.revision());
+    }
+  }
 
   // The mean of all updates so far, until it has become an exponential moving average
   const float longest = 1.0f / (1.0f - settings.hysteresis);
@@ -88,13 +94,16 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
       settings.max_bounces >= 0
           ? relight_bounces(operator_of_all, shares, settings.max_bounces, light)
           : relight(operator_of_all, shares, {}, relight_settings(), light);
+  remember_told(probes, solved.solution);
   statistics.relights += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
   statistics.probes_traced += static_cast<int>(probes.size());
   statistics.relight_ms += watch.lap();
 
-  // What was blended in is a share of how far the rays were from what was held
+  // What was blended in is a share of how far the rays were from what was held. Noise is held to
+  // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
+  // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
   const auto texels = static_cast<std::size_t>(tile_texels());
   const float darkest = kDarkShare * mean_light;
   double light_sum = 0.0;
@@ -103,17 +112,42 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     const TileLight held(&light[probes[k] * texels], texels), before(&history[k * texels], texels);
     const float square = relative_square(held, before, darkest);
     light_sum += mean_luminance(held);
-    learn_noise(square / (shares[k] * shares[k]), weights[k], record);
+    const float brightness =
+        mean_light > 0.0f ? max(mean_luminance(before), darkest) / mean_light : 1.0f;
+    learn_noise(square * brightness / (shares[k] * shares[k]), weights[k], record);
     record.samples = min(record.samples, longest);
     record.served = static_cast<std::uint32_t>(updates) + 1;
     record.state = state_once_traced(record.state);
     record.revision = world.revision();
+    agenda.changed(probes[k]);
   }
   if (!probes.empty()) {
-    mean_light = static_cast<float>(light_sum / static_cast<double>(probes.size()));
+    const auto traced = static_cast<float>(probes.size());
+    const float now = static_cast<float>(light_sum) / traced;
+    const ProbeCounts& states = agenda.states();
+    const int live = store.probes() - states.off - states.sleeping;
+    const float share =
+        mean_light > 0.0f ? min(traced / max(static_cast<float>(live), 1.0f), 1.0f) : 1.0f;
+    mean_light += share * (now - mean_light);
   }
   store_light(probes);
   statistics.blend_ms += watch.lap();
+}
+
+void IrradianceField::State::solve_start(UpdateStatistics& statistics) {
+  Stopwatch watch;
+  std::vector<int> traced;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (traces[probe].rays != nullptr) traced.push_back(probe);
+  }
+  const std::vector<float> shares(traced.size(), 1.0f);
+  const RelightResult solved = relight(transport(traced), shares, {}, relight_settings(), light);
+  statistics.relights += solved.iterations;
+  statistics.residual = solved.error;
+  statistics.change = solved.change;
+  remember_told(traced, solved.solution);
+  store_light(traced);
+  statistics.relight_ms += watch.lap();
 }
 
 UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest& request) {
@@ -147,14 +181,20 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.followed_last = followed != Followed::nothing && !trace;
   if (trace) {
     const auto update = static_cast<uint>(s.updates);
+    s.agenda.note(s.store, s.records);
     const Schedule schedule =
         budget == 0 ? schedule_all(s.store, s.roles, s.records, s.settings.rays_per_probe, update)
-                    : schedule_within(s.store, s.roles, s.records, s.settings, budget - spent,
-                                      update + 1, request.viewer_ws);
+                    : s.agenda.within(s.store, budget - spent, update + 1, request.viewer_ws);
     s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
   }
+  s.agenda.note(s.store, s.records);
+  if (s.starting && s.agenda.unserved() == 0) {
+    // Probes that were traced while others knew no light have only seen a part of its bounces
+    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_start(statistics);
+    s.starting = false;
+  }
   ++s.updates;
-  statistics.states = count_states(s.records);
+  statistics.states = s.agenda.states();
   s.ray_cost.learn(statistics.probe_rays + statistics.shadow_rays, watch.lap());
   return statistics;
 }

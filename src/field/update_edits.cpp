@@ -2,18 +2,24 @@
 // The part of an update that follows edits of the world: exactly what they touch gets new light.
 //
 // What averaging knew better than the rays of one update is kept: with H the light that a probe
-// holds and T_old the transport through its surfels before the edit, each texel is corrected by the
-// gain g = H / (T_old H). After the edit the light solves
-//   +--------------------+
-//   |  E = g (T_new E)   |
-//   +--------------------+
-// Where nothing changed that is H itself, to the bit; where all light became k times as bright, k
-// H; where it went out, 0; and nowhere has it more noise than the change itself.
+// holds and T E what its last rays told of the light E that there was, each texel is corrected by
+// the gain g = H / (T E). After the edit the light solves
+//   +---------------------------+
+//   |  E_new = g (T_new E_new)  |
+//   +---------------------------+
+// Where nothing changed that is H itself; where all light became k times as bright, k H; where it
+// went out, 0; and nowhere has it more noise than the change itself. T E is remembered when the
+// light is solved for, so that g holds however long a probe has waited to follow.
+//
+// Sleeping probes light open air alone: surfels of others do not read them. They follow after the
+// others have been solved for, some in each update.
 #include <algorithm>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <optional>
 
+#include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "field/field_state.h"
 #include "field/follow.h"
@@ -31,6 +37,12 @@ constexpr float kTouchedShare = 0.005f;
 // nothing need be traced.
 constexpr std::uint64_t kRaysPerProbeFollowed = 8;
 
+// An update brings one in so many of the sleeping probes up to date, so that open air lags behind
+// an edit by no more updates than that, and edits in every update cost little more.
+constexpr std::size_t kSleeperSlices = 8;
+
+constexpr std::size_t kProbesPerTask = 64;
+
 // What one update's rays tell of a probe is not off by more than this factor, or they met nothing
 // worth correcting.
 constexpr float kMaxGain = 2.0f;
@@ -44,11 +56,24 @@ vec4 gain_between(const vec4& told, const vec4& held) {
   return gain;
 }
 
-/// What the probes receive of direct light and the sky.
-WorkingIrradiance direct_of(const TransportOperator& transport, const WorkingIrradiance& held) {
-  WorkingIrradiance received(held.size());
-  transport.apply_direct(held, received);
-  return received;
+/// Luminance that a probe's rays bring back of direct light and the sky, added up.
+double direct_light_of(const ProbeTrace& trace) {
+  double sum = 0.0;
+  for (const Surfel& surfel : trace.surfels) {
+    if (surfel.kind == SurfelKind::back_face) continue;
+    const vec3 share = surfel.kind == SurfelKind::sky ? vec3(1.0f) : surfel.albedo_over_pi;
+    sum += luminance(share * surfel.light);
+  }
+  return sum;
+}
+
+std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
+                                    std::span<const int> probes) {
+  std::vector<double> light(probes.size());
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) light[k] = direct_light_of(traces[probes[k]]);
+  });
+  return light;
 }
 
 /// The oldest revision of the world after which it still knows what changed.
@@ -81,18 +106,39 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
 
 }  // namespace
 
-/// Computes by how much averaging corrects what the probes' last rays told of the light before the
-/// edits.
-void IrradianceField::State::keep_gain(std::span<const int> probes) {
+/// By how much averaging corrects what the probes' last rays told.
+WorkingIrradiance IrradianceField::State::gain_of(std::span<const int> probes) const {
   const int texels = tile_texels();
-  const WorkingIrradiance held = light_of(light, probes, texels);
-  WorkingIrradiance told(held.size());
-  transport(probes).apply(edits.before, held, told);
+  WorkingIrradiance gain = light_of(light, probes, texels);
+  const WorkingIrradiance rays_told = light_of(told, probes, texels);
+  for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = gain_between(rays_told[i], gain[i]);
+  return gain;
+}
+
+/// Remembers what the probes' rays told when their light was solved for without a gain.
+void IrradianceField::State::remember_told(std::span<const int> probes,
+                                           const WorkingIrradiance& solution) {
+  const auto texels = static_cast<std::size_t>(tile_texels());
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    for (int t = 0; t < texels; ++t) {
-      edits.gain[static_cast<std::size_t>(probes[k]) * texels + t] =
-          gain_between(told[k * texels + t], held[k * texels + t]);
-    }
+    std::copy_n(&solution[k * texels], texels, &told[probes[k] * texels]);
+    told_roughly[probes[k]] = 1;
+  }
+}
+
+/// Computes what the rays of probes traced since the last edit tell of the light as it is held:
+/// where it is dark, the solution's error is more than what edits are held to touch. Others keep
+/// what they told, lest changes too small to be seen be lost.
+void IrradianceField::State::tell_exactly(std::span<const int> probes) {
+  std::vector<int> rough;
+  for (const int probe : probes) {
+    if (told_roughly[probe] != 0) rough.push_back(probe);
+  }
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  WorkingIrradiance exact = light_of(told, rough, tile_texels());
+  transport(rough).apply(light, exact, exact);
+  for (std::size_t k = 0; k < rough.size(); ++k) {
+    std::copy_n(&exact[k * texels], texels, &told[rough[k] * texels]);
+    told_roughly[rough[k]] = 0;
   }
 }
 
@@ -101,9 +147,7 @@ void IrradianceField::State::keep_gain(std::span<const int> probes) {
 void IrradianceField::State::follow_slice(const World& world, std::span<const WorldChanges> changes,
                                           std::span<const int> probes, std::span<const int> all,
                                           UpdateStatistics& statistics) {
-  const int texels = tile_texels();
-  const WorkingIrradiance held = light_of(light, probes, texels);
-  const WorkingIrradiance direct_before = direct_of(transport(probes), held);
+  const std::vector<double> direct_before = direct_light_of(traces, probes);
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
   if (settings.visibility == Visibility::hybrid && shapes_differ) {
@@ -115,76 +159,139 @@ void IrradianceField::State::follow_slice(const World& world, std::span<const Wo
   statistics.shadow_rays += followed.shadow_rays;
   statistics.probes_followed += static_cast<int>(probes.size());
 
-  const WorkingIrradiance direct_after = direct_of(transport(probes), held);
-  const double power = inner_product(direct_before, direct_before);
-  const float brighter =
-      power > 0.0 ? static_cast<float>(inner_product(direct_before, direct_after) / power) : 1.0f;
+  const std::vector<double> direct_after = direct_light_of(traces, probes);
+  const double before = std::accumulate(direct_before.begin(), direct_before.end(), 0.0);
+  const double after = std::accumulate(direct_after.begin(), direct_after.end(), 0.0);
+  const auto brighter = static_cast<float>(before > 0.0 ? after / before : 1.0);
+  const int texels = tile_texels();
   for (const int probe : probes) {
-    records[probe].revision = edits.revision;
+    records[probe].revision = world.revision();
     for (int t = 0; t < texels; ++t) {
       light[static_cast<std::size_t>(probe) * texels + t] *= brighter;
     }
   }
 }
 
-/// Solves for the light of all that have followed the edits so far.
-void IrradianceField::State::solve_edits(bool done, UpdateStatistics& statistics) {
-  const int texels = tile_texels();
-  const WorkingIrradiance before = light_of(edits.before, edits.followed, texels);
-  const std::vector<float> shares(edits.followed.size(), 1.0f);
-  const RelightResult solved =
-      relight(transport(edits.followed), shares, light_of(edits.gain, edits.followed, texels),
-              relight_settings(), light);
-  statistics.relights += solved.iterations;
-  statistics.residual = solved.error;
+void IrradianceField::State::follow_sleepers(const World& world, std::span<const int> all,
+                                             UpdateStatistics& statistics) {
+  Stopwatch watch;
+  std::vector<int> probes(late_sleepers.begin(),
+                          late_sleepers.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                      sleepers_a_slice, late_sleepers.size())));
+  late_sleepers.erase(late_sleepers.begin(),
+                      late_sleepers.begin() + static_cast<std::ptrdiff_t>(probes.size()));
+  // Those that woke meanwhile have been traced
+  std::erase_if(probes, [&](int probe) { return records[probe].revision == world.revision(); });
+  if (probes.empty()) return;
+  std::sort(probes.begin(), probes.end());
+  std::uint64_t oldest = world.revision();
+  for (const int probe : probes) oldest = std::min(oldest, records[probe].revision);
+  const WorkingIrradiance before = light_of(light, probes, tile_texels());
+  const WorkingIrradiance gain = gain_of(probes);
+  follow_slice(world, *world.changes_since(oldest), probes, all, statistics);
+  statistics.follow_ms += watch.lap();
 
-  // Probes whose light stayed keep it to the bit; averages of another light are worth the less the
-  // more it changed
+  // No surfel that matters reads them: to send the light of the others to them once is enough
+  RelightSettings once = relight_settings();
+  once.max_iterations = 1;
+  const std::vector<float> shares(probes.size(), 1.0f);
+  const RelightResult solved = relight(transport(probes), shares, gain, once, light);
+  statistics.probes_touched += settle_edits(probes, before, solved, gain, true);
+  statistics.relights += solved.iterations;
+  statistics.relight_ms += watch.lap();
+}
+
+/// Stores what was solved for where it differs from the light before; the others keep theirs to the
+/// bit. `done`: nothing of the edit is still to come. Returns how many differ.
+int IrradianceField::State::settle_edits(std::span<const int> probes,
+                                         const WorkingIrradiance& before,
+                                         const RelightResult& solved, const WorkingIrradiance& gain,
+                                         bool done) {
+  const auto texels = static_cast<std::size_t>(tile_texels());
   std::vector<int> touched;
-  for (std::size_t k = 0; k < edits.followed.size(); ++k) {
-    const int probe = edits.followed[k];
-    vec4* now = &light[static_cast<std::size_t>(probe) * texels];
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const int probe = probes[k];
+    vec4* now = &light[probe * texels];
     const TileLight held(&before[k * texels], texels), found(now, texels);
     if (relative_square(found, held) < kTouchedShare * kTouchedShare) {
+      // What the rays told stays, too: changes too small to be seen add up
       std::copy(held.begin(), held.end(), now);
       continue;
     }
     touched.push_back(probe);
+    for (std::size_t t = 0; t < texels; ++t) {
+      told[probe * texels + t] = solved.solution[k * texels + t] / gain[k * texels + t];
+    }
+    if (!done) continue;
+    // Averages of another light are worth the less the more it changed
     const float kept = likeness(found, held);
-    if (done) records[probe].samples = max(records[probe].samples * kept * kept, 1.0f);
+    records[probe].samples = max(records[probe].samples * kept * kept, 1.0f);
+    agenda.changed(probe);
   }
+  store_light(touched);
+  return static_cast<int>(touched.size());
+}
+
+/// Solves for the light of all that have followed the edits so far.
+void IrradianceField::State::solve_edits(bool done, UpdateStatistics& statistics) {
+  const int texels = tile_texels();
+  const WorkingIrradiance before = light_of(edits.before, edits.followed, texels);
+  const WorkingIrradiance gain = light_of(edits.gain, edits.followed, texels);
+  const std::vector<float> shares(edits.followed.size(), 1.0f);
+  const RelightResult solved =
+      relight(transport(edits.followed), shares, gain, relight_settings(), light);
+  statistics.relights += solved.iterations;
+  statistics.residual = solved.error;
+  statistics.probes_touched = settle_edits(edits.followed, before, solved, gain, done);
   WorkingIrradiance change = light_of(light, edits.followed, texels);
   const double whole = norm(change);
   add_scaled(change, -1.0f, before, change);
   statistics.change = whole > 0.0 ? norm(change) / whole : 0.0;
-  statistics.probes_touched = static_cast<int>(touched.size());
-  store_light(touched);
 }
 
 Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_budget,
                                         const std::optional<vec3>& viewer_ws,
                                         UpdateStatistics& statistics) {
-  // Find the probes that know an older world
   Stopwatch watch;
   const std::uint64_t revision = world.revision();
+  if (followed_revision == revision && late_sleepers.empty()) return Followed::nothing;
+  if (followed_revision > revision) {
+    // Of another object of the class: what these probes know cannot be told from what it knows
+    for (const int probe : late_sleepers) forget_light(probe, revision);
+    late_sleepers.clear();
+  }
+
+  // Find the probes that know an older world
   const std::uint64_t oldest = oldest_known_revision(world);
-  std::vector<int> all, waiting;
+  std::vector<int> all, waiting, sleepers;
   for (int probe = 0; probe < store.probes(); ++probe) {
     ProbeRecord& record = records[probe];
     const bool traced = traces[probe].rays != nullptr;
     if (traced) all.push_back(probe);
     if (record.revision == revision) continue;
     // A later revision than the world's is of another object of the class
-    const bool told = record.revision >= oldest && record.revision < revision;
-    if (traced && told && settings.max_bounces < 0) {
-      waiting.push_back(probe);
+    const bool told_of = record.revision >= oldest && record.revision < revision;
+    if (traced && told_of && settings.max_bounces < 0) {
+      (record.state == ProbeState::sleeping ? sleepers : waiting).push_back(probe);
     } else {
       // Without surfels to hold against edits, after more of them than the world remembers, or
       // where bounces are counted, what was averaged is of the past
       forget_light(probe, revision);
     }
   }
-  if (waiting.empty()) return Followed::nothing;
+  const bool edited = followed_revision != revision;
+  if (edited) {
+    sleepers_a_slice = (sleepers.size() + kSleeperSlices - 1) / kSleeperSlices;
+    std::stable_sort(sleepers.begin(), sleepers.end(),
+                     [&](int a, int b) { return records[a].revision < records[b].revision; });
+    late_sleepers = std::move(sleepers);
+  }
+  if (waiting.empty()) {
+    followed_revision = revision;
+    follow_sleepers(world, all, statistics);
+    statistics.follow_ms += watch.lap();
+    return Followed::nothing;
+  }
   if (ray_budget != 0 && viewer_ws) {
     std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) {
       return glm::distance(store.probe_position_ws(a), *viewer_ws) <
@@ -192,6 +299,8 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
     });
   }
   if (edits.before.empty() || edits.revision != revision) {
+    // Before any surfel follows, while light and rays are of one world
+    if (edits.before.empty()) tell_exactly(all);
     edits.before = light;
     edits.gain.resize(light.size());
     edits.followed.clear();
@@ -206,7 +315,11 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   while (!waiting.empty() && spent < most) {
     const Slice slice = next_slice(waiting, traces, records, most - spent);
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
-    keep_gain(slice.probes);
+    const WorkingIrradiance gain = gain_of(slice.probes);
+    for (std::size_t k = 0; k < slice.probes.size(); ++k) {
+      std::copy_n(&gain[k * tile_texels()], tile_texels(),
+                  &edits.gain[static_cast<std::size_t>(slice.probes[k]) * tile_texels()]);
+    }
     statistics.relight_ms += watch.lap();
     follow_slice(world, changes, slice.probes, all, statistics);
     statistics.follow_ms += watch.lap();
@@ -225,6 +338,8 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   statistics.relight_ms += watch.lap();
   if (!waiting.empty()) return Followed::some;
   edits = {};
+  followed_revision = revision;
+  follow_sleepers(world, all, statistics);
   return Followed::all;
 }
 
@@ -232,6 +347,7 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
 void IrradianceField::State::forget_light(int probe, std::uint64_t revision) {
   records[probe].samples = 0.0f;
   records[probe].revision = revision;
+  agenda.changed(probe);
 }
 
 }  // namespace lambent

@@ -104,5 +104,29 @@ TEST(ProbeStates, OfAFieldFollowWhatMoves) {
   EXPECT_EQ(records[63].state, ProbeState::sleeping);
 }
 
+TEST(ProbeStates, NearABoxAreThoseOfTheWholeField) {
+  // One volume as the axes are, and one turned
+  ProbeGrid grids[2];
+  grids[0] = grids[1] =
+      still_grid({vec3(-1.0f, 0.0f, 2.0f), vec3(1.0f, 0.5f, 2.0f), ivec3(9, 8, 7)});
+  grids[1].axes = mat3(vec3(0.8f, 0.0f, -0.6f), vec3(0.0f, 1.0f, 0.0f), vec3(0.6f, 0.0f, 0.8f));
+  const ProbeStore store(grids, {});
+  const std::vector<ProbeReach> reaches(store.probes(), kAir);
+  std::vector<ProbeRecord> all(reaches.size()), near(reaches.size());
+  Bounds before;
+  classify_probes(store, reaches, {}, near);
+  for (const float x : {0.0f, 1.3f, 7.5f, 30.0f}) {
+    const Bounds thing{vec3(x, 1.0f, 4.0f), vec3(x + 0.5f, 1.9f, 8.0f)};
+    classify_probes(store, reaches, {&thing, 1}, all);
+    for (const Bounds& box : {before, thing}) {
+      for (const int probe : classify_probes_near(box, store, reaches, {&thing, 1}, near)) {
+        EXPECT_EQ(near[probe].state, all[probe].state);
+      }
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) ASSERT_EQ(near[i].state, all[i].state) << i;
+    before = thing;
+  }
+}
+
 }  // namespace
 }  // namespace lambent

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What benches and measurements share: scenes that have light and a camera, and what that sees.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/field.h"
+#include "lambent/scene.h"
+#include "lambent/world.h"
+
+namespace lambent::bench {
+
+/// What must be there for a bench to go on. Throws std::runtime_error where it is not.
+template <class Value>
+Value value_or_throw(Expected<Value> result) {
+  if (!result) throw std::runtime_error(result.error().message());
+  return std::move(*result);
+}
+inline void value_or_throw(const Expected<void>& result) {
+  if (!result) throw std::runtime_error(result.error().message());
+}
+
+/// A built-in scene or a file; where that brings no light, under a sun and a sky, and where it
+/// brings no camera, with one that looks along its length from near one end.
+Scene open_stage(const std::string& name);
+
+/// Points that the first camera of the world's scene sees, one a pixel; none where it sees the sky.
+std::vector<FieldQuery> seen_points(const World& world, int width, int height);
+
+}  // namespace lambent::bench
