@@ -39,6 +39,19 @@ struct EditedPlace {
   int update;  ///< In which it was edited last.
 };
 
+/// Probes that an update traces, and for each what its rays count for.
+struct TracedProbes {
+  std::vector<int> probes;
+  std::vector<float> shares;   ///< Of what the probe holds afterwards.
+  std::vector<float> weights;  ///< In updates of the settings' rays.
+};
+
+/// The probes that have been traced, and those among them that know an older world.
+struct Behind {
+  std::vector<int> traced, waiting;
+  std::vector<int> sleepers;  ///< Sleeping ones; not among the waiting.
+};
+
 struct IrradianceField::State {
   State(const FieldSettings& field_settings, std::span<const Volume> volumes);
 
@@ -107,6 +120,10 @@ struct IrradianceField::State {
   WorkingIrradiance gain_of(std::span<const int> probes) const;
   void tell_exactly(std::span<const int> probes);
   void remember_told(std::span<const int> probes, const WorkingIrradiance& solution);
+  Behind find_behind(const World& world);
+  void open_edits(std::uint64_t revision, std::span<const int> traced);
+  void follow_in_slices(const World& world, std::uint64_t ray_budget, Behind& behind,
+                        UpdateStatistics& statistics);
   void follow_slice(const World& world, std::span<const WorldChanges> changes,
                     std::span<const int> probes, std::span<const int> all,
                     UpdateStatistics& statistics);
@@ -120,6 +137,8 @@ struct IrradianceField::State {
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Solves for the light of all probes that have been traced, from what their last rays met.
   void solve_start(UpdateStatistics& statistics);
+  TracedProbes blend_in_distances(const Scene& scene, std::span<const TraceGroup> groups);
+  void book(const World& world, const TracedProbes& traced, const WorkingIrradiance& history);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
   /// Takes over what a file holds.

@@ -43,94 +43,106 @@ void IrradianceField::State::store_light(std::span<const int> probes) {
   });
 }
 
+/// Blends the distances that the groups' rays met into the store. Returns what the rays count for.
+TracedProbes IrradianceField::State::blend_in_distances(const Scene& scene,
+                                                        std::span<const TraceGroup> groups) {
+  // The mean of all updates so far, until it has become an exponential moving average
+  const float longest = 1.0f / (1.0f - settings.hysteresis);
+  TracedProbes traced;
+  for (const TraceGroup& group : groups) {
+    const DistanceBlend blend(settings, group.rays->directions);
+    const float weight =
+        static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
+    std::vector<float> shares;
+    for (const int probe : group.probes) {
+      const float held = min(records[probe].samples, max(longest - weight, 0.0f));
+      shares.push_back(weight / (held + weight));
+    }
+    blend_distances(scene, blend, group, shares, salt(), store);
+    traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
+    traced.shares.insert(traced.shares.end(), shares.begin(), shares.end());
+    traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
+  }
+  return traced;
+}
+
+/// Books what the probes' light, `history` before, says of their noise, and that they were served.
+void IrradianceField::State::book(const World& world, const TracedProbes& traced,
+                                  const WorkingIrradiance& history) {
+  // What was blended in is a share of how far the rays were from what was held. Noise is held to
+  // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
+  // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  const float longest = 1.0f / (1.0f - settings.hysteresis);
+  const float darkest = kDarkShare * mean_light;
+  double light_sum = 0.0;
+  for (std::size_t k = 0; k < traced.probes.size(); ++k) {
+    const int probe = traced.probes[k];
+    ProbeRecord& record = records[probe];
+    const TileLight held(&light[probe * texels], texels), before(&history[k * texels], texels);
+    const float square = relative_square(held, before, darkest);
+    light_sum += mean_luminance(held);
+    const float brightness =
+        mean_light > 0.0f ? max(mean_luminance(before), darkest) / mean_light : 1.0f;
+    learn_noise(square * brightness / (traced.shares[k] * traced.shares[k]), traced.weights[k],
+                record);
+    record.samples = min(record.samples, longest);
+    record.served = static_cast<std::uint32_t>(updates) + 1;
+    record.state = state_once_traced(record.state);
+    record.revision = world.revision();
+    agenda.changed(probe);
+  }
+  if (traced.probes.empty()) return;
+  const auto count = static_cast<float>(traced.probes.size());
+  const float now = static_cast<float>(light_sum) / count;
+  const ProbeCounts& states = agenda.states();
+  const int live = store.probes() - states.off - states.sleeping;
+  const float share =
+      mean_light > 0.0f ? min(count / max(static_cast<float>(live), 1.0f), 1.0f) : 1.0f;
+  mean_light += share * (now - mean_light);
+}
+
 void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> groups,
                                    UpdateStatistics& statistics) {
   Stopwatch watch;
   for (TraceGroup& group : groups) {
     trace_probe_rays(world.tracer(), store, group);
     statistics.probe_rays += group.hits.size();
-  }
-  statistics.trace_ms += watch.lap();
-  for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
       // What woke before it followed an edit holds the average of another light
       if (records[probe].revision != world.revision()) forget_light(probe, world.revision());
     }
   }
+  statistics.trace_ms += watch.lap();
 
-  // The mean of all updates so far, until it has become an exponential moving average
-  const float longest = 1.0f / (1.0f - settings.hysteresis);
-  std::vector<int> probes;
-  std::vector<float> shares, weights;
-  for (const TraceGroup& group : groups) {
-    const DistanceBlend blend(settings, group.rays->directions);
-    const float weight =
-        static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
-    std::vector<float> group_shares;
-    for (const int probe : group.probes) {
-      const float held = min(records[probe].samples, max(longest - weight, 0.0f));
-      group_shares.push_back(weight / (held + weight));
-    }
-    blend_distances(world.scene(), blend, group, group_shares, salt(), store);
-    probes.insert(probes.end(), group.probes.begin(), group.probes.end());
-    shares.insert(shares.end(), group_shares.begin(), group_shares.end());
-    weights.insert(weights.end(), group.probes.size(), weight);
-  }
+  const TracedProbes traced = blend_in_distances(world.scene(), groups);
   statistics.blend_ms += watch.lap();
 
   for (const TraceGroup& group : groups) {
     statistics.shadow_rays += shade_surfels(world, store, group, settings, traces);
   }
   if (settings.visibility == Visibility::hybrid) {
-    statistics.shadow_rays += sights.look(world.tracer(), store, probes);
+    statistics.shadow_rays += sights.look(world.tracer(), store, traced.probes);
   }
-  statistics.shadow_rays += find_surfel_lookups(store, visibility(world), probes, traces);
+  statistics.shadow_rays += find_surfel_lookups(store, visibility(world), traced.probes, traces);
   statistics.shade_ms += watch.lap();
 
   // Solve for all bounces, starting from the light that is there
-  const TransportOperator operator_of_all = transport(probes);
-  const WorkingIrradiance history = light_of(light, probes, tile_texels());
+  const TransportOperator to_these = transport(traced.probes);
+  const WorkingIrradiance history = light_of(light, traced.probes, tile_texels());
   const RelightResult solved =
       settings.max_bounces >= 0
-          ? relight_bounces(operator_of_all, shares, settings.max_bounces, light)
-          : relight(operator_of_all, shares, {}, relight_settings(), light);
-  remember_told(probes, solved.solution);
+          ? relight_bounces(to_these, traced.shares, settings.max_bounces, light)
+          : relight(to_these, traced.shares, {}, relight_settings(), light);
+  remember_told(traced.probes, solved.solution);
   statistics.relights += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
-  statistics.probes_traced += static_cast<int>(probes.size());
+  statistics.probes_traced += static_cast<int>(traced.probes.size());
   statistics.relight_ms += watch.lap();
 
-  // What was blended in is a share of how far the rays were from what was held. Noise is held to
-  // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
-  // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
-  const auto texels = static_cast<std::size_t>(tile_texels());
-  const float darkest = kDarkShare * mean_light;
-  double light_sum = 0.0;
-  for (std::size_t k = 0; k < probes.size(); ++k) {
-    ProbeRecord& record = records[probes[k]];
-    const TileLight held(&light[probes[k] * texels], texels), before(&history[k * texels], texels);
-    const float square = relative_square(held, before, darkest);
-    light_sum += mean_luminance(held);
-    const float brightness =
-        mean_light > 0.0f ? max(mean_luminance(before), darkest) / mean_light : 1.0f;
-    learn_noise(square * brightness / (shares[k] * shares[k]), weights[k], record);
-    record.samples = min(record.samples, longest);
-    record.served = static_cast<std::uint32_t>(updates) + 1;
-    record.state = state_once_traced(record.state);
-    record.revision = world.revision();
-    agenda.changed(probes[k]);
-  }
-  if (!probes.empty()) {
-    const auto traced = static_cast<float>(probes.size());
-    const float now = static_cast<float>(light_sum) / traced;
-    const ProbeCounts& states = agenda.states();
-    const int live = store.probes() - states.off - states.sleeping;
-    const float share =
-        mean_light > 0.0f ? min(traced / max(static_cast<float>(live), 1.0f), 1.0f) : 1.0f;
-    mean_light += share * (now - mean_light);
-  }
-  store_light(probes);
+  book(world, traced, history);
+  store_light(traced.probes);
   statistics.blend_ms += watch.lap();
 }
 

@@ -249,6 +249,73 @@ void IrradianceField::State::solve_edits(bool done, UpdateStatistics& statistics
   statistics.change = whole > 0.0 ? norm(change) / whole : 0.0;
 }
 
+/// Finds the probes that know an older world. Those that cannot follow start their average anew.
+Behind IrradianceField::State::find_behind(const World& world) {
+  const std::uint64_t revision = world.revision();
+  const std::uint64_t oldest = oldest_known_revision(world);
+  Behind behind;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    const ProbeRecord& record = records[probe];
+    const bool traced = traces[probe].rays != nullptr;
+    if (traced) behind.traced.push_back(probe);
+    if (record.revision == revision) continue;
+    // A later revision than the world's is of another object of the class
+    const bool told_of = record.revision >= oldest && record.revision < revision;
+    if (traced && told_of && settings.max_bounces < 0) {
+      const bool sleeps = record.state == ProbeState::sleeping;
+      (sleeps ? behind.sleepers : behind.waiting).push_back(probe);
+    } else {
+      // Without surfels to hold against edits, after more of them than the world remembers, or
+      // where bounces are counted, what was averaged is of the past
+      forget_light(probe, revision);
+    }
+  }
+  return behind;
+}
+
+/// Remembers the light before the edits, while light and rays are of one world.
+void IrradianceField::State::open_edits(std::uint64_t revision, std::span<const int> traced) {
+  if (!edits.before.empty() && edits.revision == revision) return;
+  if (edits.before.empty()) tell_exactly(traced);
+  edits.before = light;
+  edits.gain.resize(light.size());
+  edits.followed.clear();
+  edits.revision = revision;
+}
+
+/// Follows in slices until the budget is spent: how many rays a slice takes is known afterwards.
+/// Takes those that followed out of `behind.waiting`.
+void IrradianceField::State::follow_in_slices(const World& world, std::uint64_t ray_budget,
+                                              Behind& behind, UpdateStatistics& statistics) {
+  Stopwatch watch;
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  const std::uint64_t most =
+      ray_budget == 0 ? std::numeric_limits<std::uint64_t>::max() : ray_budget;
+  std::vector<int> followed;
+  std::uint64_t spent = 0;
+  while (!behind.waiting.empty() && spent < most) {
+    const Slice slice = next_slice(behind.waiting, traces, records, most - spent);
+    const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
+    const WorkingIrradiance gain = gain_of(slice.probes);
+    for (std::size_t k = 0; k < slice.probes.size(); ++k) {
+      std::copy_n(&gain[k * texels], texels, &edits.gain[slice.probes[k] * texels]);
+    }
+    statistics.relight_ms += watch.lap();
+    follow_slice(world, changes, slice.probes, behind.traced, statistics);
+    statistics.follow_ms += watch.lap();
+    behind.waiting.erase(behind.waiting.begin(),
+                         behind.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
+    followed.insert(followed.end(), slice.probes.begin(), slice.probes.end());
+    spent =
+        statistics.probe_rays + statistics.shadow_rays + kRaysPerProbeFollowed * followed.size();
+  }
+  std::sort(followed.begin(), followed.end());
+  std::vector<int> merged;
+  std::merge(edits.followed.begin(), edits.followed.end(), followed.begin(), followed.end(),
+             std::back_inserter(merged));
+  edits.followed = std::move(merged);
+}
+
 Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_budget,
                                         const std::optional<vec3>& viewer_ws,
                                         UpdateStatistics& statistics) {
@@ -260,87 +327,33 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
     for (const int probe : late_sleepers) forget_light(probe, revision);
     late_sleepers.clear();
   }
-
-  // Find the probes that know an older world
-  const std::uint64_t oldest = oldest_known_revision(world);
-  std::vector<int> all, waiting, sleepers;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    ProbeRecord& record = records[probe];
-    const bool traced = traces[probe].rays != nullptr;
-    if (traced) all.push_back(probe);
-    if (record.revision == revision) continue;
-    // A later revision than the world's is of another object of the class
-    const bool told_of = record.revision >= oldest && record.revision < revision;
-    if (traced && told_of && settings.max_bounces < 0) {
-      (record.state == ProbeState::sleeping ? sleepers : waiting).push_back(probe);
-    } else {
-      // Without surfels to hold against edits, after more of them than the world remembers, or
-      // where bounces are counted, what was averaged is of the past
-      forget_light(probe, revision);
-    }
-  }
-  const bool edited = followed_revision != revision;
-  if (edited) {
-    sleepers_a_slice = (sleepers.size() + kSleeperSlices - 1) / kSleeperSlices;
-    std::stable_sort(sleepers.begin(), sleepers.end(),
+  Behind behind = find_behind(world);
+  if (followed_revision != revision) {
+    sleepers_a_slice = (behind.sleepers.size() + kSleeperSlices - 1) / kSleeperSlices;
+    std::stable_sort(behind.sleepers.begin(), behind.sleepers.end(),
                      [&](int a, int b) { return records[a].revision < records[b].revision; });
-    late_sleepers = std::move(sleepers);
+    late_sleepers = std::move(behind.sleepers);
   }
-  if (waiting.empty()) {
-    followed_revision = revision;
-    follow_sleepers(world, all, statistics);
-    statistics.follow_ms += watch.lap();
-    return Followed::nothing;
-  }
-  if (ray_budget != 0 && viewer_ws) {
-    std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) {
-      return glm::distance(store.probe_position_ws(a), *viewer_ws) <
-             glm::distance(store.probe_position_ws(b), *viewer_ws);
-    });
-  }
-  if (edits.before.empty() || edits.revision != revision) {
-    // Before any surfel follows, while light and rays are of one world
-    if (edits.before.empty()) tell_exactly(all);
-    edits.before = light;
-    edits.gain.resize(light.size());
-    edits.followed.clear();
-    edits.revision = revision;
-  }
-
-  // Follow in slices until the budget is spent: how many rays a slice takes is known afterwards
-  std::vector<int> followed;
-  const std::uint64_t most =
-      ray_budget == 0 ? std::numeric_limits<std::uint64_t>::max() : ray_budget;
-  std::uint64_t spent = 0;
-  while (!waiting.empty() && spent < most) {
-    const Slice slice = next_slice(waiting, traces, records, most - spent);
-    const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
-    const WorkingIrradiance gain = gain_of(slice.probes);
-    for (std::size_t k = 0; k < slice.probes.size(); ++k) {
-      std::copy_n(&gain[k * tile_texels()], tile_texels(),
-                  &edits.gain[static_cast<std::size_t>(slice.probes[k]) * tile_texels()]);
+  const bool any = !behind.waiting.empty();
+  if (any) {
+    if (ray_budget != 0 && viewer_ws) {
+      std::stable_sort(behind.waiting.begin(), behind.waiting.end(), [&](int a, int b) {
+        return glm::distance(store.probe_position_ws(a), *viewer_ws) <
+               glm::distance(store.probe_position_ws(b), *viewer_ws);
+      });
     }
-    statistics.relight_ms += watch.lap();
-    follow_slice(world, changes, slice.probes, all, statistics);
+    open_edits(revision, behind.traced);
     statistics.follow_ms += watch.lap();
-    waiting.erase(waiting.begin(),
-                  waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
-    followed.insert(followed.end(), slice.probes.begin(), slice.probes.end());
-    spent =
-        statistics.probe_rays + statistics.shadow_rays + kRaysPerProbeFollowed * followed.size();
+    follow_in_slices(world, ray_budget, behind, statistics);
+    watch.lap();
+    solve_edits(behind.waiting.empty(), statistics);
+    statistics.relight_ms += watch.lap();
+    if (!behind.waiting.empty()) return Followed::some;
+    edits = {};
   }
-  std::sort(followed.begin(), followed.end());
-  std::vector<int> merged;
-  std::merge(edits.followed.begin(), edits.followed.end(), followed.begin(), followed.end(),
-             std::back_inserter(merged));
-  edits.followed = std::move(merged);
-  solve_edits(waiting.empty(), statistics);
-  statistics.relight_ms += watch.lap();
-  if (!waiting.empty()) return Followed::some;
-  edits = {};
   followed_revision = revision;
-  follow_sleepers(world, all, statistics);
-  return Followed::all;
+  follow_sleepers(world, behind.traced, statistics);
+  return any ? Followed::all : Followed::nothing;
 }
 
 /// Has a probe start its average anew.

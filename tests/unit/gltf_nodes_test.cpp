@@ -289,5 +289,63 @@ TEST(GltfNodes, FlagsOfInstancesStandInTheirExtras) {
   EXPECT_THAT(scene.source.warnings, Contains(HasSubstr("nodes[1].extras.lambent_casts_gi")));
 }
 
+TEST(GltfNodes, ProbeVolumesStandWhereTheirNodesDo) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  const float half = std::sqrt(0.5f);
+  builder.show_node(
+      {{"name", "nook"},
+       {"translation", {1, 2, 3}},
+       {"rotation", {0, half, 0, half}},
+       {"scale", {2, 1, 0.5}},
+       {"extras",
+        {{"lambent_probe_volume", {{"size", {4, 3, 2}}, {"spacing", 0.25}, {"priority", -3}}}}}});
+  builder.show_node({{"extras", {{"lambent_probe_volume", {{"probes", {3, 4, 5}}}}}}});
+  const Expected<Scene> loaded = builder.load();
+  ASSERT_TRUE(loaded) << error_of(loaded);
+  ASSERT_EQ(loaded->volumes.size(), 2u);
+  const ProbeVolume& nook = loaded->volumes[0];
+  EXPECT_EQ(nook.name, "nook");
+  expect_near(nook.centre, {1, 2, 3});
+  expect_near(nook.size, {8, 3, 1});
+  // A quarter turn about +Y takes +X to -Z
+  expect_near(nook.axes[0], {0, 0, -1});
+  expect_near(nook.axes[2], {1, 0, 0});
+  EXPECT_EQ(nook.probe_spacing, 0.25f);
+  EXPECT_EQ(nook.priority, -3);
+  EXPECT_EQ(loaded->volumes[1].probe_count, glm::ivec3(3, 4, 5));
+  expect_near(loaded->volumes[1].size, {1, 1, 1});
+  EXPECT_TRUE(loaded->source.warnings.empty());
+}
+
+TEST(GltfNodes, ProbeVolumesThatMakeNoSenseAreLeftOut) {
+  using nlohmann::json;
+  for (const json& volume :
+       {json(3), json{{"size", {1, 2}}}, json{{"size", {1, 2, -1}}}, json{{"size", {1, 2, "x"}}},
+        json{{"spacing", 0}}, json{{"spacing", -1}}, json{{"probes", {1, 2, 2}}},
+        json{{"probes", {1e9, 2, 2}}}, json{{"priority", 0.5}}, json{{"priority", 1e300}},
+        json{{"turn", 30}}}) {
+    GltfBuilder builder;
+    builder.show(builder.triangle());
+    builder.show_node({{"extras", {{"lambent_probe_volume", volume}}}});
+    const Expected<Scene> loaded = builder.load();
+    ASSERT_TRUE(loaded) << error_of(loaded);
+    EXPECT_TRUE(loaded->volumes.empty()) << volume;
+    EXPECT_THAT(loaded->source.warnings,
+                Contains(HasSubstr("nodes[1].extras.lambent_probe_volume")));
+  }
+  // Neither does one in a node that is sheared or flat
+  for (const json& matrix : {json{1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1},
+                             json{1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}) {
+    GltfBuilder builder;
+    builder.show(builder.triangle());
+    builder.show_node({{"matrix", matrix}, {"extras", {{"lambent_probe_volume", json::object()}}}});
+    const Expected<Scene> loaded = builder.load();
+    ASSERT_TRUE(loaded) << error_of(loaded);
+    EXPECT_TRUE(loaded->volumes.empty());
+    EXPECT_EQ(loaded->source.warnings.size(), 1u);
+  }
+}
+
 }  // namespace
 }  // namespace lambent
