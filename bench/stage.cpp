@@ -3,9 +3,6 @@
 
 #include <algorithm>
 
-#include "raytracing/camera_rays.h"
-#include "raytracing/raytracer.h"
-#include "raytracing/surface.h"
 #include "scenes/builtin.h"
 
 namespace lambent::bench {
@@ -44,20 +41,6 @@ Scene open_stage(const std::string& name) {
   if (!has_light(scene)) light_up(scene);
   if (scene.cameras.empty()) scene.cameras.push_back(camera_along(world_bounds(scene)));
   return scene;
-}
-
-std::vector<FieldQuery> seen_points(const World& world, int width, int height) {
-  const Camera& camera = world.scene().cameras.front();
-  std::vector<FieldQuery> points;
-  for (int i = 0; i < width * height; ++i) {
-    const Ray ray = camera_ray(camera, width, height, static_cast<float>(i % width) + 0.5f,
-                               static_cast<float>(i / width) + 0.5f);
-    const Hit hit = world.tracer().closest_hit(ray);
-    if (hit.missed()) continue;
-    const Surface surface = surface_at(world.scene(), ray, hit);
-    points.push_back({surface.position_ws, surface.normal_ws, -ray.direction});
-  }
-  return points;
 }
 
 }  // namespace lambent::bench

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What benches and measurements share: scenes that have light and a camera, and what that sees.
+// What benches and measurements share: scenes that have light and a camera.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "lambent/error.h"
-#include "lambent/field.h"
 #include "lambent/scene.h"
-#include "lambent/world.h"
 
 namespace lambent::bench {
 
@@ -27,8 +24,5 @@ inline void value_or_throw(const Expected<void>& result) {
 /// A built-in scene or a file; where that brings no light, under a sun and a sky, and where it
 /// brings no camera, with one that looks along its length from near one end.
 Scene open_stage(const std::string& name);
-
-/// Points that the first camera of the world's scene sees, one a pixel; none where it sees the sky.
-std::vector<FieldQuery> seen_points(const World& world, int width, int height);
 
 }  // namespace lambent::bench

@@ -12,6 +12,7 @@
 #include "field/probe_store.h"
 #include "field/schedule.h"
 #include "field/surfels.h"
+#include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/shade_hits.h"
 
@@ -59,9 +60,9 @@ UpdateRays record_update_rays(const Workload& work, int update) {
 
   // Shade each probe's hits for the sake of the shadow rays
   const std::vector<VolumeRole> roles(1);  // the field's own grid alone
-  const std::vector<int> probes = schedule_all(store, roles, work.field.records(), set.rays(),
-                                               static_cast<std::uint32_t>(update))
-                                      .probes;
+  const std::vector<int> probes =
+      schedule_all(store, roles, work.field.records(), settings, static_cast<std::uint32_t>(update))
+          .probes;
   const std::size_t rays = set.directions.size();
   std::vector<std::vector<Ray>> shadows(probes.size());
   UpdateRays result;
@@ -95,7 +96,8 @@ std::vector<Ray> primary_rays(const Workload& work) {
 }
 
 std::vector<FieldQuery> pixel_queries(const Workload& work) {
-  std::vector<FieldQuery> queries = seen_points(work.world, kWidth, kHeight);
+  std::vector<FieldQuery> queries =
+      visible_points(work.world, work.world.scene().cameras.front(), kWidth, kHeight);
   // A pixel that shows the sky costs as much as any other
   queries.resize(static_cast<std::size_t>(kWidth) * kHeight);
   return queries;

@@ -107,6 +107,7 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
           .add_option("--volume", o.volumes,
                       "Another volume: a box, then any of :spacing=M :probes=XxYxZ :turn=DEGREES "
                       ":priority=N")
+          ->allow_extra_args(false)
           ->take_all());
   command.add_option("--rays", o.settings.rays_per_probe, "Rays a probe and update")
       ->check(CLI::Range(16, 4096))

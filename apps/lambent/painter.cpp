@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/painter.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -23,6 +24,9 @@ constexpr int kVerifyBlock = 8;
 // Defaults of --samples: enough for smooth edges, and for a picture in which noise is fine grain.
 constexpr int kFieldSamples = 4;
 constexpr int kReferenceSamples = 64;
+
+// Of the picture that tells the field what is seen [pixels].
+constexpr int kSeenWidth = 48, kMostSeenHeight = 96;
 
 const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAspect::irradiance},
                                                           {"distance", ProbeAspect::distance},
@@ -63,7 +67,9 @@ Painter::Painter(const RenderOptions& options, const glm::ivec2& size)
 Expected<void> Painter::follow(const World& world, const Camera& camera, Json& stats) {
   const glm::vec3 viewer(camera.world_from_view[3]);
   if (field_) {
-    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms, viewer};
+    const int height = std::clamp(kSeenWidth * size_.y / size_.x, 1, kMostSeenHeight);
+    const std::vector<FieldQuery> seen = visible_points(world, camera, kSeenWidth, height);
+    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms, viewer, seen};
     update_field(world, options_.frame_updates, request, *field_, progress_, stats);
     return {};
   }

@@ -102,6 +102,14 @@ Expected<void> check_options(const RenderOptions& options) {
       !fine) {
     return fine;
   }
+  if (uses_field(options)) {
+    // What is wrong with the volumes is told before the scene is read
+    const auto fine = field_settings(options.field, {}, options.seed, options.bounces);
+    if (!fine) return tl::unexpected(fine.error());
+  }
+  if (options.method == "rsm+field" && options.field.settings.cascades > 0) {
+    return fail("--cascades", "", "go with --method field alone: its two fields differ in them");
+  }
   if (options.method == "rsm+field" && !options.field_file.empty()) {
     return fail("--field", "", "goes with --method field alone: a file holds no light by bounces");
   }

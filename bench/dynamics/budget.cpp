@@ -10,6 +10,8 @@ namespace lambent::dynamics {
 namespace {
 
 constexpr int kPixels = 64;
+// Of the picture that says what is seen: not the points that are measured.
+constexpr int kSeenPixels = 37;
 constexpr int kReferenceSamples = 1024;
 
 // Errors to reach, and how long that may take: updates, and times the rays that uniform took.
@@ -24,6 +26,10 @@ std::uint64_t full_rays(Subject& subject) {
   return statistics.probe_rays + statistics.shadow_rays;
 }
 
+glm::vec3 viewer_of(const Subject& subject) {
+  return subject.scene.cameras.front().world_from_view[3];
+}
+
 void print_curve(const std::string& name) {
   Subject subject(name, {});
   std::uint64_t full = 0;
@@ -33,7 +39,8 @@ void print_curve(const std::string& name) {
   const std::vector<FieldQuery> points = seen_points(subject, kPixels);
   const std::vector<double> truth =
       reference_light_at(World(subject.scene), points, kReferenceSamples);
-  const UpdateRequest request{full / 4, 0.0, subject.scene.cameras.front().world_from_view[3]};
+  const std::vector<FieldQuery> seen = seen_points(subject, kSeenPixels);
+  const UpdateRequest request{full / 4, 0.0, viewer_of(subject), seen};
   for (int frame = 0; frame <= 12; ++frame) {
     UpdateStatistics statistics;
     if (frame > 0) statistics = subject.field.update(subject.world, request);
@@ -77,13 +84,13 @@ void compare_adaptive(const std::string& name) {
   Subject subject(name, {});
   const std::vector<FieldQuery> points = seen_points(subject, kPixels);
   const std::vector<double> settled = light_at(subject.settled_field(), points);
-  const glm::vec3 viewer = subject.scene.cameras.front().world_from_view[3];
+  const std::vector<FieldQuery> seen = seen_points(subject, kSeenPixels);
   const double hardest = kTargets.back();
   const std::vector<Mark> uniform = follow_error(subject, {}, points, settled, hardest,
                                                  std::numeric_limits<std::uint64_t>::max());
   const std::vector<Mark> adaptive =
-      follow_error(subject, {kAdaptiveBudget, 0.0, viewer}, points, settled, hardest,
-                   kMostTimes * uniform.back().rays);
+      follow_error(subject, {kAdaptiveBudget, 0.0, viewer_of(subject), seen}, points, settled,
+                   hardest, kMostTimes * uniform.back().rays);
   for (const double target : kTargets) {
     const auto first = static_cast<double>(rays_to(uniform, target));
     const auto second = static_cast<double>(rays_to(adaptive, target));
@@ -127,10 +134,12 @@ void measure_moving() {
   for (const double share : {1.0, 0.5, 0.25}) {
     Subject atrium("atrium", {});
     for (int i = 0; i < 16; ++i) atrium.field.update(atrium.world);
+    const std::vector<FieldQuery> seen = seen_points(atrium, kSeenPixels);
     UpdateRequest request;
     if (full != 0) {
       request.ray_budget = static_cast<std::uint64_t>(share * static_cast<double>(full));
-      request.viewer_ws = atrium.scene.cameras.front().world_from_view[3];
+      request.viewer_ws = viewer_of(atrium);
+      request.seen = seen;
     }
     std::uint64_t probe_rays = 0, shadow_rays = 0;
     for (int i = 0; i < kFrames; ++i) {

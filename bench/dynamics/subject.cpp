@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/stage.h"
+#include "lambent/renderer.h"
 #include "reference/path_tracer.h"
 #include "shared/color.h"
 
@@ -50,7 +51,7 @@ void Subject::move(const std::string& instance, const glm::vec3& by) {
 }
 
 std::vector<FieldQuery> seen_points(const Subject& subject, int pixels_across) {
-  return bench::seen_points(subject.world, pixels_across, pixels_across);
+  return visible_points(subject.world, subject.scene.cameras.front(), pixels_across, pixels_across);
 }
 
 std::vector<double> light_at(const IrradianceField& field, std::span<const FieldQuery> points) {

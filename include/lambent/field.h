@@ -106,8 +106,7 @@ struct FieldSettings {
   std::uint32_t seed = 1;
 };
 
-/// Where the probes of a volume belong: a regular grid, probe (x, y, z) at origin + axes * ((x, y,
-/// z)
+/// Where the probes of a volume belong: a regular grid, that of coordinates c at origin + axes * (c
 /// * spacing).
 struct FieldGrid {
   glm::vec3 origin{0.0f};   ///< Of probe (0, 0, 0) [m].
@@ -123,17 +122,33 @@ struct FieldGrid {
 /// could hold.
 Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_bounds);
 
+/// A point to look the field up at. All numbers must be finite.
+struct FieldQuery {
+  glm::vec3 position_ws{0.0f};  ///< [m]
+  glm::vec3 normal_ws{0.0f, 1.0f,
+                      0.0f};  ///< Unit; irradiance is that of a surface with this normal.
+  glm::vec3 to_viewer_ws{
+      0.0f, 1.0f, 0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
+};
+
 /// What an update may cost, and for whom.
 struct UpdateRequest {
-  /// Probe rays to trace at most; 0: no bound, and every probe is traced with as many rays as the
-  /// settings say, whether its light has settled or not. With a bound, probes whose light is least
-  /// settled go first, with 32 to 512 rays each as their noise asks for, and settled ones rest.
+  /// Probe rays to trace at most; 0: no bound (so it is, too, where FieldSettings::max_bounces is
+  /// not -1: an exact number of bounces takes all probes at once), and every probe is traced with
+  /// as many rays as the settings say, whether its light has settled or not. With a bound, probes
+  /// whose light is least settled go first, with 32 to 512 rays each as their noise asks for, and
+  /// settled ones rest.
   std::uint64_t ray_budget = 0;
   /// Wall-clock time to take [ms], > 0; 0: no bound. The field learns how many rays that allows;
   /// the smaller of both bounds holds.
   double time_budget_ms = 0.0;
   /// Where the camera is [m]: of probes equally unsettled, near ones go first, and cascades follow.
+  /// Numbers that are not finite are as if there were none.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
+  /// Points that the camera sees (visible_points), some hundred to a few thousand: with a bound,
+  /// probes go first by how much they matter to the light at these, near or far. Empty: by their
+  /// distance from the viewer.
+  std::span<const FieldQuery> seen = {};
 };
 
 /// How many probes are in each state. Majercik et al., JCGT 10(2), 2021, sec. 5.
@@ -165,15 +180,6 @@ struct UpdateStatistics {
   int relights = 0;         ///< Iterations of the multi-bounce solve.
   double residual = 0.0;    ///< Estimated relative error this update stopped at.
   double change = 0.0;      ///< Of the stored light, root mean square over root mean square.
-};
-
-/// A point to look the field up at. All numbers must be finite.
-struct FieldQuery {
-  glm::vec3 position_ws{0.0f};  ///< [m]
-  glm::vec3 normal_ws{0.0f, 1.0f,
-                      0.0f};  ///< Unit; irradiance is that of a surface with this normal.
-  glm::vec3 to_viewer_ws{
-      0.0f, 1.0f, 0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
 };
 
 /// Volumes of irradiance probes with visibility, and the light that bounces between them.

@@ -13,6 +13,7 @@ namespace lambent {
 
 class World;
 class IrradianceField;
+struct FieldQuery;
 struct RsmSettings;
 
 /// Settings of a frame.
@@ -67,5 +68,10 @@ RenderedFrame render_frame(const World& world, const IndirectSources& sources, c
 /// cores; the same bits on any number of threads.
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress = {});
+
+/// Points that the camera sees, one a pixel of a picture of this size (1 to 16384 each), row after
+/// row; none where it sees the sky. For UpdateRequest::seen a small picture is enough.
+std::vector<FieldQuery> visible_points(const World& world, const Camera& camera, int width,
+                                       int height);
 
 }  // namespace lambent

@@ -2,6 +2,8 @@
 #include "compose/gbuffer.h"
 
 #include "core/parallel.h"
+#include "lambent/field.h"
+#include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
@@ -47,6 +49,22 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
       if (!hits[x].missed()) gbuffer.surfaces[i] = surface_at(world.scene(), rays[x], hits[x]);
     }
   });
+}
+
+std::vector<FieldQuery> visible_points(const World& world, const Camera& camera, int width,
+                                       int height) {
+  FrameSettings settings;
+  settings.width = width;
+  settings.height = height;
+  GBuffer gbuffer;
+  trace_gbuffer(world, camera, settings, {0, height}, 0, gbuffer);
+  std::vector<FieldQuery> points;
+  for (std::size_t i = 0; i < gbuffer.hit.size(); ++i) {
+    if (gbuffer.hit[i] == 0) continue;
+    const Surface& surface = gbuffer.surfaces[i];
+    points.push_back({surface.position_ws, surface.normal_ws, gbuffer.to_viewer_ws[i]});
+  }
+  return points;
 }
 
 }  // namespace lambent

@@ -34,6 +34,9 @@ constexpr float kFewestSamples = 0.1f;
 // A probe is worth half as much so many cells away from the camera.
 constexpr float kHalfWorthCells = 16.0f;
 
+// Probes that do not matter to what is seen are worth this much all the same: the camera will turn.
+constexpr float kUnseen = 0.02f;
+
 constexpr std::uint32_t kNotLive = std::numeric_limits<std::uint32_t>::max();
 
 // Urgency is at most 1 of what waits its turn; beyond that comes what is old, the older the more;
@@ -237,9 +240,23 @@ float ProbeAgenda::mean_noise() const {
   return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
 }
 
+/// What a probe counts for, 0 to 1.
+float ProbeAgenda::worth_of(const ProbeStore& store, int probe,
+                            const std::optional<glm::vec3>& viewer_ws,
+                            std::span<const float> importance) const {
+  const int volume = store.volume_of(probe);
+  const float worth = std::ldexp(1.0f, -roles_[volume].level);
+  if (!importance.empty()) return worth * std::max(importance[probe], kUnseen);
+  if (!viewer_ws) return worth;
+  const vec3 spacing = store.grid(volume).spacing;
+  const float cell = max(spacing.x, max(spacing.y, spacing.z));
+  const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;
+  return worth * kHalfWorthCells / (kHalfWorthCells + cells);
+}
+
 Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
-                             std::uint32_t update,
-                             const std::optional<glm::vec3>& viewer_ws) const {
+                             std::uint32_t update, const std::optional<glm::vec3>& viewer_ws,
+                             std::span<const float> importance) const {
   // Order the blocks by what the most urgent of their probes can be at most
   std::vector<Candidate> blocks;
   const float noise = mean_noise();
@@ -265,14 +282,7 @@ Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
       const Entry& entry = entries_[i];
       if (entry.gain == 0.0f && !is_old(entry.served, update)) continue;
       const int probe = static_cast<int>(i);
-      const int volume = store.volume_of(probe);
-      float worth = std::ldexp(1.0f, -roles_[volume].level);
-      if (viewer_ws) {
-        const vec3 spacing = store.grid(volume).spacing;
-        const float cell = max(spacing.x, max(spacing.y, spacing.z));
-        const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;
-        worth *= kHalfWorthCells / (kHalfWorthCells + cells);
-      }
+      const float worth = worth_of(store, probe, viewer_ws, importance);
       best.add({urgency_of(std::max(entry.gain, least * entry.thin), entry.served, update, worth),
                 probe});
     }

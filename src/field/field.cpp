@@ -15,13 +15,9 @@ namespace {
 
 constexpr std::size_t kQueriesPerTask = 4096;
 
-std::vector<VolumeRole> roles_of(const FieldSettings& settings, std::span<const Volume> volumes) {
+std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
   std::vector<VolumeRole> roles;
-  for (const Volume& volume : volumes) {
-    roles.push_back(volume.role);
-    // An exact number of bounces is carried through all probes at once
-    if (settings.max_bounces >= 0) roles.back().level = 0;
-  }
+  for (const Volume& volume : volumes) roles.push_back(volume.role);
   return roles;
 }
 
@@ -57,7 +53,7 @@ Expected<void> check(const FieldSettings& s) {
 
 IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
     : settings(field_settings),
-      roles(roles_of(field_settings, volumes)),
+      roles(roles_of(volumes)),
       store(grids_of(volumes), field_settings),
       tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
       traces(store.probes()),
@@ -100,6 +96,7 @@ void IrradianceField::reset() {
   s.classified = false;
   s.agenda.changed_all();
   s.starting = true;
+  s.mean_light = 0.0f;
   s.followed_last = false;
   s.updates = 0;
 }

@@ -19,9 +19,6 @@ inline constexpr std::size_t kHeaderBytes = 64;
 inline constexpr std::size_t kVolumeHeaderBytes = 144;
 inline constexpr std::size_t kRecordBytes = 24;
 
-// Volumes of one field: more are not a field but a broken file.
-inline constexpr std::uint32_t kMaxVolumes = 64;
-
 /// Words that the tiles of all probes take.
 inline std::uint64_t tile_words(std::uint64_t probes, int texels, int words_per_texel) {
   const auto edge = static_cast<std::uint64_t>(texels) + 2;

@@ -20,6 +20,9 @@ constexpr std::uint64_t kMaxFieldFileBytes = std::uint64_t{16} << 30;
 constexpr float kMinSpacing = 1e-15f;
 constexpr float kMaxSpacing = 1e15f;
 
+// Half a year of updates at 60 Hz, and far from where counting them would overflow.
+constexpr std::uint32_t kMaxUpdates = 1u << 30u;
+
 constexpr auto kStates = static_cast<std::uint32_t>(ProbeState::vigilant) + 1;
 
 /// A volume's header, checked.
@@ -53,6 +56,8 @@ class Reader {
       return bad("header", "has " + std::to_string(volumes) + " volumes");
     }
     field.updates = in_.u32();
+    if (field.updates > kMaxUpdates)
+      return bad("header", "has had more updates than can be counted");
     field.scene.triangles = in_.u64();
     field.scene.vertices = in_.u64();
     field.scene.instances = in_.u32();
@@ -134,6 +139,9 @@ class Reader {
     const std::uint32_t follows = in_.u32(), level = in_.u32();
     if (follows > 1 || level > kMaxCascades) return bad(place_, "has a role that no volume has");
     volume.role = {follows == 1, static_cast<int>(level)};
+    if (follows == 1 && !can_follow(volume.grid)) {
+      return bad(place_, "cannot follow the viewer from where, or as, it stands");
+    }
     header.irradiance_words = tile_words(header.probes, volume.irradiance_texels,
                                          words_per_texel(volume.irradiance_format));
     header.distance_words =
@@ -217,7 +225,7 @@ class Reader {
     record.noise_samples = static_cast<std::uint16_t>(noise_samples);
     const bool on_grid = encode_probe_offset(decode_probe_offset(offset)) == offset;
     return on_grid && record.samples >= 0.0f && std::isfinite(record.samples) &&
-           record.noise >= 0.0f && record.served <= updates;
+           record.noise >= 0.0f && std::isfinite(record.noise) && record.served <= updates;
   }
 
   const std::string& name_;

@@ -69,6 +69,7 @@ struct IrradianceField::State {
   /// 1: told is as exact as the solution, not as what the probe holds: it was traced since.
   std::vector<std::uint8_t> told_roughly;
   ProbeAgenda agenda;
+  std::vector<float> importance;  ///< Of each probe, in an update that knows what is seen.
   OpenEdits edits;
   std::vector<EditedPlace> edited_places;
   std::uint64_t placed_revision = 0;  ///< Of the world that edited_places know.
@@ -98,12 +99,13 @@ struct IrradianceField::State {
   void find_reaches(const World& world, std::span<const int> probes, bool learn_distances = false);
   void forget_place(int probe);
   /// Stores what probes in new places see, and has the surfels that read them ask anew.
-  void settle_in(const World& world, std::span<const int> moved);
+  void settle_in(const World& world, std::span<const int> moved, UpdateStatistics& statistics);
+  void take_over(int probe, const World& world);
   /// Places probes anew where what keeps still was edited, once nothing there has moved for a
   /// while.
-  void place_edited(const World& world);
+  void place_edited(const World& world, UpdateStatistics& statistics);
   /// Has volumes follow the viewer. Returns how many probes came to belong elsewhere.
-  int follow_viewer(const World& world, const vec3& viewer_ws);
+  int follow_viewer(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
   void inherit(std::span<const int> probes, std::span<const vec3> places_ws,
                std::span<vec4> tiles) const;
   /// Says what each probe is for, with what moves where it is now.
@@ -127,11 +129,15 @@ struct IrradianceField::State {
   void follow_slice(const World& world, std::span<const WorldChanges> changes,
                     std::span<const int> probes, std::span<const int> all,
                     UpdateStatistics& statistics);
-  void solve_edits(bool done, UpdateStatistics& statistics);
+  void solve_edits(UpdateStatistics& statistics);
   int settle_edits(std::span<const int> probes, const WorkingIrradiance& before,
-                   const RelightResult& solved, const WorkingIrradiance& gain, bool done);
+                   const RelightResult& solved, const WorkingIrradiance& gain);
+  void lose_samples();
+  void put_in_order(std::vector<int>& waiting, std::uint64_t ray_budget,
+                    const std::optional<vec3>& viewer_ws, std::uint64_t revision) const;
   /// Has some of the sleeping probes follow that others left behind.
-  void follow_sleepers(const World& world, std::span<const int> all, UpdateStatistics& statistics);
+  void follow_sleepers(const World& world, std::uint64_t ray_budget, std::span<const int> all,
+                       UpdateStatistics& statistics);
   void forget_light(int probe, std::uint64_t revision);
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);

@@ -86,8 +86,8 @@ class Follower {
   /// Finds anew what the edits may have changed. Tells whether light and distances did change.
   struct Outcome {
     bool touched = false;         // any of it
-    bool other_surfaces = false;  // rays met something else
-    bool moved = false;           // ... at another distance
+    bool other_surfaces = false;  // what rays met reads the field in another way
+    bool moved = false;           // rays met something else
   };
   Outcome follow(int probe, const vec3& origin, ProbeTrace& trace) {
     Outcome outcome;
@@ -137,8 +137,12 @@ void Follower::retrace(int probe, const vec3& origin, ProbeTrace& trace, Outcome
     ++probe_rays;
     if (found == surfel) continue;
     outcome.touched = true;
-    outcome.moved =
-        outcome.moved || found.position_ws != surfel.position_ws || found.kind != surfel.kind;
+    const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind;
+    outcome.moved = outcome.moved || moved;
+    // ... of which some read other probes, or along other directions
+    outcome.other_surfaces =
+        outcome.other_surfaces || moved || found.normal_ws != surfel.normal_ws ||
+        found.receives_gi != surfel.receives_gi || found.reflects() != surfel.reflects();
     surfel = found;
   }
 }
@@ -279,8 +283,8 @@ FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> cha
   move_distances(settings, moved, traces, salt, store);
   for (const MovedProbe& probe : moved) result.moved.push_back(probe.probe);
   if (!other_surfaces.empty()) {
-    // Lookups may differ where rays met something else, and where a probe that they read sees
-    // other distances
+    // Lookups may differ where rays met something else, and where a probe that they read sees other
+    // distances
     std::sort(other_surfaces.begin(), other_surfaces.end());
     const std::vector<int> readers = probes_reading(result.moved, all, store, traces);
     std::vector<int> asking;

@@ -24,24 +24,6 @@ constexpr int kRestUpdates = 8;
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
-/// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
-std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes) {
-  std::vector<int> cells;
-  for (const int probe : probes) {
-    const ProbeGrid& grid = store.grid_of(probe);
-    const ivec3 coords = probe_coords(grid, probe);
-    for (int k = 0; k < 8; ++k) {
-      const ivec3 base = coords - cell_corner(k);
-      if (glm::all(glm::greaterThanEqual(base, ivec3(0)))) {
-        cells.push_back(probe_index(grid, base));
-      }
-    }
-  }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
-  return cells;
-}
-
 }  // namespace
 
 std::vector<int> IrradianceField::State::place(const World& world, std::span<const int> probes) {
@@ -61,7 +43,8 @@ std::vector<int> IrradianceField::State::place(const World& world, std::span<con
   return moved;
 }
 
-void IrradianceField::State::settle_in(const World& world, std::span<const int> moved) {
+void IrradianceField::State::settle_in(const World& world, std::span<const int> moved,
+                                       UpdateStatistics& statistics) {
   // Without surfels they follow no edit any more
   std::vector<int> followed;
   std::set_difference(edits.followed.begin(), edits.followed.end(), moved.begin(), moved.end(),
@@ -73,13 +56,13 @@ void IrradianceField::State::settle_in(const World& world, std::span<const int> 
     if (traces[probe].rays != nullptr) traced.push_back(probe);
   }
   if (settings.visibility == Visibility::hybrid) {
-    sights.look(world.tracer(), store, cells_around(store, moved));
+    statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, moved));
   }
-  find_surfel_lookups(store, visibility(world), probes_reading(moved, traced, store, traces),
-                      traces);
+  statistics.shadow_rays += find_surfel_lookups(
+      store, visibility(world), probes_reading(moved, traced, store, traces), traces);
 }
 
-void IrradianceField::State::place_edited(const World& world) {
+void IrradianceField::State::place_edited(const World& world, UpdateStatistics& statistics) {
   // Note what was edited since
   const auto changes = world.changes_since(placed_revision);
   placed_revision = world.revision();
@@ -114,11 +97,24 @@ void IrradianceField::State::place_edited(const World& world) {
   }
   edited_places.erase(at_rest, edited_places.end());
   const std::vector<int> moved = place(world, near);
-  for (const int probe : moved) {
-    records[probe].served = 0;
-    forget_light(probe, world.revision());
+  if (moved.empty()) return;
+  settle_in(world, moved, statistics);
+  for (const int probe : moved) take_over(probe, world);
+}
+
+/// Has a probe in a new place go on with the light it was given and with what it saw at once: worth
+/// as much as a few rays, so that those of its first update do not replace it all.
+void IrradianceField::State::take_over(int probe, const World& world) {
+  ProbeRecord& record = records[probe];
+  record = {};
+  // One in open air is to be traced once all the same
+  if (reaches[probe].lights_surface) {
+    record.samples =
+        static_cast<float>(sight_directions().size()) / static_cast<float>(settings.rays_per_probe);
   }
-  if (!moved.empty()) settle_in(world, moved);
+  record.served = static_cast<std::uint32_t>(updates);
+  record.revision = world.revision();
+  agenda.changed(probe);
 }
 
 /// Has a probe forget what it knows of its surroundings; its light stays until it is traced.

@@ -45,11 +45,11 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   }
   updates = static_cast<int>(file.updates);
   placed_revision = world.revision();
-  starting = updates == 0;
   agenda.changed_all();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(tile_texels());
   double sum = 0.0;
+  bool never_served = false;
   for (int probe = 0; probe < store.probes(); ++probe) {
     vec4* tile = &light[probe * texels];
     for (int t = 0; t < n * n; ++t) {
@@ -57,8 +57,12 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     }
     sum += mean_luminance(TileLight(tile, texels));
     records[probe].revision = world.revision();
+    // An exact number of bounces is carried through all probes at once
+    if (settings.max_bounces >= 0) records[probe].state = ProbeState::newly_vigilant;
+    never_served = never_served || (is_live(records[probe]) && records[probe].served == 0);
   }
   mean_light = static_cast<float>(sum / store.probes());
+  starting = updates == 0 || never_served;
   // What the first update finds of the scene, where that has been
   if (updates == 0) return;
   std::vector<int> all(records.size());

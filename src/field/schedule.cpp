@@ -50,11 +50,11 @@ std::uint64_t RayCost::rays_within(double ms) const {
 }
 
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
-                      std::span<const ProbeRecord> records, int rays_per_probe,
+                      std::span<const ProbeRecord> records, const FieldSettings& settings,
                       std::uint32_t update) {
   Schedule schedule;
   for (int volume = 0; volume < store.volumes(); ++volume) {
-    const std::uint32_t period = 1u << roles[volume].level;
+    const std::uint32_t period = settings.max_bounces >= 0 ? 1u : 1u << roles[volume].level;
     const int first = store.grid(volume).first;
     for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
       if (!is_live(records[probe])) continue;
@@ -63,7 +63,7 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
       if (turn || records[probe].served == 0) schedule.probes.push_back(probe);
     }
   }
-  schedule.rays.assign(schedule.probes.size(), rays_per_probe);
+  schedule.rays.assign(schedule.probes.size(), settings.rays_per_probe);
   return schedule;
 }
 

@@ -5,7 +5,8 @@
 // their number. An update serves the probes with the largest relative standard errors, and gives
 // each rays in proportion to its noise: of all ways to share out rays, that leaves the least error
 // (Neyman, "On the Two Different Aspects of the Representative Method", J. R. Stat. Soc. 97(4),
-// 1934). Probes near the camera count for more, and none waits for ever.
+// 1934). Probes that matter to what is seen, or near the camera, count for more, and none waits for
+// ever.
 #pragma once
 
 #include <array>
@@ -52,9 +53,10 @@ struct Schedule {
 };
 
 /// Every probe that is not off and whose volume's turn it is, and those never served, with the
-/// settings' rays.
+/// settings' rays. Where bounces are counted it is every volume's turn: their exact number is
+/// carried through all probes at once.
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
-                      std::span<const ProbeRecord> records, int rays_per_probe,
+                      std::span<const ProbeRecord> records, const FieldSettings& settings,
                       std::uint32_t update);
 
 /// What the scheduler keeps in mind of each probe, so that an update looks at those that changed
@@ -79,8 +81,10 @@ class ProbeAgenda {
   int unserved() const { return unserved_; }
 
   /// The most urgent probes within a budget of rays, as last noted. `update` counts from 1.
+  /// `importance` has one number a probe, 0 to 1; empty: by the distance from the viewer.
   Schedule within(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
-                  const std::optional<glm::vec3>& viewer_ws) const;
+                  const std::optional<glm::vec3>& viewer_ws,
+                  std::span<const float> importance = {}) const;
 
  private:
   /// What decides about a probe.
@@ -100,6 +104,8 @@ class ProbeAgenda {
     int unsettled = 0;         ///< ... so many.
   };
 
+  float worth_of(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
+                 std::span<const float> importance) const;
   void note_record(std::span<const ProbeRecord> records, int probe);
   void note_noise(const ProbeStore& store, std::span<const ProbeRecord> records, int probe);
   void note_block(std::size_t block);

@@ -41,7 +41,8 @@ void IrradianceField::State::inherit(std::span<const int> probes, std::span<cons
   });
 }
 
-int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer_ws) {
+int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer_ws,
+                                          UpdateStatistics& statistics) {
   // Find the probes that will belong elsewhere, and what the field holds there
   std::vector<int> recycled;
   std::vector<vec3> places;
@@ -70,8 +71,6 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   // Place them, with their first distances and the light that was there
   for (std::size_t k = 0; k < recycled.size(); ++k) {
     const int probe = recycled[k];
-    records[probe] = {};
-    records[probe].revision = world.revision();
     store.set_probe_offset(probe, vec3(0.0f));
     forget_place(probe);
     for (std::size_t t = 0; t < texels; ++t) {
@@ -84,7 +83,8 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
     relocate_probes(world.scene(), world.tracer(), recycled, moving_instances(world.scene()),
                     store);
   }
-  settle_in(world, recycled);
+  settle_in(world, recycled, statistics);
+  for (const int probe : recycled) take_over(probe, world);
   store_light(recycled);
   return static_cast<int>(recycled.size());
 }

@@ -3,12 +3,14 @@
 // al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
 // The order of an update of the irradiance field.
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "field/distances.h"
 #include "field/field_state.h"
+#include "field/importance.h"
 #include "field/tile_light.h"
 #include "lambent/world.h"
 #include "shared/random.h"
@@ -122,7 +124,8 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     statistics.shadow_rays += shade_surfels(world, store, group, settings, traces);
   }
   if (settings.visibility == Visibility::hybrid) {
-    statistics.shadow_rays += sights.look(world.tracer(), store, traced.probes);
+    statistics.shadow_rays +=
+        sights.look(world.tracer(), store, cells_around(store, traced.probes));
   }
   statistics.shadow_rays += find_surfel_lookups(store, visibility(world), traced.probes, traces);
   statistics.shade_ms += watch.lap();
@@ -171,20 +174,28 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     const std::uint64_t learned = s.ray_cost.rays_within(request.time_budget_ms);
     budget = budget == 0 ? learned : std::min(budget, learned);
   }
+  // An exact number of bounces is carried through all probes at once
+  if (s.settings.max_bounces >= 0) budget = 0;
 
-  if (request.viewer_ws) statistics.probes_recycled = s.follow_viewer(world, *request.viewer_ws);
+  std::optional<vec3> viewer_ws = request.viewer_ws;
+  if (viewer_ws && !std::isfinite(viewer_ws->x + viewer_ws->y + viewer_ws->z)) viewer_ws.reset();
+  if (viewer_ws) statistics.probes_recycled = s.follow_viewer(world, *viewer_ws, statistics);
   if (s.updates == 0) {
     std::vector<int> all(s.records.size());
     std::iota(all.begin(), all.end(), 0);
     s.place(world, all);
     s.placed_revision = world.revision();
   } else {
-    s.place_edited(world);
+    s.place_edited(world, statistics);
   }
   s.classify(world);
   statistics.place_ms = watch.lap();
 
-  const Followed followed = s.follow(world, budget, request.viewer_ws, statistics);
+  s.importance.clear();
+  if (budget > 0 && !request.seen.empty()) {
+    s.importance = probe_importance(s.store, request.seen, s.traces);
+  }
+  const Followed followed = s.follow(world, budget, viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
   // Probes that wait to be held against edits would lose sight of them were they traced before
   const bool trace =
@@ -195,8 +206,8 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
     const auto update = static_cast<uint>(s.updates);
     s.agenda.note(s.store, s.records);
     const Schedule schedule =
-        budget == 0 ? schedule_all(s.store, s.roles, s.records, s.settings.rays_per_probe, update)
-                    : s.agenda.within(s.store, budget - spent, update + 1, request.viewer_ws);
+        budget == 0 ? schedule_all(s.store, s.roles, s.records, s.settings, update)
+                    : s.agenda.within(s.store, budget - spent, update + 1, viewer_ws, s.importance);
     s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
   }
   s.agenda.note(s.store, s.records);
@@ -207,7 +218,10 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   }
   ++s.updates;
   statistics.states = s.agenda.states();
-  s.ray_cost.learn(statistics.probe_rays + statistics.shadow_rays, watch.lap());
+  // What tracing a probe ray costs, its shadow rays and all else included
+  if (trace && followed == Followed::nothing) {
+    s.ray_cost.learn(statistics.probe_rays, statistics.place_ms + watch.lap());
+  }
   return statistics;
 }
 

@@ -41,6 +41,9 @@ constexpr std::uint64_t kRaysPerProbeFollowed = 8;
 // an edit by no more updates than that, and edits in every update cost little more.
 constexpr std::size_t kSleeperSlices = 8;
 
+// Edits after which a probe that has not followed goes before all that have.
+constexpr std::uint64_t kFarBehind = 16;
+
 constexpr std::size_t kProbesPerTask = 64;
 
 // What one update's rays tell of a probe is not off by more than this factor, or they met nothing
@@ -151,7 +154,7 @@ void IrradianceField::State::follow_slice(const World& world, std::span<const Wo
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
   if (settings.visibility == Visibility::hybrid && shapes_differ) {
-    statistics.shadow_rays += sights.look(world.tracer(), store, probes);
+    statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, probes));
   }
   const FollowedEdits followed =
       follow_edits(world, changes, settings, probes, all, visibility(world), store, traces, salt());
@@ -172,12 +175,19 @@ void IrradianceField::State::follow_slice(const World& world, std::span<const Wo
   }
 }
 
-void IrradianceField::State::follow_sleepers(const World& world, std::span<const int> all,
+void IrradianceField::State::follow_sleepers(const World& world, std::uint64_t ray_budget,
+                                             std::span<const int> all,
                                              UpdateStatistics& statistics) {
   Stopwatch watch;
+  const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
+  if (ray_budget != 0 && spent >= ray_budget) return;
+  std::size_t count = std::min(sleepers_a_slice, late_sleepers.size());
+  if (ray_budget != 0 && count > 0) {
+    count = std::min(count,
+                     next_slice(late_sleepers, traces, records, ray_budget - spent).probes.size());
+  }
   std::vector<int> probes(late_sleepers.begin(),
-                          late_sleepers.begin() + static_cast<std::ptrdiff_t>(std::min(
-                                                      sleepers_a_slice, late_sleepers.size())));
+                          late_sleepers.begin() + static_cast<std::ptrdiff_t>(count));
   late_sleepers.erase(late_sleepers.begin(),
                       late_sleepers.begin() + static_cast<std::ptrdiff_t>(probes.size()));
   // Those that woke meanwhile have been traced
@@ -196,17 +206,17 @@ void IrradianceField::State::follow_sleepers(const World& world, std::span<const
   once.max_iterations = 1;
   const std::vector<float> shares(probes.size(), 1.0f);
   const RelightResult solved = relight(transport(probes), shares, gain, once, light);
-  statistics.probes_touched += settle_edits(probes, before, solved, gain, true);
+  statistics.probes_touched += settle_edits(probes, before, solved, gain);
   statistics.relights += solved.iterations;
   statistics.relight_ms += watch.lap();
 }
 
 /// Stores what was solved for where it differs from the light before; the others keep theirs to the
-/// bit. `done`: nothing of the edit is still to come. Returns how many differ.
+/// bit. Returns how many differ.
 int IrradianceField::State::settle_edits(std::span<const int> probes,
                                          const WorkingIrradiance& before,
-                                         const RelightResult& solved, const WorkingIrradiance& gain,
-                                         bool done) {
+                                         const RelightResult& solved,
+                                         const WorkingIrradiance& gain) {
   const auto texels = static_cast<std::size_t>(tile_texels());
   std::vector<int> touched;
   for (std::size_t k = 0; k < probes.size(); ++k) {
@@ -222,18 +232,13 @@ int IrradianceField::State::settle_edits(std::span<const int> probes,
     for (std::size_t t = 0; t < texels; ++t) {
       told[probe * texels + t] = solved.solution[k * texels + t] / gain[k * texels + t];
     }
-    if (!done) continue;
-    // Averages of another light are worth the less the more it changed
-    const float kept = likeness(found, held);
-    records[probe].samples = max(records[probe].samples * kept * kept, 1.0f);
-    agenda.changed(probe);
   }
   store_light(touched);
   return static_cast<int>(touched.size());
 }
 
 /// Solves for the light of all that have followed the edits so far.
-void IrradianceField::State::solve_edits(bool done, UpdateStatistics& statistics) {
+void IrradianceField::State::solve_edits(UpdateStatistics& statistics) {
   const int texels = tile_texels();
   const WorkingIrradiance before = light_of(edits.before, edits.followed, texels);
   const WorkingIrradiance gain = light_of(edits.gain, edits.followed, texels);
@@ -242,7 +247,7 @@ void IrradianceField::State::solve_edits(bool done, UpdateStatistics& statistics
       relight(transport(edits.followed), shares, gain, relight_settings(), light);
   statistics.relights += solved.iterations;
   statistics.residual = solved.error;
-  statistics.probes_touched = settle_edits(edits.followed, before, solved, gain, done);
+  statistics.probes_touched = settle_edits(edits.followed, before, solved, gain);
   WorkingIrradiance change = light_of(light, edits.followed, texels);
   const double whole = norm(change);
   add_scaled(change, -1.0f, before, change);
@@ -273,10 +278,30 @@ Behind IrradianceField::State::find_behind(const World& world) {
   return behind;
 }
 
+/// Takes from the averages of the probes that followed the open edits what they are no longer
+/// worth.
+void IrradianceField::State::lose_samples() {
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  for (const int probe : edits.followed) {
+    const TileLight held(&edits.before[probe * texels], texels),
+        found(&light[probe * texels], texels);
+    if (relative_square(found, held) < kTouchedShare * kTouchedShare) continue;
+    // The less, the more the light changed
+    const float kept = likeness(found, held);
+    records[probe].samples = max(records[probe].samples * kept * kept, 1.0f);
+    agenda.changed(probe);
+  }
+}
+
 /// Remembers the light before the edits, while light and rays are of one world.
 void IrradianceField::State::open_edits(std::uint64_t revision, std::span<const int> traced) {
   if (!edits.before.empty() && edits.revision == revision) return;
-  if (edits.before.empty()) tell_exactly(traced);
+  if (edits.before.empty()) {
+    tell_exactly(traced);
+  } else {
+    // Those that followed the edits before this one hold averages of another light
+    lose_samples();
+  }
   edits.before = light;
   edits.gain.resize(light.size());
   edits.followed.clear();
@@ -336,24 +361,39 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
   }
   const bool any = !behind.waiting.empty();
   if (any) {
-    if (ray_budget != 0 && viewer_ws) {
-      std::stable_sort(behind.waiting.begin(), behind.waiting.end(), [&](int a, int b) {
-        return glm::distance(store.probe_position_ws(a), *viewer_ws) <
-               glm::distance(store.probe_position_ws(b), *viewer_ws);
-      });
-    }
+    put_in_order(behind.waiting, ray_budget, viewer_ws, revision);
     open_edits(revision, behind.traced);
     statistics.follow_ms += watch.lap();
     follow_in_slices(world, ray_budget, behind, statistics);
     watch.lap();
-    solve_edits(behind.waiting.empty(), statistics);
+    solve_edits(statistics);
     statistics.relight_ms += watch.lap();
     if (!behind.waiting.empty()) return Followed::some;
-    edits = {};
   }
+  if (!edits.before.empty()) lose_samples();
+  edits = {};
   followed_revision = revision;
-  follow_sleepers(world, behind.traced, statistics);
+  follow_sleepers(world, ray_budget, behind.traced, statistics);
   return any ? Followed::all : Followed::nothing;
+}
+
+/// Under a budget, probes far behind come first, so that edits without end leave none behind; then
+/// those that matter to what is seen, or near ones.
+void IrradianceField::State::put_in_order(std::vector<int>& waiting, std::uint64_t ray_budget,
+                                          const std::optional<vec3>& viewer_ws,
+                                          std::uint64_t revision) const {
+  if (ray_budget == 0) return;
+  std::vector<float> rank(records.size(), 0.0f);
+  for (const int probe : waiting) {
+    if (revision - records[probe].revision > kFarBehind) {
+      rank[probe] = -std::numeric_limits<float>::max();
+    } else if (!importance.empty()) {
+      rank[probe] = -importance[probe];
+    } else if (viewer_ws) {
+      rank[probe] = glm::distance(store.probe_position_ws(probe), *viewer_ws);
+    }
+  }
+  std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) { return rank[a] < rank[b]; });
 }
 
 /// Has a probe start its average anew.

@@ -174,6 +174,23 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
   return traced;
 }
 
+std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes) {
+  std::vector<int> cells;
+  for (const int probe : probes) {
+    const ProbeGrid& grid = store.grid_of(probe);
+    const ivec3 coords = probe_coords(grid, probe);
+    for (int k = 0; k < 8; ++k) {
+      const ivec3 base = coords - cell_corner(k);
+      if (glm::all(glm::greaterThanEqual(base, ivec3(0)))) {
+        cells.push_back(probe_index(grid, base));
+      }
+    }
+  }
+  std::sort(cells.begin(), cells.end());
+  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  return cells;
+}
+
 std::uint64_t visible_corner_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                                      std::span<const FieldQuery> queries,
                                      std::span<CornerWeights> result) {

@@ -29,6 +29,9 @@ class ProbeSights {
   std::vector<std::uint64_t> cells_;
 };
 
+/// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
+std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes);
+
 /// What lookups find visibility with.
 struct VisibilityRays {
   Visibility mode = Visibility::moments;

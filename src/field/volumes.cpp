@@ -26,6 +26,13 @@ constexpr int kLongAxis = 8;
 // Cells that the sides of the box in which a volume counts move in an update, where they do not
 // move with the viewer: half a second at 60 Hz for one.
 constexpr float kFadeRate = 1.0f / 32.0f;
+// How much faster they move for each cell that the viewer is too far off.
+constexpr float kHaste = 8.0f;
+
+// Places of probes are counted in cells from the world's origin; floats count no farther [cells].
+constexpr float kFarthestCell = 4194304.0f;
+// Spacings beyond these [m] have cells whose size or its square is no number.
+constexpr float kMinSpacing = 1e-15f, kMaxSpacing = 1e15f;
 // With fewer probes along an axis nothing is left to count once the slack is taken off.
 constexpr int kMinCascadeProbes = 4;
 
@@ -76,6 +83,10 @@ Expected<Volume> plan_volume(const ProbeVolume& asked, const Bounds& scene_bound
   return Volume{still_grid(*grid), {}};
 }
 
+float finest_spacing(const FieldSettings& settings) {
+  return settings.probe_spacing > 0.0f ? settings.probe_spacing : kFinestSpacing;
+}
+
 Expected<void> check_cascades(const FieldSettings& settings) {
   if (settings.cascades < 0 || settings.cascades > kMaxCascades) {
     return fail("", "cascades", "must be 0 to 16");
@@ -91,6 +102,10 @@ Expected<void> check_cascades(const FieldSettings& settings) {
   if (!std::isfinite(settings.probe_spacing) || settings.probe_spacing < 0.0f) {
     return fail("", "probe spacing", "must be a finite number of metres above 0");
   }
+  const float finest = finest_spacing(settings);
+  if (finest < kMinSpacing || std::ldexp(finest, settings.cascades - 1) > kMaxSpacing) {
+    return fail("", "probe spacing", "has cascades whose cells' size is no number");
+  }
   return {};
 }
 
@@ -99,9 +114,9 @@ struct Range {
   float low, high;
 };
 
-float approach(float value, float target) {
+float approach(float value, float target, float rate) {
   const float way = target - value;
-  return std::abs(way) <= kFadeRate ? target : value + std::copysign(kFadeRate, way);
+  return std::abs(way) <= rate ? target : value + std::copysign(rate, way);
 }
 
 /// How far a volume moves on along one axis [cells], and where it counts then.
@@ -131,17 +146,20 @@ Step follow_along(float off, const Range& counts, int count) {
   const Range target = wants == 0  ? whole
                        : wants > 0 ? Range{1.0f, last}
                                    : Range{0.0f, last - 1.0f};
-  const Range next = {approach(counts.low, target.low), approach(counts.high, target.high)};
+  // The farther off the viewer is, the more haste
+  const float late = max(std::abs(off) - kScrollSlack, 0.0f);
+  const float rate = kFadeRate * (1.0f + kHaste * late);
+  const Range next = {approach(counts.low, target.low, rate),
+                      approach(counts.high, target.high, rate)};
   if (wants == 0 || next.low != target.low || next.high != target.high) return {0, next};
   const float moved = static_cast<float>(wants);
   return {wants, {next.low - moved, next.high - moved}};
 }
 
 Volume plan_cascade(const FieldSettings& settings, int level, const vec3& middle) {
-  const float finest = settings.probe_spacing > 0.0f ? settings.probe_spacing : kFinestSpacing;
   FieldGrid grid;
   grid.count = settings.probe_count != ivec3(0) ? settings.probe_count : kCascadeProbes;
-  grid.spacing = vec3(std::ldexp(finest, level));
+  grid.spacing = vec3(std::ldexp(finest_spacing(settings), level));
   return {around(still_grid(grid), middle), {true, level}};
 }
 
@@ -167,10 +185,19 @@ FieldGrid field_grid(const ProbeGrid& grid) {
   return {grid.origin_ws, grid.spacing, grid.count, grid.axes};
 }
 
+bool can_follow(const ProbeGrid& grid) {
+  const vec3 place = grid.origin_ws / grid.spacing;
+  return grid.axes == mat3(1.0f) &&
+         glm::all(glm::greaterThanEqual(grid.count, ivec3(kMinCascadeProbes))) &&
+         glm::all(glm::lessThanEqual(abs(place), vec3(2.0f * kFarthestCell))) &&
+         glm::round(place) * grid.spacing == grid.origin_ws;
+}
+
 ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws) {
   // From far away it comes at once
   ProbeGrid away = grid;
-  away.origin_ws = (floor(viewer_ws / grid.spacing) - 2.0f * vec3(grid.count)) * grid.spacing;
+  const vec3 viewer = clamp(viewer_ws / grid.spacing, vec3(-kFarthestCell), vec3(kFarthestCell));
+  away.origin_ws = (floor(viewer) - 2.0f * vec3(grid.count)) * grid.spacing;
   return following(away, viewer_ws);
 }
 
@@ -180,8 +207,9 @@ ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
   ivec3 place = ivec3(glm::round(grid.origin_ws / grid.spacing));
   for (int axis = 0; axis < 3; ++axis) {
     const int count = grid.count[axis];
-    const float off = viewer_ws[axis] / grid.spacing[axis] - static_cast<float>(place[axis]) -
-                      0.5f * static_cast<float>(count - 1);
+    const float viewer = clamp(viewer_ws[axis] / grid.spacing[axis], -kFarthestCell, kFarthestCell);
+    const float off =
+        viewer - static_cast<float>(place[axis]) - 0.5f * static_cast<float>(count - 1);
     const Range counts = {grid.fade_centre[axis] - grid.fade_half[axis],
                           grid.fade_centre[axis] + grid.fade_half[axis]};
     const Step step = follow_along(off, counts, count);
@@ -251,6 +279,9 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
     volumes.push_back({still_grid(*grid), {}});
   }
 
+  if (volumes.size() > kMaxVolumes) {
+    return fail("", "volumes", "are more than 64 in all");
+  }
   double probes = 0.0;
   for (const Volume& volume : volumes) {
     const vec3 count(volume.grid.count);

@@ -2,6 +2,7 @@
 // The volumes of a field: which there are, and how they follow the viewer.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "field/probe_grid.h"
@@ -11,6 +12,8 @@
 namespace lambent {
 
 inline constexpr int kMaxCascades = 16;
+// Volumes of one field: more are a typing error or a broken file.
+inline constexpr std::uint32_t kMaxVolumes = 64;
 
 /// Whether the columns are unit and orthogonal.
 bool is_rotation(const mat3& axes);
@@ -38,6 +41,9 @@ FieldGrid field_grid(const ProbeGrid& grid);
 /// around the middle of the bounds. Fails as IrradianceField::make does.
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
                                            const Bounds& scene_bounds);
+
+/// Whether a volume is one that can follow: straight, of enough probes, and in place.
+bool can_follow(const ProbeGrid& grid);
 
 /// A volume that follows the viewer, put around one.
 ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws);

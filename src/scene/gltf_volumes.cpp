@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 namespace lambent::gltf {
 namespace {
@@ -33,6 +34,8 @@ bool read_vector(const json& value, double low, double high, Vector& vector) {
   for (int axis = 0; axis < 3; ++axis) {
     double number = 0.0;
     if (!read_number(value[axis], low, high, number)) return false;
+    constexpr bool whole = std::is_integral_v<typename Vector::value_type>;
+    if (whole && number != std::floor(number)) return false;
     vector[axis] = static_cast<typename Vector::value_type>(number);
   }
   return true;
@@ -47,7 +50,7 @@ const char* read_volume(const json& extras, ProbeVolume& volume) {
       if (!read_vector(value, 0.0, kMostMetres, volume.size)) return "has no three numbers as size";
     } else if (key == "probes") {
       if (!read_vector(value, 2.0, kMostProbes, volume.probe_count)) {
-        return "has no three numbers of 2 or more as probes";
+        return "has no three whole numbers of 2 or more as probes";
       }
     } else if (key == "spacing") {
       if (!read_number(value, 0.0, kMostMetres, number) || !(number > 0.0)) {
@@ -64,7 +67,8 @@ const char* read_volume(const json& extras, ProbeVolume& volume) {
       return "has a member that means nothing to us";
     }
   }
-  return nullptr;
+  const bool counted = volume.probe_count != glm::ivec3(0);
+  return counted && volume.probe_spacing > 0.0f ? "has both probes and spacing" : nullptr;
 }
 
 }  // namespace

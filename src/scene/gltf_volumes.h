@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Probe volumes that a file's author asks for in the extras of nodes. Nothing here makes a file
-// fail: what cannot be understood is ignored with a warning.
+// fail: what cannot be understood is ignored with a warning. Whether a field can have such volumes
+// is decided where one is made.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -10,10 +10,8 @@
 #include <vector>
 
 #include "lambent/field.h"
+#include "lambent/renderer.h"
 #include "lambent/world.h"
-#include "raytracing/camera_rays.h"
-#include "raytracing/raytracer.h"
-#include "raytracing/surface.h"
 #include "scenes/builtin.h"
 
 namespace lambent::test {
@@ -49,18 +47,7 @@ inline std::vector<glm::vec3> look_up(const IrradianceField& field,
 
 /// What the scene's first camera sees, one point a pixel of a small picture.
 inline std::vector<FieldQuery> seen_points(const Stage& stage) {
-  constexpr int kWidth = 48, kHeight = 27;
-  std::vector<FieldQuery> queries;
-  for (int i = 0; i < kWidth * kHeight; ++i) {
-    const Ray ray =
-        camera_ray(stage.scene.cameras[0], kWidth, kHeight, static_cast<float>(i % kWidth) + 0.5f,
-                   static_cast<float>(i / kWidth) + 0.5f);
-    const Hit hit = stage.world.tracer().closest_hit(ray);
-    if (hit.missed()) continue;
-    const Surface surface = surface_at(stage.scene, ray, hit);
-    queries.push_back({surface.position_ws, surface.normal_ws, -ray.direction});
-  }
-  return queries;
+  return visible_points(stage.world, stage.scene.cameras[0], 48, 27);
 }
 
 /// Settings that leave storage out of what is tested.

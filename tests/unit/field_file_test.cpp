@@ -25,7 +25,7 @@ FieldVolume made_volume(IrradianceFormat irradiance, DistanceFormat distance) {
   volume.grid.fade_centre = {1.25f, 0.5f, 0.75f};
   volume.grid.fade_half = {0.75f, 0.5f, 0.25f};
   volume.grid.fade_cells = {2.0f, 1.0f, 4.0f};
-  volume.role = {true, 3};
+  volume.role = {false, 3};
   volume.irradiance_texels = 2;
   volume.distance_texels = 5;
   volume.irradiance_format = irradiance;
@@ -114,7 +114,7 @@ TEST(FieldFile, StandsWhereTheDocumentSays) {
   EXPECT_EQ(u32(64 + 100), 0x3FA00000u);  // fade_centre.x = 1.25
   EXPECT_EQ(u32(64 + 112), 0x3F400000u);  // fade_half.x = 0.75
   EXPECT_EQ(u32(64 + 124), 0x40000000u);  // fade_cells.x = 2
-  EXPECT_EQ(u32(64 + 136), 1u);           // follows the viewer
+  EXPECT_EQ(u32(64 + 136), 0u);           // follows the viewer
   EXPECT_EQ(u32(64 + 140), 3u);           // level
   const std::size_t records = 64 + 144, tiles = records + 24 * 12;
   EXPECT_EQ(u32(records + 24), encode_probe_offset({0.04f, -0.04f, 0.02f}));
@@ -202,6 +202,8 @@ TEST(FieldFile, RefusesNumbersThatNoFieldHas) {
   EXPECT_THAT(refusal_with(volume + 100, kInfinity), HasSubstr("counts within a box"));
   EXPECT_THAT(refusal_with(volume + 112, 0u), HasSubstr("counts within a box"));
   EXPECT_THAT(refusal_with(volume + 124, 0u), HasSubstr("counts within a box"));
+  EXPECT_THAT(refusal_with(volume + 136, 1u), HasSubstr("cannot follow"));
+  EXPECT_THAT(refusal_with(28, 0xFFFFFFFFu), HasSubstr("updates"));
   EXPECT_THAT(refusal_with(volume + 136, 2u), HasSubstr("role"));
   EXPECT_THAT(refusal_with(volume + 140, 17u), HasSubstr("role"));
   const std::size_t record = volume + kVolumeHeaderBytes + kRecordBytes;
@@ -211,6 +213,7 @@ TEST(FieldFile, RefusesNumbersThatNoFieldHas) {
   EXPECT_THAT(refusal_with(record + 8, kInfinity), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record + 8, 0xBF800000u), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record + 12, kNan), HasSubstr("record of probe 1"));
+  EXPECT_THAT(refusal_with(record + 12, kInfinity), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record + 16, 0x10000u), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record + 20, 12), HasSubstr("record of probe 1"));
   FieldFile exact = made_file();

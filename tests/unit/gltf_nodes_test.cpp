@@ -323,8 +323,9 @@ TEST(GltfNodes, ProbeVolumesThatMakeNoSenseAreLeftOut) {
   for (const json& volume :
        {json(3), json{{"size", {1, 2}}}, json{{"size", {1, 2, -1}}}, json{{"size", {1, 2, "x"}}},
         json{{"spacing", 0}}, json{{"spacing", -1}}, json{{"probes", {1, 2, 2}}},
-        json{{"probes", {1e9, 2, 2}}}, json{{"priority", 0.5}}, json{{"priority", 1e300}},
-        json{{"turn", 30}}}) {
+        json{{"probes", {1e9, 2, 2}}}, json{{"probes", {2.5, 2, 2}}},
+        json{{"probes", {2, 2, 2}}, {"spacing", 1}}, json{{"priority", 0.5}},
+        json{{"priority", 1e300}}, json{{"turn", 30}}}) {
     GltfBuilder builder;
     builder.show(builder.triangle());
     builder.show_node({{"extras", {{"lambent_probe_volume", volume}}}});

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/importance.h"
+
+#include <algorithm>
+
+#include "field/lookup_volumes.h"
+#include "shared/color.h"
+#include "shared/constants.h"
+
+namespace lambent {
+namespace {
+
+// Bounces that importance is sent back through; light of later ones hangs on all probes alike.
+constexpr int kBounces = 2;
+
+// One in so many of a probe's surfels stands for those around it.
+constexpr std::size_t kSurfelStride = 4;
+
+// Probes of a smaller share of the largest importance send none back: too little to matter.
+constexpr float kLeastSent = 1e-3f;
+
+void add_weights(const ProbeStore& store, const CornerWeights& corners, float importance,
+                 std::vector<float>& sum) {
+  const CornerOffsets& offsets = store.corner_table()[corners.table];
+  for (int k = 0; k < 8; ++k) {
+    sum[corners.base + offsets.probe[k]] += importance * corners.weight[k];
+  }
+}
+
+/// What surfels that a probe sees take of it: what it receives of light they reflect.
+void send_back(const ProbeStore& store, const ProbeTrace& trace, float importance,
+               std::vector<float>& sum) {
+  const auto share = static_cast<float>(kSurfelStride) / static_cast<float>(trace.surfels.size());
+  for (std::size_t i = 0; i < trace.surfels.size(); i += kSurfelStride) {
+    const Surfel& surfel = trace.surfels[i];
+    if (!surfel.reflects() || surfel.kind != SurfelKind::surface) continue;
+    const float albedo = kPi * luminance(surfel.albedo_over_pi);
+    add_weights(store, trace.lookups[i].corners, importance * share * albedo, sum);
+  }
+  for (const FurtherLookup& further : trace.further) {
+    if (further.ray % kSurfelStride != 0) continue;
+    const float albedo = kPi * luminance(trace.surfels[further.ray].albedo_over_pi);
+    add_weights(store, further.lookup.corners, importance * share * albedo, sum);
+  }
+}
+
+}  // namespace
+
+std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
+                                    std::span<const ProbeTrace> traces) {
+  // What the points read
+  std::vector<float> received(store.probes(), 0.0f);
+  QueryWeights weights;
+  find_weights(store, {}, points, weights);
+  for (const CornerWeights& corners : weights.corners) add_weights(store, corners, 1.0f, received);
+
+  // What those read in turn. One after the other, so that sums have the same bits on any number of
+  // threads
+  std::vector<float> total = received;
+  for (int bounce = 0; bounce < kBounces; ++bounce) {
+    const float least = kLeastSent * *std::max_element(received.begin(), received.end());
+    std::vector<float> sent(store.probes(), 0.0f);
+    for (int probe = 0; probe < store.probes(); ++probe) {
+      if (received[probe] <= least || traces[probe].rays == nullptr) continue;
+      send_back(store, traces[probe], received[probe], sent);
+    }
+    for (int probe = 0; probe < store.probes(); ++probe) total[probe] += sent[probe];
+    received = std::move(sent);
+  }
+  const float largest = *std::max_element(total.begin(), total.end());
+  if (largest > 0.0f) {
+    for (float& importance : total) importance /= largest;
+  }
+  return total;
+}
+
+}  // namespace lambent
