@@ -9,8 +9,6 @@ namespace lambent::dynamics {
 namespace {
 
 constexpr int kUpdatesBefore = 12;
-// Probes in open air follow an edit over so many updates.
-constexpr int kUpdatesOfOpenAir = 8;
 // The truth: fields that differ in the lamp alone, and share all random numbers, so that their
 // difference is the lamp's and not noise.
 constexpr int kTruthUpdates = 4;
@@ -69,7 +67,8 @@ void measure_house() {
     house.scene.lights[edit.lamp].intensity *= edit.factor;
     house.apply_edits();
     house.field.update(house.world);
-    for (int i = 1; i < kUpdatesOfOpenAir; ++i) house.field.update(house.world, {.ray_budget = 1});
+    // A budget of one ray has nothing traced, but open air follow, probe by probe
+    while (house.field.update(house.world, {.ray_budget = 1}).probes_followed > 0) continue;
     const std::vector<double> after = probe_light(house.field);
     const std::vector<double> true_after = true_light(house);
     int changed = 0, touched = 0, both = 0;

@@ -8,8 +8,8 @@ namespace lambent {
 
 /// What a probe is for. JCGT 10(2) 2021, sec. 5.
 enum class ProbeState : std::uint8_t {
-  off,             ///< Stands in solid matter, or lights nothing: neither traced nor looked up.
-  sleeping,        ///< Near no surface: traced only when something that moves comes near.
+  off,             ///< Stands in solid matter: neither traced nor looked up.
+  sleeping,        ///< Near no surface: traced once, for those who ask about open air.
   newly_awake,     ///< Something that moves came near since the last update.
   awake,           ///< Lights something that moves.
   newly_vigilant,  ///< Found to light static surfaces, not yet traced for it.

@@ -108,6 +108,21 @@ TEST(ProbeAgenda, GivesTheProbeThatGainsMost) {
   EXPECT_EQ(crowd.within(crowd.settings.rays_per_probe, 6).probes, std::vector<int>{300});
 }
 
+TEST(ProbeAgenda, PrefersWhatMattersToWhatIsSeenButStarvesNobody) {
+  Crowd crowd;
+  crowd.serve(5);
+  for (ProbeRecord& record : crowd.records) record.noise = record.samples = 1.0f;
+  std::vector<float> importance(crowd.records.size(), 0.0f);
+  importance[400] = 1.0f;
+  ProbeAgenda agenda(crowd.store.probes(), crowd.roles, crowd.settings);
+  agenda.note(crowd.store, crowd.records);
+  const auto served = [&](std::uint64_t budget) {
+    return agenda.within(crowd.store, budget, 6, std::nullopt, importance).probes;
+  };
+  EXPECT_EQ(served(crowd.settings.rays_per_probe), std::vector<int>{400});
+  EXPECT_EQ(served(1u << 20).size(), crowd.records.size());
+}
+
 TEST(ProbeAgenda, WhatItKeepsInMindIsWhatItWouldFindAnew) {
   Crowd crowd;
   crowd.serve(5);
