@@ -240,6 +240,33 @@ float ProbeAgenda::mean_noise() const {
   return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
 }
 
+namespace {
+
+/// What a probe so many cells from the viewer counts for.
+float worth_at(float cells) {
+  return kHalfWorthCells / (kHalfWorthCells + cells);
+}
+
+float largest_spacing(const ProbeGrid& grid) {
+  return max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
+}
+
+/// Cells that all probes from `first` to `last` are away from the viewer, at least.
+float least_cells_away(const ProbeStore& store, int first, int last, const vec3& viewer_ws) {
+  const ProbeGrid& grid = store.grid_of(first);
+  // Where they may be of two volumes, or all over one, nothing is known
+  if (last >= grid.first + probe_count(grid) || grid.scroll != ivec3(0)) return 0.0f;
+  vec3 low = vec3(probe_coords(grid, first)), high = vec3(probe_coords(grid, last));
+  const bool layers = low.z != high.z, rows = layers || low.y != high.y;
+  if (rows) low.x = 0.0f, high.x = static_cast<float>(grid.count.x - 1);
+  if (layers) low.y = 0.0f, high.y = static_cast<float>(grid.count.y - 1);
+  const vec3 viewer = grid_coords(grid, viewer_ws);
+  const vec3 beyond = max(max(low - viewer, viewer - high) - kMaxProbeOffset, vec3(0.0f));
+  return length(beyond * grid.spacing) / largest_spacing(grid);
+}
+
+}  // namespace
+
 /// What a probe counts for, 0 to 1.
 float ProbeAgenda::worth_of(const ProbeStore& store, int probe,
                             const std::optional<glm::vec3>& viewer_ws,
@@ -248,10 +275,8 @@ float ProbeAgenda::worth_of(const ProbeStore& store, int probe,
   const float worth = std::ldexp(1.0f, -roles_[volume].level);
   if (!importance.empty()) return worth * std::max(importance[probe], kUnseen);
   if (!viewer_ws) return worth;
-  const vec3 spacing = store.grid(volume).spacing;
-  const float cell = max(spacing.x, max(spacing.y, spacing.z));
-  const float cells = length(store.probe_position_ws(probe) - *viewer_ws) / cell;
-  return worth * kHalfWorthCells / (kHalfWorthCells + cells);
+  const float away = length(store.probe_position_ws(probe) - *viewer_ws);
+  return worth * worth_at(away / largest_spacing(store.grid(volume)));
 }
 
 Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
@@ -265,8 +290,14 @@ Schedule ProbeAgenda::within(const ProbeStore& store, std::uint64_t ray_budget,
     const Block& block = blocks_[b];
     // The oldest is the most urgent if it is old; if not, none is old
     const std::uint32_t served = is_old(block.served, update) ? block.served : kNotLive;
+    float worth = 1.0f;
+    if (viewer_ws && importance.empty()) {
+      const int first = static_cast<int>(b * kBlock);
+      const int last = static_cast<int>(std::min((b + 1) * kBlock, entries_.size())) - 1;
+      worth = worth_at(least_cells_away(store, first, last, *viewer_ws));
+    }
     const float urgency =
-        urgency_of(std::max(block.gain, least * block.thin), served, update, 1.0f);
+        urgency_of(std::max(block.gain, least * block.thin), served, update, worth);
     if (urgency > 0.0f) blocks.push_back({urgency, static_cast<int>(b)});
   }
   const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };

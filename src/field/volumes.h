@@ -49,8 +49,8 @@ bool can_follow(const ProbeGrid& grid);
 ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The same volume an update later, once it has followed the viewer: in whole cells, and not before
-/// the viewer is most of a cell off its middle. Nobody sees it move: the box in which it counts
-/// changes smoothly, and holds neither slabs about to go nor slabs that have just come.
+/// the viewer is most of a cell off its middle. Who walks does not see it move: the box in which it
+/// counts changes smoothly, and holds neither slabs about to go nor slabs that have just come.
 ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// Probes of `next` that belong where `before`, the same volume earlier, had none.
