@@ -81,6 +81,8 @@ struct IrradianceField::State {
   std::vector<int> late_sleepers;       ///< Sleeping probes that know an older world, oldest first.
   std::size_t sleepers_a_slice = 0;     ///< ... of which so many follow in an update.
   bool followed_last = false;           ///< The last update followed edits and traced nothing else.
+  bool classified = false;       ///< Since reaches were found, it was said what probes are for.
+  std::vector<Bounds> moved_to;  ///< What moved when that was last said.
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
   /// Of this update's dither.
@@ -97,21 +99,22 @@ struct IrradianceField::State {
   std::vector<int> place(const World& world, std::span<const int> probes);
   /// `learn_distances`: stores what they see, too, for a start.
   void find_reaches(const World& world, std::span<const int> probes, bool learn_distances = false);
+  /// Has a probe forget what it sees.
   void forget_place(int probe);
   /// Stores what probes in new places see, and has the surfels that read them ask anew.
   void settle_in(const World& world, std::span<const int> moved, UpdateStatistics& statistics);
+  /// Has a probe in a new place go on with the light that it was given.
   void take_over(int probe, const World& world);
   /// Places probes anew where what keeps still was edited, once nothing there has moved for a
   /// while.
   void place_edited(const World& world, UpdateStatistics& statistics);
   /// Has volumes follow the viewer. Returns how many probes came to belong elsewhere.
   int follow_viewer(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
+  /// What the field holds at the places where probes will be, as their tiles.
   void inherit(std::span<const int> probes, std::span<const vec3> places_ws,
                std::span<vec4> tiles) const;
   /// Says what each probe is for, with what moves where it is now.
   void classify(const World& world);
-  bool classified = false;       ///< That has been said since reaches were found.
-  std::vector<Bounds> moved_to;  ///< What moved when that was last said.
   VisibilityRays visibility(const World& world) const {
     return {settings.visibility, &world.tracer(), &sights};
   }
