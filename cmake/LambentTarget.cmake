@@ -15,10 +15,3 @@ function(lambent_compile_options target)
     target_link_options(${target} PUBLIC -fsanitize=${LAMBENT_SANITIZE})
   endif()
 endfunction()
-
-# Headers that most files of a target include, compiled once. Builds without show what a file forgets to include.
-function(lambent_precompile target)
-  if(LAMBENT_PRECOMPILE)
-    target_precompile_headers(${target} PRIVATE ${ARGN})
-  endif()
-endfunction()
