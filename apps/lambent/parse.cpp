@@ -107,6 +107,16 @@ Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& tex
   return glm::vec3((*n)[0], (*n)[1], (*n)[2]);
 }
 
+Expected<glm::vec3> parse_place(const std::string& option, const std::string& text) {
+  // Squares of distances to it are still numbers
+  constexpr float kFarthest = 1e15f;
+  const auto place = parse_vec3(option, text);
+  if (place && glm::any(glm::greaterThan(glm::abs(*place), glm::vec3(kFarthest)))) {
+    return malformed(option, text, "a place within 1e15 m of the origin");
+  }
+  return place;
+}
+
 Expected<Bounds> parse_box(const std::string& option, const std::string& text) {
   constexpr const char* kWanted = "a box x0,y0,z0,x1,y1,z1 whose second corner is greater";
   const auto n = parse_floats(option, text, 6, kWanted);

@@ -199,9 +199,9 @@ Expected<Camera> choose_camera(const StageOptions& options, const World& world) 
   }
   if (!options.eye.empty()) {
     if (!options.camera.empty()) return fail("--camera", "", "give either --camera or --eye");
-    const auto eye = parse_vec3("--eye", options.eye);
+    const auto eye = parse_place("--eye", options.eye);
     if (!eye) return tl::unexpected(eye.error());
-    const auto target = parse_vec3("--target", options.target);
+    const auto target = parse_place("--target", options.target);
     if (!target) return tl::unexpected(target.error());
     if (*eye == *target) return fail("--target", "", "is where --eye is");
     return look_at(*eye, *target, vertical_fov);
