@@ -56,7 +56,8 @@ struct FieldSettings {
   /// 1), each further one twice as far as the one before. They follow UpdateRequest::viewer_ws;
   /// coarse ones are updated less often. `volume` must be empty.
   int cascades = 0;
-  /// Volumes in which light is finer, besides. Each counts within its box and a cell around it.
+  /// Volumes in which light is finer, besides, at most 64 with the others. Each counts within its
+  /// box and a cell around it, and costs what its probes do.
   std::vector<ProbeVolume> volumes;
 
   /// Rays a probe traces in an update, 16 to 4096. Cost is in proportion; noise falls with the
@@ -146,8 +147,8 @@ struct UpdateRequest {
   /// Numbers that are not finite are as if there were none.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
   /// Points that the camera sees (visible_points), some hundred to a few thousand: with a bound,
-  /// probes go first by how much they matter to the light at these, near or far. Empty: by their
-  /// distance from the viewer.
+  /// probes go first by how much they matter to the light at these, near or far. Costs a lookup a
+  /// point and about half an iteration of relighting. Empty: by their distance from the viewer.
   std::span<const FieldQuery> seen = {};
 };
 

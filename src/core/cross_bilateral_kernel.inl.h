@@ -1,20 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // cross_bilateral_row for one instruction set: see core/simd_levels.h.
-#include "core/lanes.inl.h"
-
-/// What a pixel's lanes are compared with.
-struct GuideLanes {
-  Lanes x, y, z, nx, ny, nz;
-};
-
-LAMBENT_FORCE_INLINE void load_guide(GuideLanes& lanes, const ConstPlanes& guide, int i) {
-  load(lanes.x, guide.at(kPositionPlane) + i);
-  load(lanes.y, guide.at(kPositionPlane + 1) + i);
-  load(lanes.z, guide.at(kPositionPlane + 2) + i);
-  load(lanes.nx, guide.at(kNormalPlane) + i);
-  load(lanes.ny, guide.at(kNormalPlane + 1) + i);
-  load(lanes.nz, guide.at(kNormalPlane + 2) + i);
-}
+#include "core/guide_lanes.inl.h"
 
 /// relit_bilateral_weight, for lanes.
 LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
@@ -75,38 +61,46 @@ LAMBENT_FORCE_INLINE void blur(BlurLanes& sums, const GuideLanes& here, const Bl
   }
 }
 
-static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
-                     std::size_t neighbour_count, const Planes& out, int count,
-                     float inverse_tolerance) {
+/// Blurs a row; finish(blurred, here, i) stores the pixels from the `i`-th on.
+template <class Finish>
+LAMBENT_FORCE_INLINE void blur_each(const BlurSource& centre, const BlurSource* neighbours,
+                                    std::size_t neighbour_count, int count, float inverse_tolerance,
+                                    Finish finish) {
   for (int i = 0; i < count; i += kLanes) {
     GuideLanes here;
     BlurLanes blurred;
     load_guide(here, centre.guide, i);
     blur(blurred, here, centre, neighbours, neighbour_count, inverse_tolerance, i);
-    for (int c = 0; c < kLightPlanes; ++c) {
-      Lanes word;
-      pack_halves(word, blurred.light[c], blurred.relighting[c]);
-      store(out.at(c) + i, word);
-    }
+    finish(blurred, here, i);
   }
+}
+
+static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
+                     std::size_t neighbour_count, const Planes& out, int count,
+                     float inverse_tolerance) {
+  blur_each(centre, neighbours, neighbour_count, count, inverse_tolerance,
+            [&](const BlurLanes& blurred, const GuideLanes&, int i) {
+              for (int c = 0; c < kLightPlanes; ++c) {
+                Lanes word;
+                pack_halves(word, blurred.light[c], blurred.relighting[c]);
+                store(out.at(c) + i, word);
+              }
+            });
 }
 
 static void blur_row_relit(const BlurSource& centre, const BlurSource* neighbours,
                            std::size_t neighbour_count, const Planes& out, int count,
                            float inverse_tolerance) {
-  for (int i = 0; i < count; i += kLanes) {
-    GuideLanes here;
-    BlurLanes blurred;
-    load_guide(here, centre.guide, i);
-    blur(blurred, here, centre, neighbours, neighbour_count, inverse_tolerance, i);
-
-    // relit_share, for lanes
-    const Lanes light = blurred.light[0] * kRedLuminance + blurred.light[1] * kGreenLuminance +
-                        blurred.light[2] * kBlueLuminance;
-    const Lanes brought = blurred.relighting[0] * here.nx + blurred.relighting[1] * here.ny +
-                          blurred.relighting[2] * here.nz;
-    Lanes share = brought / light + kHorizonLight;
-    keep(share, (share > 0.0f) & (light > 0.0f));
-    for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
-  }
+  blur_each(
+      centre, neighbours, neighbour_count, count, inverse_tolerance,
+      [&](const BlurLanes& blurred, const GuideLanes& here, int i) {
+        // relit_share, for lanes
+        const Lanes light = blurred.light[0] * kRedLuminance + blurred.light[1] * kGreenLuminance +
+                            blurred.light[2] * kBlueLuminance;
+        const Lanes brought = blurred.relighting[0] * here.nx + blurred.relighting[1] * here.ny +
+                              blurred.relighting[2] * here.nz;
+        Lanes share = brought / light + kHorizonLight;
+        keep(share, (share > 0.0f) & (light > 0.0f));
+        for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
+      });
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 namespace lambent {
 
@@ -31,5 +32,8 @@ struct LargePages {
     return true;
   }
 };
+
+/// Floats that start at a line of the cache, for kernels whose loads should not straddle two.
+using AlignedFloats = std::vector<float, LargePages<float>>;
 
 }  // namespace lambent

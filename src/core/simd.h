@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+// A kernel's parts: inlined, so that they are compiled for its instruction set.
+#define LAMBENT_FORCE_INLINE __attribute__((always_inline)) inline
+
 // Marks a kernel to be compiled for several x86-64 levels, the best picked when the program starts.
 // Its loops are elementwise, so every version computes the same bits (products and sums are never
 // fused, see LambentTarget.cmake). Sanitizers instrument the picking itself, which runs before they

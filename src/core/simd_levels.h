@@ -15,7 +15,7 @@
 // and nothing is fused, so all of them compute the same bits.
 #pragma once
 
-#define LAMBENT_FORCE_INLINE __attribute__((always_inline)) inline
+#include "core/simd.h"
 
 namespace lambent {
 

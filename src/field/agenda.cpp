@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include "core/parallel.h"
 #include "field/schedule.h"
@@ -113,6 +112,29 @@ class Best {
   std::vector<Candidate> heap_;  // the worst in front
 };
 
+/// What a probe so many cells from the viewer counts for.
+float worth_at(float cells) {
+  return kHalfWorthCells / (kHalfWorthCells + cells);
+}
+
+float largest_spacing(const ProbeGrid& grid) {
+  return max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
+}
+
+/// Cells that all probes from `first` to `last` are away from the viewer, at least.
+float least_cells_away(const ProbeStore& store, int first, int last, const vec3& viewer_ws) {
+  const ProbeGrid& grid = store.grid_of(first);
+  // Where they may be of two volumes, or all over one, nothing is known
+  if (last >= grid.first + probe_count(grid) || grid.scroll != ivec3(0)) return 0.0f;
+  vec3 low = vec3(probe_coords(grid, first)), high = vec3(probe_coords(grid, last));
+  const bool layers = low.z != high.z, rows = layers || low.y != high.y;
+  if (rows) low.x = 0.0f, high.x = static_cast<float>(grid.count.x - 1);
+  if (layers) low.y = 0.0f, high.y = static_cast<float>(grid.count.y - 1);
+  const vec3 viewer = grid_coords(grid, viewer_ws);
+  const vec3 beyond = max(max(low - viewer, viewer - high) - kMaxProbeOffset, vec3(0.0f));
+  return length(beyond * grid.spacing) / largest_spacing(grid);
+}
+
 int& count_of(ProbeCounts& counts, ProbeState state) {
   int* const by_state[] = {&counts.off,   &counts.sleeping,       &counts.newly_awake,
                            &counts.awake, &counts.newly_vigilant, &counts.vigilant};
@@ -125,7 +147,7 @@ ProbeAgenda::ProbeAgenda(int probes, std::span<const VolumeRole> roles,
                          const FieldSettings& settings)
     : roles_(roles.begin(), roles.end()),
       rays_per_probe_(settings.rays_per_probe),
-      longest_(1.0f / (1.0f - settings.hysteresis)),
+      longest_(longest_average(settings)),
       entries_(probes),
       blocks_((entries_.size() + kBlock - 1) / kBlock) {
   states_.off = static_cast<int>(entries_.size());
@@ -239,33 +261,6 @@ float ProbeAgenda::mean_noise() const {
   }
   return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
 }
-
-namespace {
-
-/// What a probe so many cells from the viewer counts for.
-float worth_at(float cells) {
-  return kHalfWorthCells / (kHalfWorthCells + cells);
-}
-
-float largest_spacing(const ProbeGrid& grid) {
-  return max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
-}
-
-/// Cells that all probes from `first` to `last` are away from the viewer, at least.
-float least_cells_away(const ProbeStore& store, int first, int last, const vec3& viewer_ws) {
-  const ProbeGrid& grid = store.grid_of(first);
-  // Where they may be of two volumes, or all over one, nothing is known
-  if (last >= grid.first + probe_count(grid) || grid.scroll != ivec3(0)) return 0.0f;
-  vec3 low = vec3(probe_coords(grid, first)), high = vec3(probe_coords(grid, last));
-  const bool layers = low.z != high.z, rows = layers || low.y != high.y;
-  if (rows) low.x = 0.0f, high.x = static_cast<float>(grid.count.x - 1);
-  if (layers) low.y = 0.0f, high.y = static_cast<float>(grid.count.y - 1);
-  const vec3 viewer = grid_coords(grid, viewer_ws);
-  const vec3 beyond = max(max(low - viewer, viewer - high) - kMaxProbeOffset, vec3(0.0f));
-  return length(beyond * grid.spacing) / largest_spacing(grid);
-}
-
-}  // namespace
 
 /// What a probe counts for, 0 to 1.
 float ProbeAgenda::worth_of(const ProbeStore& store, int probe,

@@ -16,10 +16,6 @@ namespace {
 // A field of the most probes, in the formats for verification, takes less.
 constexpr std::uint64_t kMaxFieldFileBytes = std::uint64_t{16} << 30;
 
-// Spacings beyond these [m] have cells whose size or its square is no number.
-constexpr float kMinSpacing = 1e-15f;
-constexpr float kMaxSpacing = 1e15f;
-
 // Half a year of updates at 60 Hz, and far from where counting them would overflow.
 constexpr std::uint32_t kMaxUpdates = 1u << 30u;
 

@@ -87,6 +87,8 @@ struct IrradianceField::State {
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
   /// Of this update's dither.
   uint salt() const;
+  /// Probes that have surfels, in ascending order.
+  std::vector<int> traced_probes() const;
   RelightSettings relight_settings() const {
     return {settings.max_albedo, settings.relight_tolerance, settings.max_relights};
   }

@@ -83,9 +83,8 @@ class Follower {
 
   std::uint64_t probe_rays = 0, shadow_rays = 0;
 
-  /// Finds anew what the edits may have changed. Tells whether light and distances did change.
+  /// Finds anew what the edits may have changed. Tells what did besides light.
   struct Outcome {
-    bool touched = false;         // any of it
     bool other_surfaces = false;  // what rays met reads the field in another way
     bool moved = false;           // rays met something else
   };
@@ -93,13 +92,13 @@ class Follower {
     Outcome outcome;
     retraced_.assign(trace.surfels.size(), 0);
     retrace(probe, origin, trace, outcome);
-    relight(probe, trace, outcome);
+    relight(probe, trace);
     return outcome;
   }
 
  private:
   void retrace(int probe, const vec3& origin, ProbeTrace& trace, Outcome& outcome);
-  void relight(int probe, ProbeTrace& trace, Outcome& outcome);
+  void relight(int probe, ProbeTrace& trace);
 
   const World& world_;
   const Edits& edits_;
@@ -118,9 +117,7 @@ void Follower::retrace(int probe, const vec3& origin, ProbeTrace& trace, Outcome
     Surfel& surfel = trace.surfels[i];
     const vec3& direction = trace.rays->directions[i];
     if (surfel.kind == SurfelKind::sky && edits_.sky) {
-      const vec3 radiance = sky_radiance(world_.scene().environment, direction);
-      outcome.touched = outcome.touched || radiance != surfel.light;
-      surfel.light = radiance;
+      surfel.light = sky_radiance(world_.scene().environment, direction);
     }
     const bool sky = surfel.kind == SurfelKind::sky;
     const float distance = sky ? kInfiniteDistance : length(surfel.position_ws - origin);
@@ -136,7 +133,6 @@ void Follower::retrace(int probe, const vec3& origin, ProbeTrace& trace, Outcome
     retraced_[i] = 1;
     ++probe_rays;
     if (found == surfel) continue;
-    outcome.touched = true;
     const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind;
     outcome.moved = outcome.moved || moved;
     // ... of which some read other probes, or along other directions
@@ -148,7 +144,7 @@ void Follower::retrace(int probe, const vec3& origin, ProbeTrace& trace, Outcome
 }
 
 /// Asks again for the direct light of surfels that may have another.
-void Follower::relight(int probe, ProbeTrace& trace, Outcome& outcome) {
+void Follower::relight(int probe, ProbeTrace& trace) {
   queries_.clear();
   places_.clear();
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
@@ -164,9 +160,7 @@ void Follower::relight(int probe, ProbeTrace& trace, Outcome& outcome) {
   shadow_rays += direct_irradiance(world_, queries_, surfel_shading(settings_, *trace.rays),
                                    scratch_, direct_);
   for (std::size_t i = 0; i < queries_.size(); ++i) {
-    vec3& light = trace.surfels[places_[i]].light;
-    outcome.touched = outcome.touched || light != direct_[i];
-    light = direct_[i];
+    trace.surfels[places_[i]].light = direct_[i];
   }
 }
 
@@ -214,7 +208,7 @@ struct MovedProbe {
 /// What became of some probes.
 struct Part {
   std::uint64_t probe_rays = 0, shadow_rays = 0;
-  std::vector<int> touched, other_surfaces;
+  std::vector<int> other_surfaces;
   std::vector<MovedProbe> moved;
   std::vector<SeenDistance> seen;  // scratch
 };
@@ -261,7 +255,6 @@ FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> cha
       const vec3 origin = store.probe_position_ws(probe);
       if (!edits.boxes.empty()) seen_distances(traces[probe], origin, part.seen);
       const Follower::Outcome outcome = follower.follow(probe, origin, traces[probe]);
-      if (outcome.touched) part.touched.push_back(probe);
       if (outcome.other_surfaces) part.other_surfaces.push_back(probe);
       if (outcome.moved) part.moved.push_back({probe, part.seen});
     }
@@ -275,7 +268,6 @@ FollowedEdits follow_edits(const World& world, std::span<const WorldChanges> cha
   for (Part& part : parts) {
     result.probe_rays += part.probe_rays;
     result.shadow_rays += part.shadow_rays;
-    result.touched.insert(result.touched.end(), part.touched.begin(), part.touched.end());
     other_surfaces.insert(other_surfaces.end(), part.other_surfaces.begin(),
                           part.other_surfaces.end());
     for (MovedProbe& probe : part.moved) moved.push_back(std::move(probe));

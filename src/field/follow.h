@@ -20,8 +20,7 @@ namespace lambent {
 struct FollowedEdits {
   std::uint64_t probe_rays = 0;   ///< Traced again.
   std::uint64_t shadow_rays = 0;  ///< Likewise.
-  std::vector<int> touched;       ///< Probes of which a surfel changed, in the order asked for.
-  std::vector<int> moved;         ///< Those among them that see other distances.
+  std::vector<int> moved;         ///< Probes that see other distances, in the order asked for.
 };
 
 /// Brings the surfels of `probes`, which have been traced, and their stored distances up to date

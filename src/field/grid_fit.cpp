@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "field/probe_grid.h"
+#include "field/volumes.h"
 #include "lambent/field.h"
 
 namespace lambent {
@@ -26,10 +26,6 @@ constexpr float kUncountableCells = 1e6f;
 constexpr float kMinThickness = 1e-2f;
 // A scene without extent gets a cell of this size [m].
 constexpr float kSmallestScene = 1e-3f;
-
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 tl::unexpected<Error> bad_setting(const char* setting, std::string cause) {
   return fail("", setting, std::move(cause));
@@ -68,11 +64,11 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
   const bool given = settings.volume != Bounds{};
   Bounds bounds = given ? settings.volume : scene_bounds;
   if (!given && bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(kSmallestScene)};
-  if (!finite(bounds.min) || !finite(bounds.max)) {
+  if (!is_finite(bounds.min) || !is_finite(bounds.max)) {
     return bad_setting("volume", "the corners must be finite numbers");
   }
   const glm::vec3 size = bounds.max - bounds.min;
-  if (!finite(size)) return bad_setting("volume", "is too large for its size to be a number");
+  if (!is_finite(size)) return bad_setting("volume", "is too large for its size to be a number");
   if (glm::any(glm::lessThan(size, glm::vec3(0.0f)))) {
     return bad_setting("volume", "its upper corner lies below its lower corner");
   }

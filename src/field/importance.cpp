@@ -22,7 +22,7 @@ constexpr float kLeastSent = 1e-3f;
 void add_weights(const ProbeStore& store, const CornerWeights& corners, float importance,
                  std::vector<float>& sum) {
   const CornerOffsets& offsets = store.corner_table()[corners.table];
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < kCellCorners; ++k) {
     sum[corners.base + offsets.probe[k]] += importance * corners.weight[k];
   }
 }

@@ -20,7 +20,7 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float share, vec3 position_ws, vec
 
   vec3 sum = vec3(0.0f);
   float weight_sum = 0.0f;
-  for (int corner = 0; corner < 8; ++corner) {
+  for (int corner = 0; corner < kCellCorners; ++corner) {
     ivec3 offset = cell_corner(corner);
     ivec3 coords = cell.base + offset;
     int probe = probe_index(grid, coords);

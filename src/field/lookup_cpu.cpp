@@ -12,14 +12,11 @@
 
 // Loops over `k` run over the eight corners of a cell; the compiler turns each into vector
 // instructions, so they hold no branches and no calls that are not inlined.
-#define LAMBENT_FORCE_INLINE __attribute__((always_inline)) inline
 
 namespace lambent {
 namespace {
 
-constexpr int kCorners = 8;
-// Ways in which a cell may run over the end of memory.
-constexpr int kWraps = 8;
+constexpr int kCorners = kCellCorners;
 
 // Keep divisions by what may be 0 finite: at a probe's own place [m^2 and m], and where distances
 // have no variance [distance_unit^2]; far below what the results resolve.
@@ -31,7 +28,7 @@ constexpr float kTiniestSquare = 1e-20f;
 struct Tables {
   Tables(const ProbeStore& store, int volume)
       : grid(store.grid(volume)),
-        first_table(static_cast<std::uint32_t>(kWraps * volume)),
+        first_table(static_cast<std::uint32_t>(kCellWraps * volume)),
         offsets(store.corner_table().data() + first_table),
         distances_per_metre(1.0f / distance_unit(grid)),
         spacing_min(smallest_spacing(grid)),

@@ -17,7 +17,7 @@ namespace lambent {
 struct CornerWeights {
   int base;
   std::uint32_t table;  ///< Where the corners lie relative to it, in ProbeStore::corner_table.
-  float weight[8];
+  float weight[kCellCorners];
 };
 
 /// Weights for each query in one volume, from the stored distances. Single-threaded. Spans have the
@@ -29,9 +29,9 @@ void corner_weights(const ProbeStore& store, int volume, std::span<const FieldQu
 struct CornerTerms {
   int base;
   std::uint32_t table;
-  float trilinear[8];
-  float wrap[8];        ///< By the probe's side of the surface, 0 to 1; 0 in solid matter.
-  float visibility[8];  ///< By the stored distances, 0 to 1.
+  float trilinear[kCellCorners];
+  float wrap[kCellCorners];  ///< By the probe's side of the surface, 0 to 1; 0 in solid matter.
+  float visibility[kCellCorners];  ///< By the stored distances, 0 to 1.
 };
 
 /// The same weights in parts.

@@ -51,10 +51,7 @@ void IrradianceField::State::settle_in(const World& world, std::span<const int> 
                       std::back_inserter(followed));
   edits.followed = std::move(followed);
   find_reaches(world, moved, /*learn_distances=*/true);
-  std::vector<int> traced;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    if (traces[probe].rays != nullptr) traced.push_back(probe);
-  }
+  const std::vector<int> traced = traced_probes();
   if (settings.visibility == Visibility::hybrid) {
     statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, moved));
   }

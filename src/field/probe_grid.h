@@ -94,6 +94,9 @@ LAMBENT_FN ProbeCell probe_cell(ProbeGrid grid, vec3 position_ws) {
   return cell;
 }
 
+// Values of cell_wrap: each combination of three directions.
+const int kCellWraps = 8;
+
 /// In which directions, by bits as of a corner, a cell runs over the end of memory to its
 /// beginning. Its corners lie elsewhere relative to its lowest probe then.
 LAMBENT_FN int cell_wrap(ProbeGrid grid, ivec3 base) {
@@ -109,6 +112,8 @@ LAMBENT_FN float volume_share(ProbeGrid grid, vec3 position_ws) {
   vec3 share = inside / min(grid.fade_half, grid.fade_cells);
   return clamp(min(share.x, min(share.y, share.z)), 0.0f, 1.0f);
 }
+
+const int kCellCorners = 8;
 
 /// Corner 0..7 of a cell as an offset: bit 0 is x, bit 1 is y, bit 2 is z.
 LAMBENT_FN ivec3 cell_corner(int corner) {

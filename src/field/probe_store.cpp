@@ -69,7 +69,7 @@ CornerOffsets corner_offsets(const ivec3& count, int wrap) {
   const ivec3 row = ivec3(1, count.x, count.x * count.y);
   const ivec3 back = cell_corner(wrap) * count;
   CornerOffsets offsets{};
-  for (int k = 0; k < 8; ++k) {
+  for (int k = 0; k < kCellCorners; ++k) {
     const ivec3 step = cell_corner(k) * (ivec3(1) - back) * row;
     offsets.probe[k] = step.x + step.y + step.z;
   }
@@ -96,7 +96,8 @@ ProbeStore::ProbeStore(std::span<const ProbeGrid> grids, const FieldSettings& se
   for (ProbeGrid& grid : grids_) {
     grid.first = probes_;
     probes_ += probe_count(grid);
-    for (int wrap = 0; wrap < 8; ++wrap) corner_table_.push_back(corner_offsets(grid.count, wrap));
+    for (int wrap = 0; wrap < kCellWraps; ++wrap)
+      corner_table_.push_back(corner_offsets(grid.count, wrap));
   }
   irradiance_.resize(probes_ * tile_texels(irradiance_texels_) * words_per_irradiance_texel());
   distance_.resize(probes_ * tile_texels(distance_texels_) * words_per_distance_texel());

@@ -15,7 +15,7 @@ namespace lambent {
 
 /// Index of each corner of a cell relative to that of the cell's lowest probe.
 struct CornerOffsets {
-  int probe[8];
+  int probe[kCellCorners];
 };
 
 /// Tiles of the probes of all volumes, probe after probe; a tile is (texels + 2)^2 texels, row
@@ -37,8 +37,8 @@ class ProbeStore {
   /// Moves a volume: everything but its shape and its place in memory may differ.
   void move_volume(int volume, const ProbeGrid& grid);
 
-  /// Where the corners of cells lie: entry 8 v + w is of those cells of volume v that run over the
-  /// end of memory in the directions w (cell_wrap).
+  /// Where the corners of cells lie: entry kCellWraps v + w is of those cells of volume v that run
+  /// over the end of memory in the directions w (cell_wrap).
   std::span<const CornerOffsets> corner_table() const { return corner_table_; }
 
   int probes() const { return probes_; }

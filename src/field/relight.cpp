@@ -88,14 +88,14 @@ struct GatherInput {
 };
 
 /// Adds what a lookup reads from the field.
-__attribute__((always_inline)) inline void read_field(const GatherInput& in,
-                                                      const SurfelLookup& lookup, float sum[4]) {
+LAMBENT_FORCE_INLINE void read_field(const GatherInput& in, const SurfelLookup& lookup,
+                                     float sum[4]) {
   const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
   const CornerOffsets& offsets = in.corner_table[lookup.corners.table];
   const float fx = lookup.fraction_x, fy = lookup.fraction_y;
   const float shares[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy, fx * fy};
   const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
-  for (int corner = 0; corner < 8; ++corner) {
+  for (int corner = 0; corner < kCellCorners; ++corner) {
     const vec4* tile = base + static_cast<std::ptrdiff_t>(offsets.probe[corner]) * in.texels;
     const float weight = lookup.corners.weight[corner];
     for (int tap = 0; tap < 4; ++tap) {

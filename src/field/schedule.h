@@ -32,6 +32,12 @@ inline constexpr std::array kRayClasses = {32, 64, 128, 256, 512};
 /// The class nearest to so many rays.
 int ray_class_for(float rays);
 
+/// Updates that a probe's average remembers: the mean of all so far, until it has become an
+/// exponential moving average.
+inline float longest_average(const FieldSettings& settings) {
+  return 1.0f / (1.0f - settings.hysteresis);
+}
+
 /// Whether a probe takes part in updates.
 bool is_live(const ProbeRecord& record);
 

@@ -3,7 +3,6 @@
 // al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
 // The order of an update of the irradiance field.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "core/parallel.h"
@@ -29,6 +28,14 @@ constexpr float kDarkShare = 0.02f;
 
 }  // namespace
 
+std::vector<int> IrradianceField::State::traced_probes() const {
+  std::vector<int> traced;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (traces[probe].rays != nullptr) traced.push_back(probe);
+  }
+  return traced;
+}
+
 uint IrradianceField::State::salt() const {
   return hash_pcg3d(uvec3(static_cast<uint>(updates), settings.seed, kStoreSalt)).x;
 }
@@ -48,8 +55,7 @@ void IrradianceField::State::store_light(std::span<const int> probes) {
 /// Blends the distances that the groups' rays met into the store. Returns what the rays count for.
 TracedProbes IrradianceField::State::blend_in_distances(const Scene& scene,
                                                         std::span<const TraceGroup> groups) {
-  // The mean of all updates so far, until it has become an exponential moving average
-  const float longest = 1.0f / (1.0f - settings.hysteresis);
+  const float longest = longest_average(settings);
   TracedProbes traced;
   for (const TraceGroup& group : groups) {
     const DistanceBlend blend(settings, group.rays->directions);
@@ -75,7 +81,7 @@ void IrradianceField::State::book(const World& world, const TracedProbes& traced
   // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
   // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
   const auto texels = static_cast<std::size_t>(tile_texels());
-  const float longest = 1.0f / (1.0f - settings.hysteresis);
+  const float longest = longest_average(settings);
   const float darkest = kDarkShare * mean_light;
   double light_sum = 0.0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
@@ -151,10 +157,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
 
 void IrradianceField::State::solve_start(UpdateStatistics& statistics) {
   Stopwatch watch;
-  std::vector<int> traced;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    if (traces[probe].rays != nullptr) traced.push_back(probe);
-  }
+  const std::vector<int> traced = traced_probes();
   const std::vector<float> shares(traced.size(), 1.0f);
   const RelightResult solved = relight(transport(traced), shares, {}, relight_settings(), light);
   statistics.relights += solved.iterations;
@@ -178,7 +181,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   if (s.settings.max_bounces >= 0) budget = 0;
 
   std::optional<vec3> viewer_ws = request.viewer_ws;
-  if (viewer_ws && !std::isfinite(viewer_ws->x + viewer_ws->y + viewer_ws->z)) viewer_ws.reset();
+  if (viewer_ws && !is_finite(*viewer_ws)) viewer_ws.reset();
   if (viewer_ws) statistics.probes_recycled = s.follow_viewer(world, *viewer_ws, statistics);
   if (s.updates == 0) {
     std::vector<int> all(s.records.size());

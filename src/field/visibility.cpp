@@ -11,7 +11,7 @@
 namespace lambent {
 namespace {
 
-constexpr int kCorners = 8;
+constexpr int kCorners = kCellCorners;
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
 constexpr std::size_t kCellsPerTask = 64;
 
@@ -150,7 +150,7 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
       const ivec3 coords = probe_coords(grid, base);
       if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
       const CornerOffsets& offsets = store.corner_table()[static_cast<std::size_t>(
-          kCorners * volume + cell_wrap(grid, coords))];
+          kCellWraps * volume + cell_wrap(grid, coords))];
       rays.clear();
       pairs.clear();
       for (int i = 0; i < kCorners; ++i) {
@@ -179,7 +179,7 @@ std::vector<int> cells_around(const ProbeStore& store, std::span<const int> prob
   for (const int probe : probes) {
     const ProbeGrid& grid = store.grid_of(probe);
     const ivec3 coords = probe_coords(grid, probe);
-    for (int k = 0; k < 8; ++k) {
+    for (int k = 0; k < kCorners; ++k) {
       const ivec3 base = coords - cell_corner(k);
       if (glm::all(glm::greaterThanEqual(base, ivec3(0)))) {
         cells.push_back(probe_index(grid, base));

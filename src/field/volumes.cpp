@@ -31,8 +31,6 @@ constexpr float kHaste = 8.0f;
 
 // Places of probes are counted in cells from the world's origin; floats count no farther [cells].
 constexpr float kFarthestCell = 4194304.0f;
-// Spacings beyond these [m] have cells whose size or its square is no number.
-constexpr float kMinSpacing = 1e-15f, kMaxSpacing = 1e15f;
 // With fewer probes along an axis nothing is left to count once the slack is taken off.
 constexpr int kMinCascadeProbes = 4;
 
@@ -46,10 +44,6 @@ constexpr float kFadeShare = 0.125f;
 
 // Columns of a rotation are unit and orthogonal to within this.
 constexpr float kRotationSlack = 1e-3f;
-
-bool is_finite(const vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 tl::unexpected<Error> bad_volume(const ProbeVolume& volume, std::string cause) {
   return fail("", volume.name.empty() ? "volume" : "volume '" + volume.name + "'",
@@ -164,6 +158,10 @@ Volume plan_cascade(const FieldSettings& settings, int level, const vec3& middle
 }
 
 }  // namespace
+
+bool is_finite(const vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 bool is_rotation(const mat3& axes) {
   const mat3 product = glm::transpose(axes) * axes;

@@ -15,6 +15,12 @@ inline constexpr int kMaxCascades = 16;
 // Volumes of one field: more are a typing error or a broken file.
 inline constexpr std::uint32_t kMaxVolumes = 64;
 
+// Spacings beyond these [m] have cells whose size or its square is no number.
+inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = 1e15f;
+
+/// Whether all three coordinates are numbers.
+bool is_finite(const vec3& v);
+
 /// Whether the columns are unit and orthogonal.
 bool is_rotation(const mat3& axes);
 

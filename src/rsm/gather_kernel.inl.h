@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The gathers for one instruction set: see core/simd_levels.h. bounded_geometry_term for lanes of
 // pixels, and what surrounds it.
-#include "core/lanes.inl.h"
+#include "core/guide_lanes.inl.h"
 
 /// Pixels that gather, in registers.
-struct GatherLanes {
-  Lanes x, y, z, nx, ny, nz;
+struct GatherLanes : GuideLanes {
   Lanes light[kLightPlanes];
   Lanes ways[kWayPlanes];
 };
-
-LAMBENT_FORCE_INLINE void load_points(GatherLanes& p, const ConstPlanes& guide, int i) {
-  load(p.x, guide.at(kPositionPlane) + i);
-  load(p.y, guide.at(kPositionPlane + 1) + i);
-  load(p.z, guide.at(kPositionPlane + 2) + i);
-  load(p.nx, guide.at(kNormalPlane) + i);
-  load(p.ny, guide.at(kNormalPlane + 1) + i);
-  load(p.nz, guide.at(kNormalPlane + 2) + i);
-}
 
 LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool ways) {
   for (int c = 0; c < kLightPlanes; ++c) load(p.light[c], row.light.at(c) + i);
@@ -118,7 +108,7 @@ LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
   constexpr std::size_t kStep = kTexelsPerWay;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
-    load_points(pixels, row.guide, i);
+    load_guide(pixels, row.guide, i);
     clear_light(pixels);
     std::size_t k = 0;
     for (; ways && k + kStep <= count; k += kStep) {
@@ -160,7 +150,7 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
   const bool ways = row.ways.first != nullptr;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
-    load_points(pixels, row.guide, i);
+    load_guide(pixels, row.guide, i);
     clear_light(pixels);
     for (std::size_t k = 0; k < count; ++k) {
       const std::uint32_t* at = places + k * kLanes;
@@ -188,7 +178,7 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
 /// flux over pi.
 static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
   GatherLanes pixels;
-  load_points(pixels, row.guide, first);
+  load_guide(pixels, row.guide, first);
   load_light(pixels, row, first, ways);
   Lanes f[kTexelFields];
   for (int k = 0; k < kTexelFields; ++k) load(f[k], fields[k]);
@@ -201,7 +191,7 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
 static void relightable(const GatherRow& row) {
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes p;
-    load_points(p, row.guide, i);
+    load_guide(p, row.guide, i);
     load_light(p, row, i, true);
     const Lanes light =
         p.light[0] * kRedLuminance + p.light[1] * kGreenLuminance + p.light[2] * kBlueLuminance;
@@ -231,7 +221,7 @@ static void add_terms(const ConstPlanes& points, int count, const RsmTexel* texe
     for (int i = 0; i < count; i += kLanes) {
       Lanes term;
       GatherLanes p;
-      load_points(p, points, i);
+      load_guide(p, points, i);
       texel_term(term, p, t);
       terms += term;
       squares += term * term;

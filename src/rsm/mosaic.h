@@ -9,8 +9,8 @@
 
 #include <utility>
 
-#include "core/aligned_floats.h"
 #include "core/cross_bilateral.h"
+#include "core/large_pages.h"
 #include "lambent/rsm.h"
 
 namespace lambent {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/aligned_floats.h"
+#include "core/large_pages.h"
 #include "shared/cross_bilateral.h"
 #include "shared/random.h"
 

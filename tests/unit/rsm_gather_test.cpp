@@ -11,6 +11,7 @@
 #include "shared/sampling.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
+#include "support/made_view.h"
 
 namespace lambent {
 namespace {
@@ -18,22 +19,16 @@ namespace {
 using test::Stage;
 
 /// Points of a wall, some of which see nothing.
-struct WallView {
-  WallView(int w, int h, float spacing = 0.1f) : width(w), height(h) {
+struct WallView : test::MadeView {
+  WallView(int w, int h, float spacing = 0.1f) : MadeView(w, h) {
     for (int y = 0; y < h; ++y) {
       for (int x = 0; x < w; ++x) {
-        positions.emplace_back(spacing * static_cast<float>(x), spacing * static_cast<float>(y),
-                               0.0f);
         const bool seen = (x * 7 + y * 3) % 11 != 0;
-        normals.push_back(seen ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.0f));
-        depths.push_back(seen ? 2.0f : 0.0f);
+        add(spacing * vec3(x, y, 0), seen ? vec3(0.0f, 0.0f, 1.0f) : vec3(0.0f),
+            seen ? 2.0f : 0.0f);
       }
     }
   }
-  RsmView view() const { return {width, height, positions, normals, depths}; }
-  int width, height;
-  std::vector<vec3> positions, normals;
-  std::vector<float> depths;
 };
 
 /// A map of one texel that faces the wall of WallView from a metre away.

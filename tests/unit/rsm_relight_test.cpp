@@ -12,6 +12,7 @@
 #include "rsm/geometry.h"
 #include "shared/constants.h"
 #include "shared/random.h"
+#include "support/made_view.h"
 
 namespace lambent {
 namespace {
@@ -74,21 +75,16 @@ TEST(Relight, OfNoLightIsNone) {
 }
 
 /// A wall whose normals are tilted at random, pixel by pixel, by up to `most` along each axis.
-struct BumpyWall {
-  BumpyWall(int w, int h, float most) : width(w), height(h) {
+struct BumpyWall : test::MadeView {
+  BumpyWall(int w, int h, float most) : MadeView(w, h) {
     RandomStream random = make_random_stream(1, 2, 3);
     for (int y = 0; y < h; ++y) {
       for (int x = 0; x < w; ++x) {
-        positions.emplace_back(0.02f * static_cast<float>(x), 0.02f * static_cast<float>(y), 0.0f);
-        normals.push_back(normalize(vec3(most * (next_uniform2(random) * 2.0f - 1.0f), 1.0f)));
-        depths.push_back(2.0f);
+        const vec2 tilt = most * (next_uniform2(random) * 2.0f - 1.0f);
+        add(0.02f * vec3(x, y, 0), normalize(vec3(tilt, 1.0f)), 2.0f);
       }
     }
   }
-  RsmView view() const { return {width, height, positions, normals, depths}; }
-  int width, height;
-  std::vector<vec3> positions, normals;
-  std::vector<float> depths;
 };
 
 /// A lit floor that leads up to the wall.
