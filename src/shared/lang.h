@@ -19,6 +19,14 @@
 #define LAMBENT_INOUT(T) T&
 #define LAMBENT_OUT(T) T&
 
+/// An array in a device's memory, as shaders reach it: `Name` holds its address in C++, and in GLSL
+/// is a reference whose member `at` is the array. Its address is a multiple of `alignment`.
+#define LAMBENT_DEVICE_ARRAY(Name, T, alignment)      \
+  struct Name {                                       \
+    static constexpr unsigned kAlignment = alignment; \
+    std::uint64_t address = 0;                        \
+  };
+
 namespace lambent {
 using glm::ivec2;
 using glm::ivec3;
@@ -86,6 +94,14 @@ inline vec3 pow(const vec3& v, const vec3& e) {
 }  // namespace lambent
 
 #else
+
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_buffer_reference : require
+
+#define LAMBENT_DEVICE_ARRAY(Name, T, alignment)                                     \
+  layout(buffer_reference, scalar, buffer_reference_align = alignment) buffer Name { \
+    T at[];                                                                          \
+  };
 
 #define LAMBENT_BEGIN
 #define LAMBENT_END

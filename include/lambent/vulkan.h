@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vulkan devices that fields and frames can be computed on. Needs no Vulkan headers; what engines
+// record into command buffers of their own is in vulkan_field.h.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lambent/error.h"
+
+namespace lambent::vulkan {
+
+/// A Vulkan device that passes run on. Whoever holds the pointer keeps it alive; worlds do.
+class Device;
+
+/// What is known of a device before it is opened.
+struct DeviceDescription {
+  std::string name;             ///< As the driver tells it.
+  std::string driver;           ///< Name and version of the driver.
+  std::uint32_t api_major = 0;  ///< Of Vulkan.
+  std::uint32_t api_minor = 0;
+  bool software = false;  ///< Runs on the processor.
+  /// Extensions and features that Lambent needs and the device lacks; empty: it can be opened.
+  std::vector<std::string> missing;
+};
+
+/// All Vulkan devices, in the order of their indices. Fails where there is no Vulkan loader, no
+/// driver, or where the library was built without Vulkan.
+Expected<std::vector<DeviceDescription>> devices();
+
+struct DeviceRequest {
+  /// Index among devices(); -1: the first that can be opened, hardware before software.
+  int index = -1;
+  /// Turns on the validation layer, where it is installed; what it finds is kept
+  /// (validation_messages). Costs speed.
+  bool validation = false;
+};
+
+/// Opens a device. Fails, naming for each device what it lacks, where none can be.
+Expected<std::shared_ptr<Device>> open_device(const DeviceRequest& request = {});
+
+/// What is known of an open device.
+const DeviceDescription& description(const Device& device);
+
+/// Warnings and errors of the validation layer so far; empty where it is not on.
+std::vector<std::string> validation_messages(const Device& device);
+
+}  // namespace lambent::vulkan

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays and what they met, as arrays in a device's memory.
+#ifndef LAMBENT_RAYTRACING_RAY_RECORDS_H
+#define LAMBENT_RAYTRACING_RAY_RECORDS_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+/// A ray; as struct Ray of raytracer.h.
+struct RayRecord {
+  vec3 origin_ws;     ///< [m]
+  float t_min;        ///< [m]
+  vec3 direction_ws;  ///< Unit.
+  float t_max;        ///< [m]; infinite: no end.
+  uint mask;          ///< Which instances it meets: kRayMeetsAll, ...; 0: none, it is not traced.
+};
+
+/// Distance of a ray that met nothing. Read as a float it is infinite.
+const uint kMissedDistanceBits = 0x7F800000u;
+
+/// Where a ray met the scene; as struct Hit of raytracer.h.
+struct HitRecord {
+  float distance;     ///< [m]; infinite: nothing was hit and the rest is undefined.
+  uint instance;      ///< Index into Scene::instances.
+  uint triangle;      ///< Index into the mesh's triangles.
+  vec2 barycentrics;  ///< Weights of the triangle's second and third vertex.
+  uint front_face;    ///< 1: the ray met the side from which the vertices run counter-clockwise.
+};
+
+LAMBENT_FN bool missed(HitRecord hit) {
+  return floatBitsToUint(hit.distance) == kMissedDistanceBits;
+}
+
+LAMBENT_DEVICE_ARRAY(RayArray, RayRecord, 4)
+LAMBENT_DEVICE_ARRAY(HitArray, HitRecord, 4)
+LAMBENT_DEVICE_ARRAY(UintArray, uint, 4)
+LAMBENT_DEVICE_ARRAY(IntArray, int, 4)
+LAMBENT_DEVICE_ARRAY(FloatArray, float, 4)
+LAMBENT_DEVICE_ARRAY(Vec2Array, vec2, 8)
+LAMBENT_DEVICE_ARRAY(Vec3Array, vec3, 4)
+LAMBENT_DEVICE_ARRAY(Vec4Array, vec4, 16)
+
+LAMBENT_END
+#endif

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// An instance, a device and its queue: opened by us or lent by an engine. Knows no technique.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "lambent/vulkan.h"
+#include "vulkan/functions.h"
+
+namespace lambent::vulkan {
+
+class Recorder;
+
+/// Throws std::runtime_error that names the call, where a call that only a broken or exhausted
+/// device fails did fail.
+void check(VkResult result, const char* call);
+
+/// Extensions that every pass needs, besides Vulkan 1.2.
+inline constexpr const char* kRequiredExtensions[] = {"VK_KHR_acceleration_structure",
+                                                      "VK_KHR_ray_tracing_pipeline",
+                                                      "VK_KHR_deferred_host_operations"};
+
+/// What an engine lends: its device must have been created with kRequiredExtensions and the
+/// features of `required_features`, and outlives all that is made on it.
+struct LentDevice {
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;  ///< Takes compute.
+  std::uint32_t queue_family = 0;
+};
+
+/// The features that passes need, as a chain for VkDeviceCreateInfo::pNext.
+struct RequiredFeatures {
+  RequiredFeatures();
+  RequiredFeatures(const RequiredFeatures&) = delete;
+  RequiredFeatures& operator=(const RequiredFeatures&) = delete;
+
+  VkPhysicalDeviceFeatures2 core;
+  VkPhysicalDeviceVulkan12Features vulkan12;
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure;
+  VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_pipeline;
+
+  /// Turns on what passes need.
+  void request();
+  /// Names of what passes need and these, as filled in by the driver, lack.
+  std::vector<std::string> missing() const;
+};
+
+/// Numbers that passes adapt to.
+struct DeviceLimits {
+  std::uint32_t shader_group_handle_bytes = 0;
+  std::uint32_t shader_group_handle_alignment = 0;
+  std::uint32_t shader_group_base_alignment = 0;
+  std::uint32_t acceleration_scratch_alignment = 0;
+  std::uint32_t max_sampled_images = 0;  ///< In one descriptor array.
+  float timestamp_period_ns = 0.0f;      ///< 0: the queue has no timestamps.
+};
+
+class Device : public std::enable_shared_from_this<Device> {
+ public:
+  /// Takes over a lent device without owning it. Fails where something that is needed is missing.
+  static Expected<std::shared_ptr<Device>> adopt(const LentDevice& lent);
+
+  ~Device();
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const Functions& fn() const { return functions_; }
+  VkDevice handle() const { return device_; }
+  VkPhysicalDevice physical_device() const { return physical_device_; }
+  const DeviceLimits& limits() const { return limits_; }
+  const DeviceDescription& description() const { return description_; }
+  const VkPhysicalDeviceMemoryProperties& memory() const { return memory_; }
+  bool has_debug_names() const { return functions_.vkSetDebugUtilsObjectNameEXT != nullptr; }
+
+  /// The layout of all pipelines: the descriptors of a scene's textures, and push constants of
+  /// kMaxArgumentBytes.
+  VkPipelineLayout pipeline_layout() const { return pipeline_layout_; }
+  VkDescriptorSetLayout texture_set_layout() const { return texture_set_layout_; }
+
+  /// Has `record` fill a command buffer, submits it and waits. One at a time; others wait.
+  void run(const std::function<void(Recorder&)>& record) const;
+
+  /// Gives an object its name for debuggers, where they listen.
+  void name(VkObjectType type, std::uint64_t object, const std::string& name) const;
+
+  std::vector<std::string> messages() const;
+
+ private:
+  friend Expected<std::shared_ptr<Device>> open_device(const DeviceRequest&);
+  struct Messages;
+  Device();
+  void finish(std::uint32_t queue_family);
+  void make_pipeline_layout();
+
+  Functions functions_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device_ = VK_NULL_HANDLE;
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkQueue queue_ = VK_NULL_HANDLE;
+  bool owned_ = false;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  std::unique_ptr<Messages> messages_;
+  DeviceDescription description_;
+  DeviceLimits limits_;
+  VkPhysicalDeviceMemoryProperties memory_{};
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkFence fence_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout texture_set_layout_ = VK_NULL_HANDLE;
+  VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
+  mutable std::mutex running_;
+};
+
+/// Push constants a pipeline can take: what every device has.
+inline constexpr std::uint32_t kMaxArgumentBytes = 128;
+
+/// Textures and samplers that a scene's descriptor set can hold, and where they are bound.
+inline constexpr std::uint32_t kMaxTextures = 4096;
+inline constexpr std::uint32_t kMaxSamplers = 18;
+inline constexpr std::uint32_t kTextureBinding = 0;
+inline constexpr std::uint32_t kSamplerBinding = 1;
+
+}  // namespace lambent::vulkan
