@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "compose/frame_passes.h"
+#include "compose/pixel_math.h"
 #include "compose/rsm_frame.h"
 #include "core/parallel.h"
 #include "core/stopwatch.h"
@@ -104,6 +105,7 @@ struct BandLight {
 void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer,
                 const BandLight& light, std::size_t first_pixel, float share, Layers& layers) {
   const bool has_field = !light.irradiance.empty();
+  const CameraRecord record = camera_record(camera, 1, 1);
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::size_t pixel = first_pixel + i;
@@ -119,12 +121,9 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       // Reflect the field's light: the base under the coat, and the coat by its directional albedo
       vec3 indirect(0.0f), glossy = light.direct.specular[i];
       if (has_field && surface.receives_gi) {
-        indirect =
-            reflectance.diffuse * (vec3(1.0f) - reflectance.f0) * light.irradiance[i] * kInvPi;
-        const float n_dot_v = dot(surface.normal_ws, gbuffer.to_viewer_ws[i]);
-        if (reflectance.f90 > 0.0f) {
-          glossy += specular_albedo(reflectance, n_dot_v) * light.mirror_irradiance[i] * kInvPi;
-        }
+        indirect = reflected_indirect(reflectance, light.irradiance[i]);
+        glossy += reflected_glossy(reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]),
+                                   light.mirror_irradiance[i]);
         add(layers.irradiance, pixel, share * light.irradiance[i]);
       }
 
@@ -137,7 +136,7 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       add(layers.albedo, pixel, share * reflectance.diffuse);
       add(layers.normal, pixel, share * surface.normal_ws);
       add(layers.position, pixel, share * surface.position_ws);
-      layers.depth.data[pixel] += share * view_depth(camera, surface.position_ws);
+      layers.depth.data[pixel] += share * view_depth(record, surface.position_ws);
     }
   });
 }
