@@ -2,8 +2,8 @@
 #include "vulkan/acceleration.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 #include "vulkan/device.h"
@@ -41,7 +41,7 @@ Build build_of_triangles(const Device& device, const TriangleGeometry& triangles
   Build build;
   build.geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
   build.geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-  build.geometry.flags = triangles.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VkGeometryFlagsKHR{0};
+  if (triangles.opaque) build.geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
   auto& data = build.geometry.geometry.triangles;
   data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
   data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
@@ -336,10 +336,6 @@ void InstanceStructure::build(Recorder& recorder, std::span<const PlacedStructur
     }
     record.instanceCustomIndex = placed.custom_index & 0xFFFFFFu;
     record.mask = placed.mask;
-    record.flags =
-        placed.double_sided
-            ? VkGeometryInstanceFlagsKHR{VK_GEOMETRY_INSTANCE_TRIANGLE_FACING_CULL_DISABLE_BIT_KHR}
-            : VkGeometryInstanceFlagsKHR{0};
     record.accelerationStructureReference = placed.structure;
     records[i] = record;
   }

@@ -74,7 +74,7 @@ class TriangleBuilder {
     TriangleGeometry geometry;
     bool anew = false;  ///< Sort the triangles anew, which costs more and makes rays fast again.
   };
-  /// Records what fits structures to their vertices. A barrier is to follow.
+  /// Records what fits structures to their vertices; once a command buffer. A barrier is to follow.
   void fit(Recorder& recorder, std::span<const Deformed> deformed);
 
  private:
@@ -92,7 +92,6 @@ struct PlacedStructure {
   VkDeviceAddress structure = 0;   ///< 0: this instance cannot be met.
   std::uint32_t custom_index = 0;  ///< For shaders; 24 bits.
   std::uint8_t mask = 0xFF;        ///< Rays whose mask shares a bit meet it.
-  bool double_sided = false;       ///< Rays that cull one side of triangles meet both of its.
 };
 
 /// The structure over all instances. The device must outlive it.
