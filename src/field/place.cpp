@@ -40,6 +40,11 @@ std::vector<int> IrradianceField::State::place(const World& world, std::span<con
     for (const int probe : moved) forget_place(probe);
   }
   find_reaches(world, probes);
+  if (device) {
+    device->set_places(store);
+    device->forget_surfels(moved);
+    device->set_distances(store, moved);
+  }
   return moved;
 }
 
@@ -52,6 +57,13 @@ void IrradianceField::State::settle_in(const World& world, std::span<const int> 
   edits.followed = std::move(followed);
   find_reaches(world, moved, /*learn_distances=*/true);
   const std::vector<int> traced = traced_probes();
+  if (device) {
+    device->set_places(store);
+    device->forget_surfels(moved);
+    device->set_distances(store, moved);
+    statistics.shadow_rays += device->find_lookups(world, traced);
+    return;
+  }
   if (settings.visibility == Visibility::hybrid) {
     statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, moved));
   }
