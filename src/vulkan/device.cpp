@@ -171,6 +171,7 @@ void Device::finish(std::uint32_t queue_family) {
   limits_.acceleration_scratch_alignment =
       structures.minAccelerationStructureScratchOffsetAlignment;
   limits_.max_sampled_images = std::min(core.maxPerStageDescriptorSampledImages, kMaxTextures);
+  limits_.max_image_extent = core.maxImageDimension2D;
   limits_.max_groups = core.maxComputeWorkGroupCount[0];
   limits_.timestamp_period_ns = core.timestampComputeAndGraphics ? core.timestampPeriod : 0.0f;
 

@@ -62,6 +62,7 @@ struct DeviceLimits {
   std::uint32_t shader_group_base_alignment = 0;
   std::uint32_t acceleration_scratch_alignment = 0;
   std::uint32_t max_sampled_images = 0;  ///< In one descriptor array.
+  std::uint32_t max_image_extent = 0;    ///< Texels an image is wide or high.
   std::uint32_t max_groups = 0;          ///< Of a dispatch, along its first axis.
   float timestamp_period_ns = 0.0f;      ///< 0: the queue has no timestamps.
 };
