@@ -5,7 +5,7 @@ find_program(LAMBENT_GLSLC glslc)
 
 # lambent_shaders(<target> <file>...): NAME.STAGE.glsl, in the current folder or below, becomes
 # `lambent::vulkan::Spirv lambent::shaders::NAME_STAGE()`, declared in the header "shaders/NAME_STAGE.h".
-# Shaders include files from src/. With LAMBENT_SPIRV_DIR, the modules are taken from there, as an earlier build left
+# Shaders include files from src/, those of tests also from tests/. With LAMBENT_SPIRV_DIR, the modules are taken from there, as an earlier build left
 # them in build/.../spirv: for machines without a shader compiler.
 function(lambent_shaders target)
   set(folder ${PROJECT_BINARY_DIR}/spirv)
@@ -25,7 +25,7 @@ function(lambent_shaders target)
       string(REPLACE "comp" "compute" stage ${stage})
       add_custom_command(OUTPUT ${module} DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file} DEPFILE ${module}.d VERBATIM
         COMMAND ${LAMBENT_GLSLC} -x glsl -fshader-stage=${stage} --target-env=vulkan1.2 -O -Werror -mfmt=num
-          -I ${PROJECT_SOURCE_DIR}/src -MD -MF ${module}.d -o ${module} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+          -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/tests -MD -MF ${module}.d -o ${module} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
     endif()
     file(CONFIGURE OUTPUT ${folder}/shaders/${shader}.h @ONLY CONTENT
 "// Generated from @file@.

@@ -13,6 +13,8 @@ lambent_packages=(
   nlohmann-json3-dev
   # Program and errors
   libcli11-dev libexpected-dev
+  # Vulkan's headers; its loader is found at run time
+  libvulkan-dev
   # Tests and benches
   libgtest-dev libgmock-dev libbenchmark-dev
 )
@@ -60,5 +62,35 @@ lambent_install_dependencies() {
       apt-get install -q -y --no-install-recommends "${missing[@]}"; then
     echo "lambent: apt-get could not install: ${missing[*]}" >&2
     return 1
+  fi
+}
+
+# Debian 12's own drivers cannot trace rays; its backports' can.
+lambent_vulkan_driver_version=25
+
+# The version of Mesa's Vulkan drivers that is installed ("Installed") or could be ("Candidate"): its first number.
+lambent_mesa_version() {
+  LC_ALL=C apt-cache policy mesa-vulkan-drivers 2>/dev/null | sed -n "s/^ *$1: \([0-9]*\).*/\1/p"
+}
+
+# Installs a Vulkan driver that runs on any processor, and the validation layer, so that tests of the Vulkan backend
+# need no GPU. Where that cannot be done, says so and returns 0: those tests are skipped then.
+lambent_install_vulkan_driver() {
+  command -v apt-get >/dev/null || return 0
+  local as_root=() installed from=()
+  ((EUID == 0)) || as_root=(sudo)
+  installed=$(lambent_mesa_version Installed)
+  if ((${installed:-0} >= lambent_vulkan_driver_version)); then return 0; fi
+  if (($(lambent_mesa_version Candidate || echo 0) + 0 < lambent_vulkan_driver_version)) &&
+    grep -q '^VERSION_CODENAME=bookworm' /etc/os-release; then
+    echo "lambent: taking mesa-vulkan-drivers from bookworm-backports" >&2
+    echo 'deb http://deb.debian.org/debian bookworm-backports main' |
+      "${as_root[@]}" tee /etc/apt/sources.list.d/lambent-backports.list >/dev/null
+    from=(-t bookworm-backports)
+  fi
+  if ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get update -q ||
+    ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
+      apt-get install -q -y --no-install-recommends "${from[@]}" mesa-vulkan-drivers; then
+    echo "lambent: no Vulkan driver could be installed: tests of the Vulkan backend are skipped" >&2
   fi
 }

@@ -60,6 +60,7 @@ struct DeviceLimits {
   std::uint32_t shader_group_base_alignment = 0;
   std::uint32_t acceleration_scratch_alignment = 0;
   std::uint32_t max_sampled_images = 0;  ///< In one descriptor array.
+  std::uint32_t max_groups = 0;          ///< Of a dispatch, along its first axis.
   float timestamp_period_ns = 0.0f;      ///< 0: the queue has no timestamps.
 };
 
@@ -97,6 +98,7 @@ class Device : public std::enable_shared_from_this<Device> {
   friend Expected<std::shared_ptr<Device>> open_device(const DeviceRequest&);
   struct Messages;
   Device();
+  void listen(VkInstance instance);
   void finish(std::uint32_t queue_family);
   void make_pipeline_layout();
 
@@ -108,6 +110,7 @@ class Device : public std::enable_shared_from_this<Device> {
   bool owned_ = false;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   std::unique_ptr<Messages> messages_;
+  std::function<void(const char*)> keep_;  // a message of the validation layer
   DeviceDescription description_;
   DeviceLimits limits_;
   VkPhysicalDeviceMemoryProperties memory_{};

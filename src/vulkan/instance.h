@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What can be asked before a device is open.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vulkan/device.h"
+
+namespace lambent::vulkan {
+
+/// An instance of our own. Destroyed with this object.
+class Instance {
+ public:
+  /// Fails where there is no loader, or no driver of Vulkan 1.2. `validation`: where its layer is
+  /// installed.
+  static Expected<Instance> make(bool validation);
+  ~Instance();
+  Instance(Instance&& other) noexcept;
+  Instance& operator=(Instance&&) = delete;
+
+  VkInstance handle() const { return instance_; }
+  const Functions& fn() const { return functions_; }
+  bool has_debug_utils() const { return debug_utils_; }
+  std::vector<VkPhysicalDevice> devices() const;
+  /// Hands the handle over to the caller.
+  VkInstance release();
+
+ private:
+  Instance() = default;
+  Functions functions_;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  bool debug_utils_ = false;
+};
+
+bool has_extension(const Functions& functions, VkPhysicalDevice device, const char* name);
+/// The first queue family that takes compute work.
+std::optional<std::uint32_t> compute_queue_family(const Functions& functions,
+                                                  VkPhysicalDevice device);
+/// What a device is, and what it lacks.
+DeviceDescription describe(const Functions& functions, VkPhysicalDevice device);
+
+}  // namespace lambent::vulkan
