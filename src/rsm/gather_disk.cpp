@@ -45,10 +45,9 @@ void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub
     fields[6][lane] = 1.0f;  // any softening, so that nothing is divided by 0
     return;
   }
-  const RsmTexelRecord t =
-      weigh_disk_texel(to_record(disk.texels[maps.first[lane] + at.x * maps.step_x +
-                                             at.y * maps.step_y[lane]]),
-                       weight, n, disk.softening);
+  const RsmTexelRecord t = weigh_disk_texel(
+      to_record(disk.texels[maps.first[lane] + at.x * maps.step_x + at.y * maps.step_y[lane]]),
+      weight, n, disk.softening);
   for (int c = 0; c < 3; ++c) {
     fields[c][lane] = t.position_ws[c];
     fields[3 + c][lane] = t.normal_ws[c];
@@ -84,8 +83,8 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
     for (int l = 0; l < kLanes; ++l) {
       const float* position = row.guide.at(kPositionPlane) + i + l;
       const std::ptrdiff_t y = row.guide.stride, z = 2 * y;
-      middle[l] = project_to_map(projection, {position[0], position[y], position[z]},
-                                 disk.map->resolution);
+      middle[l] =
+          project_to_map(projection, {position[0], position[y], position[z]}, disk.map->resolution);
     }
     for (int k = 0; k < static_cast<int>(disk.samples.size()) / subs; ++k) {
       float fields[kTexelFields][kLanes];

@@ -41,8 +41,8 @@ LAMBENT_FN float grazing_cosine(vec3 geometric_normal_ws, vec3 ray_direction_ws)
 /// as the shading normal receives it, but sent out from the triangle: texels of one bumpy wall must
 /// not light each other.
 LAMBENT_FN RsmTexelRecord lit_texel(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
-                                    Reflectance reflectance, vec3 ray_direction_ws,
-                                    vec3 irradiance, float cross_section) {
+                                    Reflectance reflectance, vec3 ray_direction_ws, vec3 irradiance,
+                                    float cross_section) {
   float grazing = grazing_cosine(geometric_normal_ws, ray_direction_ws);
   float received = max(0.0f, -dot(normal_ws, ray_direction_ws));
   vec3 albedo = effective_albedo(reflectance, received);
