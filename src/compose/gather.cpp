@@ -10,31 +10,24 @@
 #include <atomic>
 
 #include "compose/gbuffer.h"
+#include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "lambent/field.h"
 #include "raytracing/shade_hits.h"
-#include "shared/random.h"
 #include "shared/rays.h"
-#include "shared/sampling.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kPixelsPerTask = 256;
 
-// Rays' cones are this wide per metre over the square root of their number: together they cover the
-// hemisphere.
-constexpr float kHemisphereConeWidth = 2.0f;
-
-/// Rays of one pixel, spread evenly over the cosine-weighted hemisphere; no two pixels alike.
-void gather_rays(const Surface& surface, int count, RandomStream random, std::vector<Ray>& rays) {
+/// Rays of one pixel.
+void gather_rays(const Surface& surface, int count, const vec2& shift, std::vector<Ray>& rays) {
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 origin = offset_ray_origin(surface.position_ws, surface.geometric_normal_ws);
-  const vec2 shift = next_uniform2(random);
   for (int i = 0; i < count; ++i) {
-    const vec2 u = fract(shift + plastic_sequence(static_cast<uint>(i)));
-    rays.push_back({origin, 0.0f, to_world(frame, sample_cosine_hemisphere(u)), kInfiniteDistance,
-                    kRayGathers});
+    rays.push_back({origin, 0.0f, gather_direction(frame, shift, static_cast<uint>(i)),
+                    kInfiniteDistance, kRayGathers});
   }
 }
 
@@ -63,8 +56,8 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
       if (gbuffer.hit[i] == 0) continue;
       pixels.push_back(i);
       gather_rays(gbuffer.surfaces[i], settings.gather_rays,
-                  make_random_stream(static_cast<uint>(first_pixel + i), static_cast<uint>(sample),
-                                     ~settings.seed),
+                  gather_shift(static_cast<uint>(first_pixel + i), static_cast<uint>(sample),
+                               settings.seed),
                   rays);
     }
     std::vector<Hit> hits(rays.size());

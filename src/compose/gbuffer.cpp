@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose/gbuffer.h"
 
+#include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
-#include "shared/random.h"
-#include "shared/sampling.h"
 
 namespace lambent {
-namespace {
-
-// Keeps the random numbers of pixels' positions apart from those of other passes.
-constexpr uint kSubpixelSalt = 0x50495845u;
-
-/// Where in the pixel a sample lies, each coordinate 0 to 1.
-vec2 subpixel_position(int pixel, int sample, const FrameSettings& settings) {
-  if (settings.samples == 1) return vec2(0.5f);
-  RandomStream random = make_random_stream(static_cast<uint>(pixel), kSubpixelSalt, settings.seed);
-  const vec2 shift = next_uniform2(random);
-  return fract(shift + plastic_sequence(static_cast<uint>(sample)));
-}
-
-}  // namespace
-
 void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
                    const Band& band, int sample, GBuffer& gbuffer) {
   const int width = settings.width;
@@ -32,14 +16,17 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
   gbuffer.hit.resize(pixels);
   gbuffer.to_viewer_ws.resize(pixels);
 
+  const CameraRecord record = camera_record(camera, width, settings.height);
   parallel_chunks(band.rows, 1, [&](std::size_t begin, std::size_t) {
     const int row = band.first_row + static_cast<int>(begin);
     std::vector<Ray> rays(width);
     std::vector<Hit> hits(width);
     for (int x = 0; x < width; ++x) {
-      const vec2 offset = subpixel_position(row * width + x, sample, settings);
-      rays[x] = camera_ray(camera, width, settings.height, static_cast<float>(x) + offset.x,
-                           static_cast<float>(row) + offset.y);
+      const vec2 offset =
+          subpixel_position(static_cast<uint>(row * width + x), static_cast<uint>(sample),
+                            static_cast<uint>(settings.samples), settings.seed);
+      const CameraRay ray = camera_ray(record, vec2(x, row) + offset);
+      rays[x] = {ray.origin_ws, 0.0f, ray.direction_ws};
     }
     world.tracer().closest_hits(rays, hits);
     for (int x = 0; x < width; ++x) {

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of a frame on the processor.
+#include <algorithm>
+#include <optional>
+
+#include "compose/frame_passes.h"
+#include "compose/pixel_math.h"
+#include "compose/rsm_frame.h"
+#include "core/parallel.h"
+#include "core/stopwatch.h"
+#include "lambent/field.h"
+#include "raytracing/camera_rays.h"
+#include "scene/light_sampling.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPixelsPerTask = 4096;
+
+/// The frame's layers, with quick access to each; all zero at the start.
+struct Layers {
+  explicit Layers(LayeredImage& image)
+      : all(image, "", 3),
+        direct(image, "direct", 3),
+        indirect(image, "indirect", 3),
+        irradiance(image, "irradiance", 3),
+        glossy(image, "glossy", 3),
+        emission(image, "emission", 3),
+        albedo(image, "albedo", 3),
+        normal(image, "normal", 3),
+        position(image, "position", 3),
+        depth(image, "depth", 1) {}
+
+  /// A layer's floats. They stay where they are when further layers are made.
+  struct Pixels {
+    Pixels(LayeredImage& image, const char* name, int channels)
+        : data(image.require(name, channels).pixels.data()) {}
+    float* data;
+  };
+  Pixels all, direct, indirect, irradiance, glossy, emission, albedo, normal, position, depth;
+};
+
+void add(Layers::Pixels& layer, std::size_t pixel, const vec3& value) {
+  for (int c = 0; c < 3; ++c) layer.data[3 * pixel + c] += value[c];
+}
+
+/// Adds up the time of each pass over bands and samples.
+class PassTimer {
+ public:
+  explicit PassTimer(std::vector<PassTime>& passes) : passes_(passes) {}
+
+  /// Books the time since the last call on a pass.
+  void finish(const char* name) {
+    const double ms = watch_.lap();
+    for (PassTime& pass : passes_) {
+      if (pass.name == name) {
+        pass.ms += ms;
+        return;
+      }
+    }
+    passes_.push_back({name, ms});
+  }
+
+ private:
+  std::vector<PassTime>& passes_;
+  Stopwatch watch_;
+};
+
+/// Irradiance of the field at each pixel, on a surface that faces along normal(pixel).
+template <class Normal>
+void look_up(const World& world, const IrradianceField& field, const GBuffer& gbuffer,
+             Normal normal, std::vector<vec3>& irradiance) {
+  std::vector<FieldQuery> queries(gbuffer.size());
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (gbuffer.hit[i] == 0) continue;
+      queries[i] = {gbuffer.surfaces[i].position_ws, normal(i), gbuffer.to_viewer_ws[i]};
+    }
+  });
+  irradiance.resize(gbuffer.size());
+  field.irradiance(queries, irradiance, &world);
+}
+
+/// Takes what another source brings out of the field's light, and adds that source's own.
+void replace_light(const std::vector<vec3>& taken_out, const std::vector<vec3>& added,
+                   std::vector<vec3>& irradiance) {
+  irradiance.resize(std::max({irradiance.size(), taken_out.size(), added.size()}), vec3(0.0f));
+  parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!added.empty()) irradiance[i] += added[i];
+      if (!taken_out.empty()) irradiance[i] -= taken_out[i];
+      irradiance[i] = max(irradiance[i], vec3(0.0f));
+    }
+  });
+}
+
+/// Everything that one sample of one band brings.
+struct BandLight {
+  ReflectedLight direct;
+  std::vector<vec3> irradiance;         // indirect, on the surface
+  std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces the mirror direction
+};
+
+/// Adds a band's sample to the layers, each pixel with weight `share`.
+void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer,
+                const BandLight& light, std::size_t first_pixel, float share, Layers& layers) {
+  const bool has_field = !light.irradiance.empty();
+  const CameraRecord record = camera_record(camera, 1, 1);
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = first_pixel + i;
+      if (gbuffer.hit[i] == 0) {
+        const vec3 sky = sky_radiance(world.scene().environment, -gbuffer.to_viewer_ws[i]);
+        add(layers.emission, pixel, share * sky);
+        add(layers.all, pixel, share * sky);
+        continue;
+      }
+      const Surface& surface = gbuffer.surfaces[i];
+      const Reflectance& reflectance = surface.reflectance;
+
+      // Reflect the field's light: the base under the coat, and the coat by its directional albedo
+      vec3 indirect(0.0f), glossy = light.direct.specular[i];
+      if (has_field && surface.receives_gi) {
+        indirect = reflected_indirect(reflectance, light.irradiance[i]);
+        glossy += reflected_glossy(reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]),
+                                   light.mirror_irradiance[i]);
+        add(layers.irradiance, pixel, share * light.irradiance[i]);
+      }
+
+      add(layers.direct, pixel, share * light.direct.diffuse[i]);
+      add(layers.indirect, pixel, share * indirect);
+      add(layers.glossy, pixel, share * glossy);
+      add(layers.emission, pixel, share * surface.emission);
+      add(layers.all, pixel,
+          share * (light.direct.diffuse[i] + indirect + glossy + surface.emission));
+      add(layers.albedo, pixel, share * reflectance.diffuse);
+      add(layers.normal, pixel, share * surface.normal_ws);
+      add(layers.position, pixel, share * surface.position_ws);
+      layers.depth.data[pixel] += share * view_depth(record, surface.position_ws);
+    }
+  });
+}
+
+class FramePassesCpu final : public FramePasses {
+ public:
+  explicit FramePassesCpu(const FrameRequest& request)
+      : request_(request), timer_(frame_.passes), layers_(prepared(frame_.image, request)) {}
+
+  void rsm() override {
+    rsm_ = light_by_rsm(request_.world, request_.camera, request_.settings, *request_.sources.rsm,
+                        request_.sources.rsm_stages);
+    frame_.rays += rsm_->light.rays;
+    timer_.finish("rsm");
+  }
+
+  void gbuffer(const Band& band, int sample) override {
+    band_ = band;
+    sample_ = sample;
+    trace_gbuffer(request_.world, request_.camera, request_.settings, band, sample, gbuffer_);
+    frame_.rays += gbuffer_.size();
+    timer_.finish("gbuffer");
+  }
+
+  void direct() override {
+    frame_.rays +=
+        shade_direct(request_.world, gbuffer_, request_.settings, band_, sample_, light_.direct);
+    timer_.finish("direct");
+  }
+
+  void indirect() override {
+    const IndirectSources& sources = request_.sources;
+    const auto normal_at = [&](std::size_t i) { return gbuffer_.surfaces[i].normal_ws; };
+    if (request_.settings.gather_rays > 0) {
+      frame_.rays += gather_irradiance(request_.world, *sources.field, gbuffer_, request_.settings,
+                                       band_, sample_, light_.irradiance);
+    } else {
+      look_up(request_.world, *sources.field, gbuffer_, normal_at, light_.irradiance);
+    }
+    if (sources.taken_out != nullptr) {
+      look_up(request_.world, *sources.taken_out, gbuffer_, normal_at, taken_out_);
+    }
+    timer_.finish("indirect");
+  }
+
+  void glossy() override {
+    look_up(
+        request_.world, *request_.sources.field, gbuffer_,
+        [&](std::size_t i) {
+          return reflect(-gbuffer_.to_viewer_ws[i], gbuffer_.surfaces[i].normal_ws);
+        },
+        light_.mirror_irradiance);
+    timer_.finish("glossy");
+  }
+
+  void rsm_upsample() override {
+    const bool alone = request_.sources.field == nullptr;
+    look_up_rsm(*rsm_, gbuffer_, request_.camera, request_.settings.width, band_, from_maps_);
+    if (alone) light_.irradiance.clear();
+    replace_light(taken_out_, from_maps_, light_.irradiance);
+    if (alone) light_.mirror_irradiance = light_.irradiance;
+    timer_.finish("rsm.upsample");
+  }
+
+  void compose(float share) override {
+    const std::size_t first_pixel =
+        static_cast<std::size_t>(band_.first_row) * request_.settings.width;
+    accumulate(request_.world, request_.camera, gbuffer_, light_, first_pixel, share, layers_);
+    timer_.finish("compose");
+  }
+
+  void finish(RenderedFrame& frame) override {
+    frame = std::move(frame_);
+    if (!rsm_) return;
+    for (Layer& layer : rsm_->layers) frame.image.layers.push_back(std::move(layer));
+    frame.passes.insert(frame.passes.end(), rsm_->light.passes.begin(), rsm_->light.passes.end());
+  }
+
+ private:
+  /// The image, of the frame's size.
+  static LayeredImage& prepared(LayeredImage& image, const FrameRequest& request) {
+    image.width = request.settings.width;
+    image.height = request.settings.height;
+    return image;
+  }
+
+  FrameRequest request_;
+  RenderedFrame frame_;
+  PassTimer timer_;
+  Layers layers_;
+  std::optional<RsmFrame> rsm_;
+  Band band_;
+  int sample_ = 0;
+  GBuffer gbuffer_;
+  BandLight light_;
+  std::vector<vec3> taken_out_, from_maps_;
+};
+
+}  // namespace
+
+std::unique_ptr<FramePasses> make_frame_passes_cpu(const FrameRequest& request) {
+  return std::make_unique<FramePassesCpu>(request);
+}
+
+}  // namespace lambent

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the order of an update asks of a device that keeps the field's tiles, surfels and light in
+// its own memory. What is to be done and to which probes is decided by State, as on the processor;
+// what it decides by (records, places, the light where an edit is followed) it reads back.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "field/relight.h"
+#include "field/surfels.h"
+#include "lambent/field.h"
+#include "lambent/world.h"
+
+namespace lambent {
+
+/// By how much a probe's light changed in an update.
+struct LightChange {
+  float relative_square;  ///< As of tile_light.h: of what it holds to what it held.
+  float before, now;      ///< Mean luminance of its texels.
+};
+
+/// What a solve for the light of some probes came to.
+struct DeviceSolve {
+  int iterations = 0;
+  double error = 0.0;   ///< As RelightResult's.
+  double change = 0.0;  ///< Likewise.
+};
+
+/// Traces some probes anew.
+struct DeviceTracing {
+  const World& world;
+  std::span<const TraceGroup> groups;  ///< Their hits stay empty.
+  std::span<const float> shares;       ///< Of all groups' probes, one group after the other.
+  RelightSettings relight;
+  int max_bounces = -1;  ///< As FieldSettings::max_bounces.
+  float darkest = 0.0f;  ///< As relative_square takes it.
+  uint salt = 0;         ///< Of the store's dither.
+};
+
+struct DeviceTraced {
+  DeviceSolve solve;
+  std::vector<LightChange> changes;  ///< One a share.
+  std::uint64_t probe_rays = 0, shadow_rays = 0;
+  double trace_ms = 0.0, shade_ms = 0.0, relight_ms = 0.0, blend_ms = 0.0;
+};
+
+class FieldDevice {
+ public:
+  virtual ~FieldDevice() = default;
+
+  /// Whether the world is on the same device.
+  virtual bool is_on(const World& world) const = 0;
+
+  /// Where probes stand: grids and offsets.
+  virtual void set_places(const ProbeStore& store) = 0;
+  /// The encoded tiles, of distances of some probes alone, or all there are.
+  virtual void set_distances(const ProbeStore& store, std::span<const int> probes) = 0;
+  virtual void write_store(const ProbeStore& store) = 0;
+  virtual void read_store(ProbeStore& store) const = 0;
+  /// The light of all probes, before it was encoded, and what their last rays told.
+  virtual void write_light(const WorkingIrradiance& light, const WorkingIrradiance& told) = 0;
+  virtual void read_light(WorkingIrradiance& light, WorkingIrradiance& told) const = 0;
+  /// Encodes the light of some probes.
+  virtual void store_light(std::span<const int> probes, uint salt) = 0;
+
+  /// Rays, distances, surfels, their lookups, the light of all bounces, and the store: all that
+  /// State::trace does.
+  virtual DeviceTraced trace(const DeviceTracing& tracing) = 0;
+  /// Finds again, with the rays that they last traced, what some probes' surfels are, moves their
+  /// stored distances by as much as those changed, and finds the lookups of all traced probes'
+  /// surfels. What the world's edits do not touch comes out as it was.
+  virtual DeviceTraced retrace(const World& world, std::span<const int> probes, uint salt) = 0;
+  /// Finds the lookups of some probes' surfels. Returns the rays that their visibility took.
+  virtual std::uint64_t find_lookups(const World& world, std::span<const int> probes) = 0;
+  /// Has probes forget their surfels.
+  virtual void forget_surfels(std::span<const int> probes) = 0;
+
+  /// Solves for the light of some probes as `relight` does, from the light that there is.
+  /// `solution` takes what was solved for before a share of it was blended in, where it is not
+  /// null.
+  virtual DeviceSolve solve(std::span<const int> probes, std::span<const float> shares,
+                            const WorkingIrradiance& gain, const RelightSettings& settings,
+                            WorkingIrradiance* solution) = 0;
+  /// What some probes receive of the light that there is.
+  virtual void receive(std::span<const int> probes, const WorkingIrradiance& fallback,
+                       WorkingIrradiance& received) = 0;
+  /// Luminance that each probe's rays bring back of direct light and the sky, added up.
+  virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
+
+  /// As probe_importance.
+  virtual std::vector<float> importance(std::span<const FieldQuery> points) = 0;
+  /// As IrradianceField::irradiance. `world`: for visibility by rays; null: by distances.
+  virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result,
+                          const World* world) const = 0;
+
+  virtual std::size_t surfel_bytes() const = 0;
+};
+
+/// An empty field of the store's shape on the device that the world is on.
+std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
+                                               const ProbeStore& store);
+
+}  // namespace lambent
