@@ -121,5 +121,20 @@ struct BlurArguments {
   float weights[kMaxBlurTaps];
 };
 
+/// From a picture of 1 / downscale of the size, whose view and light these are, to the frame's
+/// surfaces.
+struct UpsampleArguments {
+  DeviceView small;
+  Vec3Array light;
+  DeviceView surfaces;
+  Vec3Array irradiance;
+  int small_width;
+  int small_height;
+  int width;
+  int height;
+  float inverse_downscale;
+  float plane_tolerance;
+};
+
 LAMBENT_END
 #endif

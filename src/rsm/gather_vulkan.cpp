@@ -9,6 +9,7 @@
 #include "rsm/passes.h"
 #include "rsm/to_records.h"
 #include "shaders/rsm_restructure_comp.h"
+#include "shaders/rsm_upsample_comp.h"
 
 namespace lambent {
 namespace {
@@ -35,7 +36,8 @@ void add_samples(const ReflectiveShadowMap& map, const RsmSettings& settings, in
 
 RsmGathererVulkan::RsmGathererVulkan(std::shared_ptr<const vulkan::Device> device)
     : device_(std::move(device)),
-      restructure_(*device_, shaders::rsm_restructure_comp(), "rsm.restructure") {
+      restructure_(*device_, shaders::rsm_restructure_comp(), "rsm.restructure"),
+      upsample_(*device_, shaders::rsm_upsample_comp(), "rsm.upsample") {
   // Passes are given addresses of what they do not read, too
   reserve(texels_.places, 0, "rsm.places");
   reserve(picture_.arrived, 0, "rsm.arrived");
@@ -136,6 +138,26 @@ void RsmGathererVulkan::record(vulkan::Recorder& recorder, const RsmViewOnDevice
   RsmPassesOnDevice passes(recorder, kernels(mosaic_sub_images(settings)), texels_, picture_, view,
                            settings, tracer);
   run_rsm_passes(settings, keep_stages, passes);
+}
+
+void RsmGathererVulkan::record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& small,
+                                          const RsmSettings& settings, const RsmViewOnDevice& frame,
+                                          Vec3Array irradiance) const {
+  const UpsampleArguments arguments = {small.arrays,
+                                       {picture_.picture.address()},
+                                       frame.arrays,
+                                       irradiance,
+                                       small.width,
+                                       small.height,
+                                       frame.width,
+                                       frame.height,
+                                       1.0f / static_cast<float>(settings.downscale),
+                                       settings.plane_tolerance};
+  recorder.begin_pass("rsm.upsample");
+  recorder.run(upsample_, arguments, static_cast<std::uint32_t>(frame.width),
+               static_cast<std::uint32_t>(frame.height));
+  recorder.end_pass();
+  recorder.barrier();
 }
 
 void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const RsmView& view,

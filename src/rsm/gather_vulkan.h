@@ -32,6 +32,12 @@ class RsmGathererVulkan {
   void record(vulkan::Recorder& recorder, const RsmViewOnDevice& view, const RsmSettings& settings,
               const DeviceTracer* tracer = nullptr, bool keep_stages = false);
 
+  /// Records the upsampling of the last view's light, which must have had these settings, to
+  /// surfaces of a larger frame: where their depth is 0, `irradiance` becomes 0. Then a barrier.
+  void record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& small,
+                         const RsmSettings& settings, const RsmViewOnDevice& frame,
+                         Vec3Array irradiance) const;
+
   /// Irradiance of the last view recorded: width * height of vec3, rows from the top [W/m^2]. The
   /// buffer may be larger.
   const vulkan::Buffer& irradiance() const { return picture_.picture; }
@@ -50,7 +56,7 @@ class RsmGathererVulkan {
 
   std::shared_ptr<const vulkan::Device> device_;
   std::map<int, RsmKernels> kernels_;
-  vulkan::Kernel restructure_;
+  vulkan::Kernel restructure_, upsample_;
   RsmTexelsOnDevice texels_;
   RsmPictureOnDevice picture_;
 };
