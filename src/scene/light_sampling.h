@@ -8,27 +8,16 @@
 #include <vector>
 
 #include "lambent/scene.h"
+#include "scene/emissive_sample.h"
+#include "scene/punctual_light.h"
 
 namespace lambent {
 
-/// Light that reaches a point from a light without extent.
-struct PunctualSample {
-  glm::vec3 irradiance{0.0f};  ///< On a surface perpendicular to `to_light`, unoccluded [W/m^2].
-  glm::vec3 to_light{0.0f};    ///< Unit.
-  float distance = 0.0f;       ///< To the light [m]; infinite for directional lights.
-};
+/// A light as formulas see it.
+LightRecord light_record(const Light& light);
 
 /// What `light` sends to `position_ws`; irradiance 0 outside its cone or range.
 PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws);
-
-/// A point drawn from the emissive triangles.
-struct EmissiveSample {
-  glm::vec3 position_ws{0.0f};
-  glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
-  glm::vec3 radiance{0.0f};   ///< [W/(m^2 sr)].
-  float pdf_area =
-      0.0f;  ///< Density over the area of all emissive triangles [1/m^2]; 0: there are none.
-};
 
 /// All emissive triangles of a scene, drawn with probability proportional to their power.
 class EmissiveTriangles {
@@ -45,6 +34,16 @@ class EmissiveTriangles {
   /// emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
 
+  struct Entry {
+    std::uint32_t instance, triangle;
+    float area;         ///< [m^2], world space.
+    float probability;  ///< Of being drawn.
+  };
+  /// The triangles, by instance and triangle.
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// Upper end of each entry's interval of [0, 1).
+  const std::vector<float>& cumulative() const { return cumulative_; }
+
   /// World-space boxes of the emissive triangles, one an instance [m].
   const std::vector<Bounds>& bounds() const { return bounds_; }
 
@@ -52,15 +51,10 @@ class EmissiveTriangles {
   float total_power() const { return total_power_; }
 
  private:
-  struct Entry {
-    std::uint32_t instance, triangle;
-    float area;         // [m^2], world space
-    float probability;  // of being drawn
-  };
   const Scene* scene_;
   std::vector<Entry> entries_;
   std::vector<Bounds> bounds_;
-  std::vector<float> cumulative_;  // upper end of each entry's interval of [0, 1)
+  std::vector<float> cumulative_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_of_;
   float total_power_ = 0.0f;
 };

@@ -110,4 +110,12 @@ inline vec3 pow(const vec3& v, const vec3& e) {
 #define LAMBENT_OUT(T) out T
 
 #endif
+
+LAMBENT_BEGIN
+
+LAMBENT_FN float infinity() {
+  return uintBitsToFloat(0x7F800000u);
+}
+
+LAMBENT_END
 #endif
