@@ -27,6 +27,9 @@ function(lambent_shaders target)
         COMMAND ${LAMBENT_GLSLC} -x glsl -fshader-stage=${stage} --target-env=vulkan1.2 -O -Werror -mfmt=num
           -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/tests -MD -MF ${module}.d -o ${module} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
     endif()
+    # Folders add shaders to a target of another folder, which sees no rules of theirs but through a target
+    add_custom_target(${shader}_spirv DEPENDS ${module})
+    add_dependencies(${target} ${shader}_spirv)
     file(CONFIGURE OUTPUT ${folder}/shaders/${shader}.h @ONLY CONTENT
 "// Generated from @file@.
 #pragma once

@@ -12,8 +12,13 @@
 
 namespace lambent {
 
-class RayTracer;
+namespace vulkan {
+class Device;
+}
+
+class DeviceWorld;
 class EmissiveTriangles;
+class RayTracer;
 
 /// What World::update found to differ from the update before. That an instance has come to stand at
 /// another place in the scene's list is no change.
@@ -48,9 +53,10 @@ class World {
   /// Updates that changes_since reaches back.
   static constexpr std::size_t kLogLength = 256;
 
-  /// Builds everything. Throws std::runtime_error where the ray tracer cannot start or memory runs
-  /// out.
-  explicit World(const Scene& scene);
+  /// Builds everything. On a device (lambent/vulkan.h) rays are traced there, and passes that can
+  /// run there do; null: on the processor. Throws std::runtime_error where the ray tracer cannot
+  /// start or memory runs out.
+  explicit World(const Scene& scene, std::shared_ptr<vulkan::Device> device = nullptr);
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
@@ -80,6 +86,8 @@ class World {
   /// part of the public interface. Both live as long as the world; the latter until an update.
   const RayTracer& tracer() const { return *tracer_; }
   const EmissiveTriangles& emissive() const { return *emissive_; }
+  /// The world as passes on its device find it; null on the processor. For passes, too.
+  const DeviceWorld* on_device() const { return device_.get(); }
 
   /// Wall-clock time [ms] and memory [bytes] of the acceleration structure.
   double build_ms() const;
@@ -90,7 +98,8 @@ class World {
  private:
   struct History;
   const Scene* scene_;
-  std::unique_ptr<RayTracer> tracer_;
+  std::shared_ptr<DeviceWorld> device_;
+  std::shared_ptr<RayTracer> tracer_;  // the device's, where there is one
   std::unique_ptr<EmissiveTriangles> emissive_;
   std::unique_ptr<History> history_;
 };

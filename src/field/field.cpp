@@ -82,6 +82,8 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 
 void IrradianceField::reset() {
   State& s = *state_;
+  s.device.reset();
+  s.light_behind = s.store_behind = false;
   s.store.clear();
   std::fill(s.light.begin(), s.light.end(), vec4(0.0f));
   std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
@@ -105,6 +107,7 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
                                  const World* world) const {
   assert(queries.size() == result.size());
   const State& s = *state_;
+  if (s.device) return s.device->irradiance(queries, result, world);
   const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
     lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
@@ -128,11 +131,13 @@ std::size_t IrradianceField::store_bytes() const {
   return state_->store.bytes();
 }
 std::size_t IrradianceField::surfel_bytes() const {
+  if (state_->device) return state_->device->surfel_bytes();
   std::size_t bytes = 0;
   for (const ProbeTrace& trace : state_->traces) bytes += trace.bytes();
   return bytes;
 }
 const ProbeStore& IrradianceField::store() const {
+  state_->fetch_store();
   return state_->store;
 }
 std::span<const ProbeRecord> IrradianceField::records() const {

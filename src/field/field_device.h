@@ -34,8 +34,10 @@ struct DeviceTracing {
   const World& world;
   std::span<const TraceGroup> groups;  ///< Their hits stay empty.
   std::span<const float> shares;       ///< Of all groups' probes, one group after the other.
-  float darkest = 0.0f;                ///< As relative_square takes it.
-  uint salt = 0;                       ///< Of the store's dither.
+  RelightSettings relight;
+  int max_bounces = -1;  ///< As FieldSettings::max_bounces.
+  float darkest = 0.0f;  ///< As relative_square takes it.
+  uint salt = 0;         ///< Of the store's dither.
 };
 
 struct DeviceTraced {
@@ -48,6 +50,9 @@ struct DeviceTraced {
 class FieldDevice {
  public:
   virtual ~FieldDevice() = default;
+
+  /// Whether the world is on the same device.
+  virtual bool is_on(const World& world) const = 0;
 
   /// Where probes stand: grids and offsets.
   virtual void set_places(const ProbeStore& store) = 0;
@@ -93,5 +98,9 @@ class FieldDevice {
 
   virtual std::size_t surfel_bytes() const = 0;
 };
+
+/// An empty field of the store's shape on the device that the world is on.
+std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
+                                               const ProbeStore& store);
 
 }  // namespace lambent

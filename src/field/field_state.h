@@ -8,6 +8,8 @@
 
 #include "field/blend.h"
 #include "field/classify.h"
+#include "field/field_device.h"
+#include "field/follow.h"
 #include "field/probe_record.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
@@ -57,7 +59,7 @@ struct IrradianceField::State {
 
   FieldSettings settings;
   std::vector<VolumeRole> roles;  ///< One a volume.
-  ProbeStore store;
+  mutable ProbeStore store;
   std::vector<FieldGrid> grids;  ///< Of the store, as the public interface tells them.
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
@@ -83,6 +85,19 @@ struct IrradianceField::State {
   bool followed_last = false;           ///< The last update followed edits and traced nothing else.
   bool classified = false;       ///< Since reaches were found, it was said what probes are for.
   std::vector<Bounds> moved_to;  ///< What moved when that was last said.
+
+  /// Null: the processor's memory holds the field. Else a device's does, and of what is above, the
+  /// store's tiles, the surfels, light and told are as of the last time they were read back.
+  std::unique_ptr<FieldDevice> device;
+  bool light_behind = false;          ///< The device's light and told are newer.
+  mutable bool store_behind = false;  ///< So are its tiles.
+
+  /// Has the passes of this update run where the world is. What moves from the one to the other
+  /// takes its light along; its surfels are found anew.
+  void move_to(const World& world);
+  /// Brings light and told, or the store's tiles, up to date.
+  void fetch_light();
+  void fetch_store() const;
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
   /// Of this update's dither.
@@ -134,6 +149,9 @@ struct IrradianceField::State {
   void follow_slice(const World& world, std::span<const WorldChanges> changes,
                     std::span<const int> probes, std::span<const int> all,
                     UpdateStatistics& statistics);
+  std::vector<double> direct_light(std::span<const int> probes);
+  FollowedEdits follow_surfels(const World& world, std::span<const WorldChanges> changes,
+                               std::span<const int> probes, std::span<const int> all);
   void solve_edits(UpdateStatistics& statistics);
   int settle_edits(std::span<const int> probes, const WorkingIrradiance& before,
                    const RelightResult& solved, const WorkingIrradiance& gain);
@@ -148,8 +166,19 @@ struct IrradianceField::State {
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Solves for the light of all probes that have been traced, from what their last rays met.
   void solve_start(UpdateStatistics& statistics);
-  TracedProbes blend_in_distances(const Scene& scene, std::span<const TraceGroup> groups);
-  void book(const World& world, const TracedProbes& traced, const WorkingIrradiance& history);
+  TracedProbes shares_of(std::span<const TraceGroup> groups) const;
+  void blend_in_distances(const Scene& scene, std::span<const TraceGroup> groups,
+                          std::span<const float> shares);
+  /// Noise of probes darker than this is judged as if they were as bright [luminance].
+  float darkest() const;
+  std::vector<LightChange> light_changes(std::span<const int> probes,
+                                         const WorkingIrradiance& history) const;
+  void book(const World& world, const TracedProbes& traced, std::span<const LightChange> changes);
+  void trace_on_device(const World& world, std::span<const TraceGroup> groups,
+                       UpdateStatistics& statistics);
+  /// As relight, of probes that have been traced.
+  RelightResult solve(std::span<const int> probes, std::span<const float> shares,
+                      const WorkingIrradiance& gain, const RelightSettings& by);
   /// Encodes the light of some probes.
   void store_light(std::span<const int> probes);
   /// Takes over what a file holds.

@@ -40,6 +40,11 @@ std::vector<int> IrradianceField::State::place(const World& world, std::span<con
     for (const int probe : moved) forget_place(probe);
   }
   find_reaches(world, probes);
+  if (device) {
+    device->set_places(store);
+    device->forget_surfels(moved);
+    device->set_distances(store, moved);
+  }
   return moved;
 }
 
@@ -52,6 +57,13 @@ void IrradianceField::State::settle_in(const World& world, std::span<const int> 
   edits.followed = std::move(followed);
   find_reaches(world, moved, /*learn_distances=*/true);
   const std::vector<int> traced = traced_probes();
+  if (device) {
+    device->set_places(store);
+    device->forget_surfels(moved);
+    device->set_distances(store, moved);
+    statistics.shadow_rays += device->find_lookups(world, traced);
+    return;
+  }
   if (settings.visibility == Visibility::hybrid) {
     statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, moved));
   }
@@ -129,24 +141,32 @@ void IrradianceField::State::find_reaches(const World& world, std::span<const in
   classified = false;
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
   const DistanceBlend blend(settings, sight_directions());
-  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<Sight> around(sight_directions().size());
-    std::vector<SeenDistance> seen(around.size());
+  const std::size_t directions = sight_directions().size();
+  const auto learn = [&](int probe, std::span<const Sight> around) {
+    const ProbeGrid& grid = store.grid_of(probe);
+    reaches[probe] =
+        probe_reach(around, store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
+    if (!learn_distances) return;
+    std::vector<SeenDistance> seen;
+    for (const Sight& sight : around) seen.push_back({sight.distance, sight.back_face});
     std::vector<vec2> moments(blend.texels());
-    for (std::size_t k = begin; k < end; ++k) {
-      const int probe = probes[k];
-      const ProbeGrid& grid = store.grid_of(probe);
-      look_around(world.scene(), world.tracer(), store.probe_position_ws(probe), grid.axes, moving,
-                  around);
-      reaches[probe] =
-          probe_reach(around, store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
-      if (!learn_distances) continue;
-      for (std::size_t i = 0; i < around.size(); ++i) {
-        seen[i] = {around[i].distance, around[i].back_face};
-      }
-      blend.moments(seen, max_probe_distance(grid), moments);
-      store.blend_moments(probe, moments, 1.0f, salt());
+    blend.moments(seen, max_probe_distance(grid), moments);
+    store.blend_moments(probe, moments, 1.0f, salt());
+  };
+  const std::size_t batch = viewpoints_of_batch(world.tracer());
+  parallel_chunks(probes.size(), batch, [&](std::size_t first, std::size_t last) {
+    std::vector<Viewpoint> viewpoints;
+    for (std::size_t k = first; k < last; ++k) {
+      viewpoints.push_back({store.probe_position_ws(probes[k]), store.grid_of(probes[k]).axes});
     }
+    std::vector<Sight> around(viewpoints.size() * directions);
+    look_around(world.scene(), world.tracer(), viewpoints, moving, around);
+    // Of a large batch all cores learn
+    parallel_chunks(viewpoints.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        learn(probes[first + k], {&around[k * directions], directions});
+      }
+    });
   });
 }
 

@@ -5,6 +5,7 @@
 #include "field/relocate.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/parallel.h"
@@ -59,6 +60,28 @@ bool is_moving(const Hit& hit, std::span<const std::uint8_t> moving) {
   return !hit.missed() && hit.instance < moving.size() && moving[hit.instance] != 0;
 }
 
+/// Sends rays that met what moves on behind it, time and again.
+void look_through(const RayTracer& tracer, std::span<const std::uint8_t> moving,
+                  std::span<Ray> rays, std::span<Hit> hits) {
+  std::vector<std::size_t> stopped;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (is_moving(hits[i], moving)) stopped.push_back(i);
+  }
+  std::vector<Ray> further;
+  std::vector<Hit> met;
+  for (int k = 0; k < kMaxMovingSurfaces && !stopped.empty(); ++k) {
+    further.clear();
+    for (const std::size_t i : stopped) {
+      rays[i].t_min = std::nextafter(hits[i].distance * (1.0f + kPastSurface), kInfiniteDistance);
+      further.push_back(rays[i]);
+    }
+    met.assign(stopped.size(), {});
+    tracer.closest_hits(further, met);
+    for (std::size_t s = 0; s < stopped.size(); ++s) hits[stopped[s]] = met[s];
+    std::erase_if(stopped, [&](std::size_t i) { return !is_moving(hits[i], moving); });
+  }
+}
+
 bool within_reach(const vec3& position, const vec3& home, const vec3& spacing) {
   const vec3 cells = abs((position - home) / spacing);
   return max(cells.x, max(cells.y, cells.z)) <= kMaxProbeOffset;
@@ -103,35 +126,78 @@ float room_above(std::span<const Plane> planes, const Plane& below) {
 }
 
 /// Walks from where a probe stands towards better places and leaves it at the one it wants to leave
-/// least. False where none is clearly better than the first: then the probe stays, and walking
-/// again changes nothing. As each walk that moves it leaves it with less unrest, it comes to rest
-/// even among clutter, where every step leads to another.
-bool settle(const Scene& scene, const RayTracer& tracer, int probe,
-            std::span<const std::uint8_t> moving, std::span<Sight> sights, ProbeStore& store) {
-  const ProbeGrid& grid = store.grid_of(probe);
-  const float margin = kSurfaceMargin * smallest_spacing(grid);
-  const vec3 first = store.probe_offset(probe);
-  vec3 best = first;
-  float least = kInfiniteDistance;
-  for (int step = 0; step <= kMaxSteps; ++step) {
+/// least; then walks again from there, until no place is clearly better than the first: walking
+/// again would change nothing. As each walk that moves it leaves it with less unrest, it comes to
+/// rest even among clutter, where every step leads to another.
+class Walk {
+ public:
+  Walk(int probe, const ProbeStore& store) : probe_(probe) { begin(store); }
+
+  int probe() const { return probe_; }
+  bool at_rest() const { return at_rest_; }
+
+  /// One step, by what the probe sees from where it stands.
+  void step(std::span<const Sight> sights, ProbeStore& store) {
+    const ProbeGrid& grid = store.grid_of(probe_);
+    const float margin = kSurfaceMargin * smallest_spacing(grid);
     // Along the axes of the grid, seen from where the probe belongs
-    const vec3 position = store.probe_offset(probe) * grid.spacing;
-    look_around(scene, tracer, store.probe_position_ws(probe), grid.axes, moving, sights);
+    const vec3 position = store.probe_offset(probe_) * grid.spacing;
     const vec3 better = better_position(sights, position, vec3(0.0f), grid.spacing);
 
     // Compute how much the probe wants to leave, in margins
     float unrest = length(better - position) / margin;
     if (better != position && in_solid_matter(sights)) unrest += kMatterUnrest;
-    if (step == 0 || unrest <= least) {
-      best = store.probe_offset(probe);
+    if (steps_ == 0 || unrest <= least_) {
+      best_ = store.probe_offset(probe_);
       // Away from the first place only for something clearly better
-      least = step == 0 ? unrest - kMarginTolerance : unrest;
+      least_ = steps_ == 0 ? unrest - kMarginTolerance : unrest;
     }
-    if (better == position) break;
-    store.set_probe_offset(probe, better / grid.spacing);
+    if (better != position) {
+      store.set_probe_offset(probe_, better / grid.spacing);
+      if (++steps_ <= kMaxSteps) return;
+    }
+    store.set_probe_offset(probe_, best_);
+    at_rest_ = best_ == first_;
+    if (!at_rest_) begin(store);
   }
-  store.set_probe_offset(probe, best);
-  return best != first;
+
+ private:
+  void begin(const ProbeStore& store) {
+    first_ = best_ = store.probe_offset(probe_);
+    least_ = kInfiniteDistance;
+    steps_ = 0;
+  }
+
+  int probe_;
+  int steps_ = 0;
+  vec3 first_, best_;
+  float least_ = kInfiniteDistance;
+  bool at_rest_ = false;
+};
+
+/// Walks with some probes at once, so that their rays go in large batches.
+void settle(const Scene& scene, const RayTracer& tracer, std::span<const int> probes,
+            std::span<const std::uint8_t> moving, ProbeStore& store) {
+  const std::size_t directions = sight_directions().size();
+  std::vector<Walk> walks;
+  for (const int probe : probes) walks.emplace_back(probe, store);
+  std::vector<Viewpoint> viewpoints;
+  std::vector<Sight> sights;
+  while (!walks.empty()) {
+    viewpoints.clear();
+    for (const Walk& walk : walks) {
+      viewpoints.push_back(
+          {store.probe_position_ws(walk.probe()), store.grid_of(walk.probe()).axes});
+    }
+    sights.resize(walks.size() * directions);
+    look_around(scene, tracer, viewpoints, moving, sights);
+    parallel_chunks(walks.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t w = begin; w < end; ++w) {
+        walks[w].step({&sights[w * directions], directions}, store);
+      }
+    });
+    std::erase_if(walks, [](const Walk& walk) { return walk.at_rest(); });
+  }
 }
 
 }  // namespace
@@ -147,27 +213,34 @@ std::vector<std::uint8_t> moving_instances(const Scene& scene) {
   return moving;
 }
 
-void look_around(const Scene& scene, const RayTracer& tracer, const vec3& position_ws,
-                 const mat3& axes, std::span<const std::uint8_t> moving, std::span<Sight> sights) {
+std::size_t viewpoints_of_batch(const RayTracer& tracer) {
+  return batch_of(tracer, kSights, kProbesPerTask);
+}
+
+void look_around(const Scene& scene, const RayTracer& tracer, std::span<const Viewpoint> viewpoints,
+                 std::span<const std::uint8_t> moving, std::span<Sight> sights) {
   const std::span<const vec3> directions = sight_directions();
-  std::vector<Ray> rays(directions.size());
-  std::vector<Hit> hits(directions.size());
+  assert(sights.size() == viewpoints.size() * directions.size());
+  std::vector<Ray> rays(sights.size());
+  std::vector<Hit> hits(sights.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    rays[i] = {position_ws, 0.0f, directions[i], kInfiniteDistance, kRayOfProbe};
+    rays[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,
+               directions[i % directions.size()], kInfiniteDistance, kRayOfProbe};
   }
   tracer.closest_hits(rays, hits);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    for (int k = 0; k < kMaxMovingSurfaces && is_moving(hits[i], moving); ++k) {
-      rays[i].t_min = std::nextafter(hits[i].distance * (1.0f + kPastSurface), kInfiniteDistance);
-      hits[i] = tracer.closest_hit(rays[i]);
+  look_through(tracer, moving, rays, hits);
+  parallel_chunks(rays.size(), kProbesPerTask * kSights, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const mat3& axes = viewpoints[i / directions.size()].axes;
+      const vec3& direction = rays[i].direction;
+      sights[i] = {direction * axes, kInfiniteDistance, -direction * axes, false};
+      if (hits[i].missed() || is_moving(hits[i], moving)) continue;
+      const Surface surface = surface_at(scene, rays[i], hits[i]);
+      sights[i].distance = hits[i].distance;
+      sights[i].normal = surface.geometric_normal_ws * axes;
+      sights[i].back_face = !surface.front_face && !surface.double_sided;
     }
-    sights[i] = {directions[i] * axes, kInfiniteDistance, -directions[i] * axes, false};
-    if (hits[i].missed() || is_moving(hits[i], moving)) continue;
-    const Surface surface = surface_at(scene, rays[i], hits[i]);
-    sights[i].distance = hits[i].distance;
-    sights[i].normal = surface.geometric_normal_ws * axes;
-    sights[i].back_face = !surface.front_face && !surface.double_sided;
-  }
+  });
 }
 
 bool in_solid_matter(std::span<const Sight> sights) {
@@ -211,18 +284,15 @@ vec3 better_position(std::span<const Sight> sights, const vec3& from, const vec3
 std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,
                                  std::span<const int> probes, std::span<const std::uint8_t> moving,
                                  ProbeStore& store) {
-  std::vector<std::uint8_t> moved(probes.size(), 0);
-  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
-    std::vector<Sight> sights(sight_directions().size());
-    for (std::size_t k = begin; k < end; ++k) {
-      const vec3 before = store.probe_offset(probes[k]);
-      while (settle(scene, tracer, probes[k], moving, sights, store)) continue;
-      moved[k] = store.probe_offset(probes[k]) != before ? 1 : 0;
-    }
-  });
+  std::vector<vec3> before;
+  for (const int probe : probes) before.push_back(store.probe_offset(probe));
+  parallel_chunks(probes.size(), viewpoints_of_batch(tracer),
+                  [&](std::size_t begin, std::size_t end) {
+                    settle(scene, tracer, probes.subspan(begin, end - begin), moving, store);
+                  });
   std::vector<int> result;
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    if (moved[k] != 0) result.push_back(probes[k]);
+    if (store.probe_offset(probes[k]) != before[k]) result.push_back(probes[k]);
   }
   return result;
 }

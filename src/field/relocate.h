@@ -30,11 +30,20 @@ std::span<const vec3> sight_directions();
 /// One flag an instance: it moves.
 std::vector<std::uint8_t> moving_instances(const Scene& scene);
 
-/// Looks around from a point; `axes` are those of the frame that sights are told in. `moving` holds
-/// one flag an instance: the ray looks through those that move; instances beyond its end keep
-/// still. `sights` has one entry a direction.
-void look_around(const Scene& scene, const RayTracer& tracer, const vec3& position_ws,
-                 const mat3& axes, std::span<const std::uint8_t> moving, std::span<Sight> sights);
+/// From where to look around, and the axes of the frame that sights are told in.
+struct Viewpoint {
+  vec3 position_ws;
+  mat3 axes;
+};
+
+/// Looks around from some points. `moving` holds one flag an instance: the ray looks through those
+/// that move; instances beyond its end keep still. `sights` has one entry a direction, point after
+/// point. One batch of rays, but for those that meet what moves.
+void look_around(const Scene& scene, const RayTracer& tracer, std::span<const Viewpoint> viewpoints,
+                 std::span<const std::uint8_t> moving, std::span<Sight> sights);
+
+/// How many probes to look around from at once: on processors few, so that all cores have some.
+std::size_t viewpoints_of_batch(const RayTracer& tracer);
 
 /// True where so many sights met back faces that the point must be in solid matter.
 bool in_solid_matter(std::span<const Sight> sights);

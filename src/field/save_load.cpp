@@ -103,6 +103,7 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
 Expected<void> save_field(const std::string& path, const IrradianceField& field,
                           const World& world) {
   const IrradianceField::State& state = *field.state_;
+  state.fetch_store();
   FieldFile file;
   file.updates = static_cast<std::uint32_t>(state.updates);
   file.scene = identify(world.scene(), state.settings);

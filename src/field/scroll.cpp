@@ -34,7 +34,11 @@ void IrradianceField::State::inherit(std::span<const int> probes, std::span<cons
         const vec3 direction = tile_direction(texel, edge);
         queries[t] = {places_ws[k], direction, direction};
       }
-      lookup_irradiance(store, {}, queries, irradiance);
+      if (device) {
+        device->irradiance(queries, irradiance, nullptr);
+      } else {
+        lookup_irradiance(store, {}, queries, irradiance);
+      }
       for (std::size_t t = 0; t < texels; ++t) at_centres[t] = vec4(irradiance[t], 0.0f);
       tile_fit.apply4(&at_centres[0].x, &tiles[k * texels].x);
     }
@@ -69,6 +73,7 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   if (updates == 0 || recycled.empty()) return 0;
 
   // Place them, with their first distances and the light that was there
+  fetch_light();
   for (std::size_t k = 0; k < recycled.size(); ++k) {
     const int probe = recycled[k];
     store.set_probe_offset(probe, vec3(0.0f));
@@ -85,6 +90,7 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   }
   settle_in(world, recycled, statistics);
   for (const int probe : recycled) take_over(probe, world);
+  if (device) device->write_light(light, told);
   store_light(recycled);
   return static_cast<int>(recycled.size());
 }

@@ -36,11 +36,32 @@ std::vector<int> IrradianceField::State::traced_probes() const {
   return traced;
 }
 
+RelightResult IrradianceField::State::solve(std::span<const int> probes,
+                                            std::span<const float> shares,
+                                            const WorkingIrradiance& gain,
+                                            const RelightSettings& by) {
+  if (!device) return relight(transport(probes), shares, gain, by, light);
+  if (!light_behind) device->write_light(light, told);
+  RelightResult result;
+  const DeviceSolve solved = device->solve(probes, shares, gain, by, &result.solution);
+  device->read_light(light, told);
+  light_behind = false;
+  result.iterations = solved.iterations;
+  result.error = solved.error;
+  result.change = solved.change;
+  return result;
+}
+
 uint IrradianceField::State::salt() const {
   return hash_pcg3d(uvec3(static_cast<uint>(updates), settings.seed, kStoreSalt)).x;
 }
 
 void IrradianceField::State::store_light(std::span<const int> probes) {
+  if (device) {
+    device->store_light(probes, salt());
+    store_behind = true;
+    return;
+  }
   const auto texels = static_cast<std::size_t>(tile_texels());
   const uint dither = salt();
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -52,48 +73,68 @@ void IrradianceField::State::store_light(std::span<const int> probes) {
   });
 }
 
-/// Blends the distances that the groups' rays met into the store. Returns what the rays count for.
-TracedProbes IrradianceField::State::blend_in_distances(const Scene& scene,
-                                                        std::span<const TraceGroup> groups) {
+/// What the groups' rays will count for.
+TracedProbes IrradianceField::State::shares_of(std::span<const TraceGroup> groups) const {
   const float longest = longest_average(settings);
   TracedProbes traced;
   for (const TraceGroup& group : groups) {
-    const DistanceBlend blend(settings, group.rays->directions);
     const float weight =
         static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
-    std::vector<float> shares;
     for (const int probe : group.probes) {
       const float held = min(records[probe].samples, max(longest - weight, 0.0f));
-      shares.push_back(weight / (held + weight));
+      traced.shares.push_back(weight / (held + weight));
     }
-    blend_distances(scene, blend, group, shares, salt(), store);
     traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
-    traced.shares.insert(traced.shares.end(), shares.begin(), shares.end());
     traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
   }
   return traced;
 }
 
-/// Books what the probes' light, `history` before, says of their noise, and that they were served.
+/// Blends the distances that the groups' rays met into the store. `shares` are of all groups'
+/// probes.
+void IrradianceField::State::blend_in_distances(const Scene& scene,
+                                                std::span<const TraceGroup> groups,
+                                                std::span<const float> shares) {
+  for (const TraceGroup& group : groups) {
+    const DistanceBlend blend(settings, group.rays->directions);
+    blend_distances(scene, blend, group, shares.first(group.probes.size()), salt(), store);
+    shares = shares.subspan(group.probes.size());
+  }
+}
+
+float IrradianceField::State::darkest() const {
+  return kDarkShare * mean_light;
+}
+
+/// By how much the probes' light differs from what it was.
+std::vector<LightChange> IrradianceField::State::light_changes(
+    std::span<const int> probes, const WorkingIrradiance& history) const {
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  std::vector<LightChange> changes;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    const TileLight held(&light[probes[k] * texels], texels), before(&history[k * texels], texels);
+    changes.push_back(
+        {relative_square(held, before, darkest()), mean_luminance(before), mean_luminance(held)});
+  }
+  return changes;
+}
+
+/// Books what the probes' light says of their noise, and that they were served.
 void IrradianceField::State::book(const World& world, const TracedProbes& traced,
-                                  const WorkingIrradiance& history) {
+                                  std::span<const LightChange> changes) {
   // What was blended in is a share of how far the rays were from what was held. Noise is held to
   // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
   // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
-  const auto texels = static_cast<std::size_t>(tile_texels());
   const float longest = longest_average(settings);
-  const float darkest = kDarkShare * mean_light;
   double light_sum = 0.0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
     const int probe = traced.probes[k];
     ProbeRecord& record = records[probe];
-    const TileLight held(&light[probe * texels], texels), before(&history[k * texels], texels);
-    const float square = relative_square(held, before, darkest);
-    light_sum += mean_luminance(held);
-    const float brightness =
-        mean_light > 0.0f ? max(mean_luminance(before), darkest) / mean_light : 1.0f;
-    learn_noise(square * brightness / (traced.shares[k] * traced.shares[k]), traced.weights[k],
-                record);
+    const LightChange& change = changes[k];
+    light_sum += change.now;
+    const float brightness = mean_light > 0.0f ? max(change.before, darkest()) / mean_light : 1.0f;
+    learn_noise(change.relative_square * brightness / (traced.shares[k] * traced.shares[k]),
+                traced.weights[k], record);
     record.samples = min(record.samples, longest);
     record.served = static_cast<std::uint32_t>(updates) + 1;
     record.state = state_once_traced(record.state);
@@ -112,18 +153,22 @@ void IrradianceField::State::book(const World& world, const TracedProbes& traced
 
 void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> groups,
                                    UpdateStatistics& statistics) {
-  Stopwatch watch;
-  for (TraceGroup& group : groups) {
-    trace_probe_rays(world.tracer(), store, group);
-    statistics.probe_rays += group.hits.size();
+  for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
       // What woke before it followed an edit holds the average of another light
       if (records[probe].revision != world.revision()) forget_light(probe, world.revision());
     }
   }
+  if (device) return trace_on_device(world, groups, statistics);
+  Stopwatch watch;
+  for (TraceGroup& group : groups) {
+    trace_probe_rays(world.tracer(), store, group);
+    statistics.probe_rays += group.hits.size();
+  }
   statistics.trace_ms += watch.lap();
 
-  const TracedProbes traced = blend_in_distances(world.scene(), groups);
+  const TracedProbes traced = shares_of(groups);
+  blend_in_distances(world.scene(), groups, traced.shares);
   statistics.blend_ms += watch.lap();
 
   for (const TraceGroup& group : groups) {
@@ -150,7 +195,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   statistics.probes_traced += static_cast<int>(traced.probes.size());
   statistics.relight_ms += watch.lap();
 
-  book(world, traced, history);
+  book(world, traced, light_changes(traced.probes, history));
   store_light(traced.probes);
   statistics.blend_ms += watch.lap();
 }
@@ -159,11 +204,12 @@ void IrradianceField::State::solve_start(UpdateStatistics& statistics) {
   Stopwatch watch;
   const std::vector<int> traced = traced_probes();
   const std::vector<float> shares(traced.size(), 1.0f);
-  const RelightResult solved = relight(transport(traced), shares, {}, relight_settings(), light);
+  const RelightResult solved = solve(traced, shares, {}, relight_settings());
   statistics.relights += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
   remember_told(traced, solved.solution);
+  if (device) device->write_light(light, told);
   store_light(traced);
   statistics.relight_ms += watch.lap();
 }
@@ -172,6 +218,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   State& s = *state_;
   UpdateStatistics statistics;
   Stopwatch watch;
+  s.move_to(world);
   std::uint64_t budget = request.ray_budget;
   if (request.time_budget_ms > 0.0) {
     const std::uint64_t learned = s.ray_cost.rays_within(request.time_budget_ms);
@@ -196,7 +243,8 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
 
   s.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
-    s.importance = probe_importance(s.store, request.seen, s.traces);
+    s.importance = s.device ? s.device->importance(request.seen)
+                            : probe_importance(s.store, request.seen, s.traces);
   }
   const Followed followed = s.follow(world, budget, viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;

@@ -86,7 +86,7 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
   slice.oldest = records[waiting.front()].revision;
   std::uint64_t surfels = 0;
   for (const int probe : waiting) {
-    surfels += traces[probe].surfels.size();
+    surfels += static_cast<std::uint64_t>(traces[probe].rays->rays());
     if (surfels > most_surfels && !slice.probes.empty()) break;
     slice.probes.push_back(probe);
     slice.oldest = std::min(slice.oldest, records[probe].revision);
@@ -96,24 +96,42 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
 
 }  // namespace
 
+std::vector<double> IrradianceField::State::direct_light(std::span<const int> probes) {
+  return device ? device->direct_light(probes) : direct_light_of(traces, probes);
+}
+
+/// Brings surfels and distances up to date with the world. On a device rays are cheap and finding
+/// out which may differ is not: all are traced again.
+FollowedEdits IrradianceField::State::follow_surfels(const World& world,
+                                                     std::span<const WorldChanges> changes,
+                                                     std::span<const int> probes,
+                                                     std::span<const int> all) {
+  if (!device) {
+    return follow_edits(world, changes, settings, probes, all, visibility(world), store, traces,
+                        salt());
+  }
+  const DeviceTraced traced = device->retrace(world, probes, salt());
+  store_behind = true;
+  return {traced.probe_rays, traced.shadow_rays, {}};
+}
+
 /// Follows the edits with one slice of the probes. Their light becomes as much brighter as direct
 /// light did, which is where the solution starts from.
 void IrradianceField::State::follow_slice(const World& world, std::span<const WorldChanges> changes,
                                           std::span<const int> probes, std::span<const int> all,
                                           UpdateStatistics& statistics) {
-  const std::vector<double> direct_before = direct_light_of(traces, probes);
+  const std::vector<double> direct_before = direct_light(probes);
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
   if (settings.visibility == Visibility::hybrid && shapes_differ) {
     statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, probes));
   }
-  const FollowedEdits followed =
-      follow_edits(world, changes, settings, probes, all, visibility(world), store, traces, salt());
+  const FollowedEdits followed = follow_surfels(world, changes, probes, all);
   statistics.probe_rays += followed.probe_rays;
   statistics.shadow_rays += followed.shadow_rays;
   statistics.probes_followed += static_cast<int>(probes.size());
 
-  const std::vector<double> direct_after = direct_light_of(traces, probes);
+  const std::vector<double> direct_after = direct_light(probes);
   const double before = std::accumulate(direct_before.begin(), direct_before.end(), 0.0);
   const double after = std::accumulate(direct_after.begin(), direct_after.end(), 0.0);
   const auto brighter = static_cast<float>(before > 0.0 ? after / before : 1.0);
@@ -156,7 +174,7 @@ void IrradianceField::State::follow_sleepers(const World& world, std::uint64_t r
   RelightSettings once = relight_settings();
   once.max_iterations = 1;
   const std::vector<float> shares(probes.size(), 1.0f);
-  const RelightResult solved = relight(transport(probes), shares, gain, once, light);
+  const RelightResult solved = solve(probes, shares, gain, once);
   statistics.probes_touched += settle_edits(probes, before, solved, gain);
   statistics.relights += solved.iterations;
   statistics.relight_ms += watch.lap();
@@ -184,6 +202,7 @@ int IrradianceField::State::settle_edits(std::span<const int> probes,
       told[probe * texels + t] = solved.solution[k * texels + t] / gain[k * texels + t];
     }
   }
+  if (device) device->write_light(light, told);
   store_light(touched);
   return static_cast<int>(touched.size());
 }
@@ -194,8 +213,7 @@ void IrradianceField::State::solve_edits(UpdateStatistics& statistics) {
   const WorkingIrradiance before = light_of(edits.before, edits.followed, texels);
   const WorkingIrradiance gain = light_of(edits.gain, edits.followed, texels);
   const std::vector<float> shares(edits.followed.size(), 1.0f);
-  const RelightResult solved =
-      relight(transport(edits.followed), shares, gain, relight_settings(), light);
+  const RelightResult solved = solve(edits.followed, shares, gain, relight_settings());
   statistics.relights += solved.iterations;
   statistics.residual = solved.error;
   statistics.probes_touched = settle_edits(edits.followed, before, solved, gain);
@@ -303,6 +321,7 @@ Followed IrradianceField::State::follow(const World& world, std::uint64_t ray_bu
     for (const int probe : late_sleepers) forget_light(probe, revision);
     late_sleepers.clear();
   }
+  fetch_light();
   Behind behind = find_behind(world);
   if (followed_revision != revision) {
     sleepers_a_slice = (behind.sleepers.size() + kSleeperSlices - 1) / kSleeperSlices;

@@ -53,7 +53,11 @@ void IrradianceField::State::tell_exactly(std::span<const int> probes) {
   }
   const auto texels = static_cast<std::size_t>(tile_texels());
   WorkingIrradiance exact = light_of(told, rough, tile_texels());
-  transport(rough).apply(light, exact, exact);
+  if (device) {
+    device->receive(rough, exact, exact);
+  } else {
+    transport(rough).apply(light, exact, exact);
+  }
   for (std::size_t k = 0; k < rough.size(); ++k) {
     std::copy_n(&exact[k * texels], texels, &told[rough[k] * texels]);
     told_roughly[rough[k]] = 0;

@@ -14,6 +14,7 @@ namespace {
 constexpr int kCorners = kCellCorners;
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
 constexpr std::size_t kCellsPerTask = 64;
+constexpr std::size_t kPairs = kCorners * (kCorners - 1) / 2;
 
 // Where a probe's distances let so small a share through, and the probe that matters most does not
 // see it, it is hidden; a larger share is worth a ray.
@@ -138,12 +139,12 @@ ProbeSights::ProbeSights(int probes) : cells_(probes, kAllSeen) {}
 std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store,
                                 std::span<const int> probes) {
   std::atomic<std::uint64_t> traced = 0;
-  parallel_chunks(probes.size(), kCellsPerTask, [&](std::size_t begin, std::size_t end) {
+  const std::size_t batch = batch_of(tracer, kPairs, kCellsPerTask);
+  parallel_chunks(probes.size(), batch, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
     std::vector<std::uint64_t> pairs;
-    std::vector<std::uint8_t> occluded;
-    for (std::size_t c = begin; c < end; ++c) {
-      const int base = probes[c];
+    std::vector<int> cells;
+    for (const int base : probes.subspan(begin, end - begin)) {
       const int volume = store.volume_of(base);
       const ProbeGrid& grid = store.grid(volume);
       // The last probes of a row are no cell's lowest
@@ -151,8 +152,7 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
       if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
       const CornerOffsets& offsets = store.corner_table()[static_cast<std::size_t>(
           kCellWraps * volume + cell_wrap(grid, coords))];
-      rays.clear();
-      pairs.clear();
+      cells_[base] = kAllSeen;
       for (int i = 0; i < kCorners; ++i) {
         const vec3 start = store.probe_position_ws(base + offsets.probe[i]);
         for (int k = i + 1; k < kCorners; ++k) {
@@ -160,16 +160,16 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
           const float distance = max(length(way), kMinProbeDistance);
           rays.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
           pairs.push_back(std::uint64_t{1} << (8 * i + k) | std::uint64_t{1} << (8 * k + i));
+          cells.push_back(base);
         }
       }
-      occluded.resize(rays.size());
-      tracer.occlusions(rays, occluded);
-      cells_[base] = kAllSeen;
-      for (std::size_t r = 0; r < rays.size(); ++r) {
-        if (occluded[r] != 0) cells_[base] &= ~pairs[r];
-      }
-      traced += rays.size();
     }
+    std::vector<std::uint8_t> occluded(rays.size());
+    tracer.occlusions(rays, occluded);
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      if (occluded[r] != 0) cells_[cells[r]] &= ~pairs[r];
+    }
+    traced += rays.size();
   });
   return traced;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a scene's open space ends: its bounds without the walls around it.
 #include <algorithm>
-#include <optional>
+#include <utility>
 #include <vector>
 
 #include "lambent/world.h"
@@ -23,20 +23,31 @@ constexpr float kPastSurface = 1e-5f;
 // Surfaces that a ray may pass before it counts as lost in a thicket.
 constexpr int kMaxSurfaces = 16;
 
-/// How deep below the start of a ray the solid matter that it meets first ends, if it does.
-std::optional<float> depth_of_wall(const World& world, Ray ray, float deepest) {
-  ray.t_max = deepest;
-  for (int i = 0; i < kMaxSurfaces; ++i) {
-    const Hit hit = world.tracer().closest_hit(ray);
-    if (hit.missed()) return std::nullopt;
-    // The far side of a wall, or a single sheet that faces inwards, is met from behind
-    if (!hit.front_face) return hit.distance;
-    const Scene& scene = world.scene();
-    const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];
-    if (scene.materials[mesh.material].double_sided) return hit.distance;
-    ray.t_min = hit.distance * (1.0f + kPastSurface);
+/// How deep below the starts of rays the solid matter that each meets first ends, of those where it
+/// does. Rays go on through surfaces together.
+std::vector<float> depths_of_wall(const World& world, std::vector<Ray> rays) {
+  const Scene& scene = world.scene();
+  std::vector<float> depths;
+  std::vector<Hit> hits;
+  for (int i = 0; i < kMaxSurfaces && !rays.empty(); ++i) {
+    hits.assign(rays.size(), {});
+    world.tracer().closest_hits(rays, hits);
+    std::size_t left = 0;
+    for (std::size_t r = 0; r < rays.size(); ++r) {
+      const Hit& hit = hits[r];
+      if (hit.missed()) continue;
+      // The far side of a wall, or a single sheet that faces inwards, is met from behind
+      const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];
+      if (!hit.front_face || scene.materials[mesh.material].double_sided) {
+        depths.push_back(hit.distance);
+        continue;
+      }
+      rays[left] = rays[r];
+      rays[left++].t_min = hit.distance * (1.0f + kPastSurface);
+    }
+    rays.resize(left);
   }
-  return std::nullopt;
+  return depths;
 }
 
 /// How far the open space keeps from a side of the bounds.
@@ -44,20 +55,20 @@ float wall_thickness(const World& world, const Bounds& bounds, int axis, bool up
   const glm::vec3 size = bounds.max - bounds.min;
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
   const float start = kStartShare * size[axis];
-  Ray ray;
-  ray.direction = glm::vec3(0.0f);
-  ray.direction[axis] = upper ? -1.0f : 1.0f;
-
-  std::vector<float> depths;
+  std::vector<Ray> rays(kRaysAlongEdge * kRaysAlongEdge);
   for (int i = 0; i < kRaysAlongEdge * kRaysAlongEdge; ++i) {
+    Ray& ray = rays[i];
+    ray.direction = glm::vec3(0.0f);
+    ray.direction[axis] = upper ? -1.0f : 1.0f;
     ray.origin[axis] = upper ? bounds.max[axis] + start : bounds.min[axis] - start;
     ray.origin[u] =
         bounds.min[u] + size[u] * (static_cast<float>(i % kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
     ray.origin[v] =
         bounds.min[v] + size[v] * (static_cast<float>(i / kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
-    const auto depth = depth_of_wall(world, ray, start + kMaxWallShare * size[axis]);
-    if (depth) depths.push_back(*depth - start);
+    ray.t_max = start + kMaxWallShare * size[axis];
   }
+  std::vector<float> depths = depths_of_wall(world, std::move(rays));
+  for (float& depth : depths) depth -= start;
   constexpr auto kEnough =
       static_cast<std::size_t>(kMinWalledShare * kRaysAlongEdge * kRaysAlongEdge);
   if (depths.size() < kEnough) return 0.0f;

@@ -32,6 +32,16 @@ LAMBENT_FN bool missed(HitRecord hit) {
   return floatBitsToUint(hit.distance) == kMissedDistanceBits;
 }
 
+/// The bits of ray masks that tell instances apart: an instance's mask has all other bits.
+const uint kTellingMaskBits = 0x6u;
+
+/// The mask of a ray or an instance in the eight bits that devices have: those that tell instances
+/// apart, and the lowest for all others.
+LAMBENT_FN uint device_mask(uint mask) {
+  uint others = mask & ~kTellingMaskBits;
+  return (mask & kTellingMaskBits) | (others != 0u ? 1u : 0u);
+}
+
 LAMBENT_DEVICE_ARRAY(RayArray, RayRecord, 4)
 LAMBENT_DEVICE_ARRAY(HitArray, HitRecord, 4)
 LAMBENT_DEVICE_ARRAY(UintArray, uint, 4)

@@ -2,6 +2,7 @@
 // What every pass asks of a ray tracer.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -81,6 +82,10 @@ class RayTracer {
   /// 1 for each ray that meets anything between t_min and t_max, else 0.
   virtual void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const = 0;
 
+  /// Rays a batch should have where the caller can choose: each batch has a price of its own, which
+  /// is next to nothing on processors and a round trip on other devices.
+  virtual std::size_t batch_rays() const { return 1; }
+
   virtual AccelerationStatistics statistics() const = 0;
 
   /// Follows edits of the scene that it was built over, refitting or rebuilding only what they
@@ -99,6 +104,11 @@ class RayTracer {
     return result != 0;
   }
 };
+
+/// How many things of `rays` rays each make a good batch for a ray tracer: at least `least`.
+inline std::size_t batch_of(const RayTracer& tracer, std::size_t rays, std::size_t least) {
+  return std::max(least, tracer.batch_rays() / std::max<std::size_t>(rays, 1));
+}
 
 /// A ray tracer on Embree, built over the scene as it is now. The scene must outlive it; after its
 /// geometry is edited, `update` must be called before the next ray. Throws std::runtime_error where

@@ -2,13 +2,54 @@
 #include "lambent/world.h"
 
 #include <deque>
+#include <utility>
 
 #include "core/stopwatch.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/scene_snapshot.h"
 #include "scene/light_sampling.h"
+#if LAMBENT_VULKAN
+#include "raytracing/vulkan/device_world.h"
+#endif
 
 namespace lambent {
+namespace {
+
+#if LAMBENT_VULKAN
+
+std::shared_ptr<DeviceWorld> make_device_world(const Scene& scene,
+                                               std::shared_ptr<vulkan::Device> device) {
+  return device == nullptr ? nullptr : std::make_shared<DeviceWorld>(scene, std::move(device));
+}
+
+std::shared_ptr<RayTracer> tracer_of(const std::shared_ptr<DeviceWorld>& world) {
+  return {world, &world->tracer()};
+}
+
+void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& edits) {
+  if (on_device != nullptr) {
+    on_device->update(edits);
+  } else if (edits.geometry_differs) {
+    tracer.update(edits.geometry);
+  }
+}
+
+#else
+
+// No device can be opened then
+std::shared_ptr<DeviceWorld> make_device_world(const Scene&, std::shared_ptr<vulkan::Device>) {
+  return nullptr;
+}
+std::shared_ptr<RayTracer> tracer_of(const std::shared_ptr<DeviceWorld>&) {
+  return nullptr;
+}
+void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits) {
+  if (edits.geometry_differs) tracer.update(edits.geometry);
+}
+
+#endif
+
+}  // namespace
 
 struct World::History {
   SceneSnapshot snapshot;
@@ -16,9 +57,10 @@ struct World::History {
   std::deque<WorldChanges> log;  // the last of them
 };
 
-World::World(const Scene& scene)
+World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device)
     : scene_(&scene),
-      tracer_(make_embree_raytracer(scene)),
+      device_(make_device_world(scene, std::move(device))),
+      tracer_(device_ != nullptr ? tracer_of(device_) : make_embree_raytracer(scene)),
       emissive_(std::make_unique<EmissiveTriangles>(scene)),
       history_(std::make_unique<History>()) {
   history_->snapshot = take_snapshot(scene, nullptr);
@@ -36,7 +78,7 @@ Expected<WorldChanges> World::update() {
   }
   SceneSnapshot now = take_snapshot(*scene_, &history.snapshot);
   SceneEdits edits = compare(history.snapshot, now);
-  if (edits.geometry_differs) tracer_->update(edits.geometry);
+  update_tracer(device_.get(), *tracer_, edits);
   if (edits.emitters_differ) emissive_ = std::make_unique<EmissiveTriangles>(*scene_);
   history.snapshot = std::move(now);
 

@@ -74,7 +74,8 @@ TEST(ProbeStates, MayLightWhatIsWithinACellAndTheBias) {
 ProbeReach reach_in(const Scene& scene) {
   const World world(scene);
   std::vector<Sight> sights(sight_directions().size());
-  look_around(scene, world.tracer(), vec3(0.0f), mat3(1.0f), {}, sights);
+  const Viewpoint origin{vec3(0.0f), mat3(1.0f)};
+  look_around(scene, world.tracer(), {&origin, 1}, {}, sights);
   return probe_reach(sights, vec3(0.0f), vec3(0.0f), vec3(1.0f));
 }
 

@@ -10,6 +10,7 @@
 #include "core/stopwatch.h"
 #include "raytracing/embree/geometry.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/refit.h"
 
 namespace lambent {
 namespace {
@@ -18,21 +19,9 @@ using embree::Geometry;
 using embree::SceneHandle;
 using embree::Slots;
 
-// A refitted hierarchy is built anew once its box has grown or shrunk by this factor in area: its
-// nodes have come to overlap by then.
-constexpr float kMaxAreaChange = 1.5f;
-
 bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
   *static_cast<std::atomic<std::int64_t>*>(total) += bytes;
   return true;
-}
-
-float half_area(const Mesh& mesh) {
-  Bounds bounds;
-  for (const glm::vec3& p : mesh.positions) bounds.add(p);
-  if (bounds.empty()) return 0.0f;
-  const glm::vec3 size = bounds.max - bounds.min;
-  return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
 /// Everything in one hierarchy while nothing moves, which is fastest to traverse. Once something
@@ -289,9 +278,8 @@ void EmbreeRayTracer::refit(const GeometryEdits& edits, const std::vector<std::u
     if (!deforming.scene) continue;
     const Mesh& source = slots_.scene->meshes[mesh];
     const float area = half_area(source);
-    const bool grew =
-        area > deforming.half_area * kMaxAreaChange || area * kMaxAreaChange < deforming.half_area;
-    if (grew || !embree::has_triangles_of(deforming.geometry.get(), source)) {
+    if (outgrown(deforming.half_area, area) ||
+        !embree::has_triangles_of(deforming.geometry.get(), source)) {
       deforming.scene.reset();
       continue;
     }

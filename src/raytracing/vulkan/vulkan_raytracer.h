@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ray tracer on a Vulkan device: for passes that run there, and for those that run on the host.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "raytracing/raytracer.h"
+#include "raytracing/vulkan/device_tracer.h"
+#include "raytracing/vulkan/scene_acceleration.h"
+#include "vulkan/kernel.h"
+
+namespace lambent {
+
+class VulkanRayTracer final : public RayTracer, public DeviceTracer {
+ public:
+  /// Built over the scene as it is now, whose vertices lie where `geometry_of` says. Scene and
+  /// device must outlive it. Throws std::runtime_error where memory runs out.
+  VulkanRayTracer(const vulkan::Device& device, const Scene& scene, GeometryOfMesh geometry_of);
+  ~VulkanRayTracer() override;
+
+  // Of the host: rays go up, hits come down; callers take turns on the device.
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
+  void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
+  std::size_t batch_rays() const override;
+  AccelerationStatistics statistics() const override { return statistics_; }
+  void update(const GeometryEdits& edits) override;
+
+  // Of passes on the device.
+  void closest_hits(vulkan::Recorder& recorder, const RayBatch& batch,
+                    HitArray hits) const override;
+  void occlusions(vulkan::Recorder& recorder, const RayBatch& batch,
+                  UintArray occluded) const override;
+
+ private:
+  class Staging;
+  class Borrowed;
+
+  void trace(vulkan::Recorder& recorder, const vulkan::RayKernel& kernel, const RayBatch& batch,
+             HitArray hits, UintArray occluded) const;
+  void tell_sizes();
+
+  const vulkan::Device& device_;
+  const Scene& scene_;
+  vulkan::RayKernel closest_, occlusion_;
+  std::unique_ptr<SceneAcceleration> acceleration_;
+  AccelerationStatistics statistics_;
+  mutable std::mutex staging_mutex_;
+  mutable std::vector<std::unique_ptr<Staging>> idle_staging_;
+};
+
+}  // namespace lambent
