@@ -18,6 +18,7 @@ using Run = std::function<Expected<void>()>;
 
 void add_bake(CLI::App& app, Run& run);
 void add_compare(CLI::App& app, Run& run);
+void add_devices(CLI::App& app, Run& run);
 void add_field(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_make_scene(CLI::App& app, Run& run);

@@ -26,6 +26,7 @@ int main(int argc, char** argv) {
   lambent::cli::Run run;
   lambent::cli::add_bake(app, run);
   lambent::cli::add_compare(app, run);
+  lambent::cli::add_devices(app, run);
   lambent::cli::add_field(app, run);
   lambent::cli::add_info(app, run);
   lambent::cli::add_make_scene(app, run);

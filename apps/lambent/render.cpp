@@ -28,7 +28,8 @@ Expected<void> render_picture(const RenderOptions& options, const World& world, 
   std::optional<float> stops;
   const auto done = write_output(options, *image, options.output, stops);
   if (!done || options.verify_samples == 0) return done;
-  return painter.verify(world, *camera, *image, stats);
+  if (world.on_device() == nullptr) return painter.verify(world, *camera, *image, stats);
+  return painter.verify(World(world.scene()), *camera, *image, stats);
 }
 
 /// The animation that the options name; -1: all of them.
@@ -63,16 +64,20 @@ Expected<void> render(const RenderOptions& options) {
   if (!size) return tl::unexpected(size.error());
   const ThreadLimit limit(options.threads);
 
+  const auto device = open_backend(options.backend);
+  if (!device) return tl::unexpected(device.error());
+
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   const auto animation = chosen_animation(options, *scene);
   if (!animation) return tl::unexpected(animation.error());
   if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
-  World world(*scene);
+  World world(*scene, *device);
 
   Json stats;
   stats["method"] = options.method;
-  stats["backend"] = options.backend;
+  stats["backend"] = options.backend.name;
+  if (*device != nullptr) stats["device"] = vulkan::description(**device).name;
   stats["width"] = size->x;
   stats["height"] = size->y;
   stats["triangles"] = triangle_count(*scene);
@@ -83,6 +88,7 @@ Expected<void> render(const RenderOptions& options) {
   const Expected<void> done =
       options.frames > 0 ? render_sequence(options, *scene, *animation, world, painter, stats)
                          : render_picture(options, world, painter, stats);
+  if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;
   const auto told = write_file_atomically(options.stats, stats.dump(2) + "\n");

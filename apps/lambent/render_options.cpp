@@ -93,6 +93,10 @@ Expected<void> check_options(const RenderOptions& options) {
   if (const auto exposure = parse_exposure(options.exposure); !exposure) {
     return tl::unexpected(exposure.error());
   }
+  if (const auto fine = check_backend(options.backend); !fine) return fine;
+  if (options.backend.name != "cpu" && options.method == "reference") {
+    return fail("--backend", "", "--method reference is traced on the processor alone");
+  }
   for (const CLI::Option* option : options.of_the_field) {
     if (uses_field(options) || option->count() == 0) continue;
     return fail(option->get_name(), "", "goes with --method field and rsm+field alone");
@@ -163,9 +167,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
   command.add_option("--method", o.method, "field, rsm, rsm+field, direct or reference")
       ->check(CLI::IsMember({"field", "rsm", "rsm+field", "direct", "reference"}))
       ->capture_default_str();
-  command.add_option("--backend", o.backend, "cpu")
-      ->check(CLI::IsMember({"cpu"}))
-      ->capture_default_str();
+  add_backend_options(command, o.backend);
   command.add_option("--size", o.size, "WxH [pixels]")->capture_default_str();
   command
       .add_option("--samples", o.samples,

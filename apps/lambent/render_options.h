@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "lambent/backend.h"
 #include "lambent/error.h"
 #include "lambent/field_options.h"
 #include "lambent/render_rsm.h"
@@ -24,7 +25,7 @@ struct RenderOptions {
   StageOptions stage;
   std::string output;
   std::string method = "field";
-  std::string backend = "cpu";
+  BackendOptions backend;
   std::string size = "1280x720";
   int samples = 0;  // 0: the method's own default
   int gather_rays = 0;

@@ -28,6 +28,7 @@ void IrradianceField::State::move_to(const World& world) {
   late_sleepers.clear();
   if (!on_device) return;
   device = make_field_device(world, settings, store);
+  if (!device) return;
   device->write_store(store);
   device->write_light(light, told);
 }

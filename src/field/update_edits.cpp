@@ -86,7 +86,8 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
   slice.oldest = records[waiting.front()].revision;
   std::uint64_t surfels = 0;
   for (const int probe : waiting) {
-    surfels += static_cast<std::uint64_t>(traces[probe].rays->rays());
+    // One that moved to a new place has forgotten its rays
+    if (traces[probe].rays) surfels += static_cast<std::uint64_t>(traces[probe].rays->rays());
     if (surfels > most_surfels && !slice.probes.empty()) break;
     slice.probes.push_back(probe);
     slice.oldest = std::min(slice.oldest, records[probe].revision);

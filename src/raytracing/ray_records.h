@@ -7,6 +7,11 @@
 
 LAMBENT_BEGIN
 
+/// Which instances a ray meets: those whose mask (instance_mask) shares a bit with the ray's.
+const uint kRayMeetsAll = 0xFFFFFFFFu;  ///< Cameras, shadows.
+const uint kRayGathers = 1u << 1;       ///< Meets what casts GI.
+const uint kRayOfProbe = 1u << 2;       ///< The same less what probes ignore.
+
 /// A ray; as struct Ray of raytracer.h.
 struct RayRecord {
   vec3 origin_ws;     ///< [m]

@@ -12,15 +12,11 @@
 #include <vector>
 
 #include "lambent/scene.h"
+#include "raytracing/ray_records.h"
 
 namespace lambent {
 
 inline constexpr float kInfiniteDistance = std::numeric_limits<float>::infinity();
-
-/// Which instances a ray meets: those whose mask (instance_mask) shares a bit with the ray's.
-inline constexpr std::uint32_t kRayMeetsAll = 0xFFFFFFFFu;  ///< Cameras, shadows.
-inline constexpr std::uint32_t kRayGathers = 1u << 1;       ///< Meets what casts GI.
-inline constexpr std::uint32_t kRayOfProbe = 1u << 2;       ///< The same less what probes ignore.
 
 /// The rays that meet an instance, by its flags.
 inline std::uint32_t instance_mask(const Instance& instance) {

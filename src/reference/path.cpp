@@ -136,7 +136,7 @@ void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& light
   }
   if (!(total > 0.0f)) return;
   float left = u * total;
-  PunctualSample picked;
+  PunctualSample picked{};
   float picked_importance = 0.0f;
   for (const Light& light : scene_.lights) {
     const PunctualSample candidate = sample_punctual(light, vertex.position_ws);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lambent/scene.h"
+#include "scene/coverage.h"
 
 namespace lambent {
 
@@ -53,17 +54,13 @@ glm::vec4 base_color_at(const Scene& scene, const Mesh& mesh, const Material& ma
 glm::vec3 emission_at(const Scene& scene, const Mesh& mesh, const Material& material,
                       const TrianglePoint& point, TextureFootprint footprint = {});
 
+static_assert(kAlphaOpaque == static_cast<uint>(AlphaMode::opaque) &&
+              kAlphaMask == static_cast<uint>(AlphaMode::mask) &&
+              kAlphaBlend == static_cast<uint>(AlphaMode::blend));
+
 /// Probability that a ray which meets coverage `alpha` is stopped by the material.
 inline float stopping_probability(const Material& material, float alpha) {
-  switch (material.alpha_mode) {
-    case AlphaMode::mask:
-      return alpha >= material.alpha_cutoff ? 1.0f : 0.0f;
-    case AlphaMode::blend:
-      return glm::clamp(alpha, 0.0f, 1.0f);
-    case AlphaMode::opaque:
-      break;
-  }
-  return 1.0f;
+  return stopping_probability(static_cast<uint>(material.alpha_mode), material.alpha_cutoff, alpha);
 }
 
 /// Whether some point of the material may emit: emissive, or unlit and not black.

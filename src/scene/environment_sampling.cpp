@@ -10,9 +10,6 @@
 namespace lambent {
 namespace {
 
-// Largest float below 1: keeps uv inside the last cell.
-constexpr float kBelowOne = 0.99999994f;
-
 glm::vec3 texel(const Image& map, int x, int y) {
   x = (x % map.width + map.width) % map.width;
   y = std::clamp(y, 0, map.height - 1);
@@ -73,30 +70,15 @@ float solid_angle_density(float v) {
 
 }  // namespace
 
-glm::vec2 latitude_longitude_from_direction(const glm::vec3& direction_ws, float rotation) {
-  // A turn by +rotation about +Y takes -Z towards -X, which is to the left in the map
-  const float longitude = std::atan2(direction_ws.x, -direction_ws.z) + rotation;
-  const float turns = longitude / kTwoPi + 0.5f;
-  const float theta = std::acos(std::clamp(direction_ws.y, -1.0f, 1.0f));
-  return {std::min(turns - std::floor(turns), kBelowOne), theta * kInvPi};
-}
-
-glm::vec3 direction_from_latitude_longitude(const glm::vec2& uv, float rotation) {
-  const float longitude = (uv.x - 0.5f) * kTwoPi - rotation;
-  const float theta = uv.y * kPi;
-  const float radius = std::sin(theta);
-  return {radius * std::sin(longitude), std::cos(theta), -radius * std::cos(longitude)};
-}
-
 glm::vec3 sample_environment_map(const Image& map, const glm::vec2& uv) {
-  const float x = uv.x * static_cast<float>(map.width) - 0.5f;
-  const float y = uv.y * static_cast<float>(map.height) - 0.5f;
-  const float left = std::floor(x);
-  const float top = std::floor(y);
-  const int x0 = static_cast<int>(left);
-  const int y0 = static_cast<int>(top);
-  return glm::mix(glm::mix(texel(map, x0, y0), texel(map, x0 + 1, y0), x - left),
-                  glm::mix(texel(map, x0, y0 + 1), texel(map, x0 + 1, y0 + 1), x - left), y - top);
+  const MapTexels t = map_texels(uv, map.width, map.height);
+  const auto texel = [&](int x, int y) {
+    const float* p = map.at(x, y);
+    return glm::vec3(p[0], p[1], p[2]);
+  };
+  return glm::mix(glm::mix(texel(t.left, t.top), texel(t.right, t.top), t.fraction.x),
+                  glm::mix(texel(t.left, t.bottom), texel(t.right, t.bottom), t.fraction.x),
+                  t.fraction.y);
 }
 
 EnvironmentDistribution::EnvironmentDistribution(const Environment& environment)

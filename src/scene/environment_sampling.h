@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A latitude-longitude map as a light: where a direction lies in it, and directions drawn by its
-// brightness.
+// A latitude-longitude map as a light: directions drawn by its brightness.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "lambent/scene.h"
+#include "scene/latitude_longitude.h"
 
 namespace lambent {
-
-/// Where a unit direction lies in a latitude-longitude map: u to the right, v down from +Y, both 0
-/// to 1. Without rotation the middle of the map is -Z and +X is right of it; `rotation` turns the
-/// sky about +Y [rad].
-glm::vec2 latitude_longitude_from_direction(const glm::vec3& direction_ws, float rotation);
-
-/// The unit direction for a point of the map. Inverse of latitude_longitude_from_direction.
-glm::vec3 direction_from_latitude_longitude(const glm::vec2& uv, float rotation);
 
 /// A map read bilinearly; wraps around in u, clamps in v.
 glm::vec3 sample_environment_map(const Image& map, const glm::vec2& uv);

@@ -14,36 +14,14 @@
 namespace lambent {
 namespace {
 
-// Cosines of the two cone angles closer than this count as equal, as KHR_lights_punctual
-// recommends.
-constexpr float kMinConeCosineRange = 1e-3f;
-
 std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
   return (static_cast<std::uint64_t>(instance) << 32) | triangle;
 }
 
-// KHR_lights_punctual, "Inner and Outer Cone Angles"
-float cone_attenuation(const Light& light, const glm::vec3& to_light) {
-  const float cos_outer = std::cos(light.outer_cone_angle);
-  const float scale =
-      1.0f / std::max(kMinConeCosineRange, std::cos(light.inner_cone_angle) - cos_outer);
-  const float falloff =
-      glm::clamp((-glm::dot(light.direction_ws, to_light) - cos_outer) * scale, 0.0f, 1.0f);
-  return falloff * falloff;
-}
-
-// KHR_lights_punctual, "Range Property"
-float range_attenuation(float range, float distance) {
-  if (range <= 0.0f) return 1.0f;
-  const float share = distance / range;
-  return glm::clamp(1.0f - share * share * share * share, 0.0f, 1.0f);
-}
-
-glm::vec3 edge_product(const Mesh& mesh, const Instance& instance, std::uint32_t triangle) {
+glm::vec3 world_edge_product(const Mesh& mesh, const Instance& instance, std::uint32_t triangle) {
   const glm::uvec3 v = mesh.triangles[triangle];
-  const glm::mat3 world_from_object(instance.world_from_object);
-  return glm::cross(world_from_object * (mesh.positions[v.y] - mesh.positions[v.x]),
-                    world_from_object * (mesh.positions[v.z] - mesh.positions[v.x]));
+  return edge_product(instance.world_from_object, mesh.positions[v.y] - mesh.positions[v.x],
+                      mesh.positions[v.z] - mesh.positions[v.x]);
 }
 
 // The brightest vertex colour of a triangle: an unlit surface emits in proportion to it.
@@ -55,20 +33,27 @@ float vertex_color_bound(const Mesh& mesh, const Material& material, const glm::
 
 }  // namespace
 
-PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws) {
-  if (light.type == Light::Type::directional) {
-    return {light.intensity, -light.direction_ws, std::numeric_limits<float>::infinity()};
+static_assert(kLightDirectional == static_cast<uint>(Light::Type::directional) &&
+              kLightPoint == static_cast<uint>(Light::Type::point) &&
+              kLightSpot == static_cast<uint>(Light::Type::spot));
+
+LightRecord light_record(const Light& light) {
+  LightRecord record = {light.intensity,
+                        static_cast<uint>(light.type),
+                        light.position_ws,
+                        light.range,
+                        light.direction_ws,
+                        0.0f,
+                        0.0f};
+  if (light.type == Light::Type::spot) {
+    record.cos_outer = std::cos(light.outer_cone_angle);
+    record.cone_scale = cone_scale(std::cos(light.inner_cone_angle), record.cos_outer);
   }
-  const glm::vec3 offset = light.position_ws - position_ws;
-  const float squared_distance = glm::dot(offset, offset);
-  if (squared_distance <= 0.0f) return {};
-  PunctualSample sample;
-  sample.distance = std::sqrt(squared_distance);
-  sample.to_light = offset / sample.distance;
-  float attenuation = range_attenuation(light.range, sample.distance);
-  if (light.type == Light::Type::spot) attenuation *= cone_attenuation(light, sample.to_light);
-  sample.irradiance = light.intensity * (attenuation / squared_distance);
-  return sample;
+  return record;
+}
+
+PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws) {
+  return sample_punctual(light_record(light), position_ws);
 }
 
 EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
@@ -86,7 +71,7 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
     if (!may_emit(material)) continue;
     Bounds bounds;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const float area = 0.5f * glm::length(edge_product(mesh, instance, t));
+      const float area = 0.5f * glm::length(world_edge_product(mesh, instance, t));
       const float radiance = maps[mesh.material].mean_luminance(mesh, t) *
                              vertex_color_bound(mesh, material, mesh.triangles[t]);
       // Written so that a NaN, too, is left out
@@ -116,7 +101,7 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
 }
 
 EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
-  if (entries_.empty()) return {};
+  if (entries_.empty()) return no_emissive_sample();
   const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), u.x);
   const std::size_t index = std::min<std::size_t>(above - cumulative_.begin(), entries_.size() - 1);
   const Entry& entry = entries_[index];
@@ -126,10 +111,10 @@ EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
   const TrianglePoint point =
       triangle_point(mesh, entry.triangle, sample_uniform_triangle(glm::vec2(u.y, u.z)));
 
-  EmissiveSample sample;
+  EmissiveSample sample = no_emissive_sample();
   sample.position_ws =
       glm::vec3(instance.world_from_object * glm::vec4(interpolate(mesh.positions, point), 1.0f));
-  sample.normal_ws = edge_product(mesh, instance, entry.triangle) / (2.0f * entry.area);
+  sample.normal_ws = world_edge_product(mesh, instance, entry.triangle) / (2.0f * entry.area);
   sample.radiance = emission_at(*scene_, mesh, material, point);
   if (material.alpha_mode != AlphaMode::opaque) {
     const float alpha = base_color_at(*scene_, mesh, material, point).a;

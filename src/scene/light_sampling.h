@@ -8,27 +8,16 @@
 #include <vector>
 
 #include "lambent/scene.h"
+#include "scene/emissive_sample.h"
+#include "scene/punctual_light.h"
 
 namespace lambent {
 
-/// Light that reaches a point from a light without extent.
-struct PunctualSample {
-  glm::vec3 irradiance{0.0f};  ///< On a surface perpendicular to `to_light`, unoccluded [W/m^2].
-  glm::vec3 to_light{0.0f};    ///< Unit.
-  float distance = 0.0f;       ///< To the light [m]; infinite for directional lights.
-};
+/// A light as formulas see it.
+LightRecord light_record(const Light& light);
 
 /// What `light` sends to `position_ws`; irradiance 0 outside its cone or range.
 PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws);
-
-/// A point drawn from the emissive triangles.
-struct EmissiveSample {
-  glm::vec3 position_ws{0.0f};
-  glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
-  glm::vec3 radiance{0.0f};   ///< [W/(m^2 sr)].
-  float pdf_area =
-      0.0f;  ///< Density over the area of all emissive triangles [1/m^2]; 0: there are none.
-};
 
 /// All emissive triangles of a scene, drawn with probability proportional to their power.
 class EmissiveTriangles {

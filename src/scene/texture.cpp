@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "core/byte_decoding.h"
+#include "scene/texture_lookup.h"
 #include "shared/color.h"
 
 namespace lambent {
@@ -91,38 +92,6 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb) {
   return coarse;
 }
 
-// std::floor is a library call on the baseline processor. Floats from 2^23 on have no fraction.
-float fast_floor(float value) {
-  constexpr float kAllIntegers = 8388608.0f;
-  if (!(std::abs(value) < kAllIntegers)) return value;
-  const auto truncated = static_cast<float>(static_cast<int>(value));
-  return truncated > value ? truncated - 1.0f : truncated;
-}
-
-// Texture coordinate brought into [0, 1], [0, 2] where it mirrors, so that texel indices stay
-// within one of the texture.
-float wrap_coordinate(float u, Wrap wrap) {
-  if (!std::isfinite(u)) return 0.0f;
-  if (wrap == Wrap::repeat) return u - fast_floor(u);
-  if (wrap == Wrap::clamp_to_edge) return std::clamp(u, 0.0f, 1.0f);
-  return u - 2.0f * fast_floor(0.5f * u);
-}
-
-// Texel index after wrapping, for indices that come from wrap_coordinate or are one off: no
-// division.
-int wrap_index(int i, int size, Wrap wrap) {
-  if (wrap == Wrap::repeat) {
-    if (i < 0) return i + size;
-    return i < size ? i : i - size;
-  }
-  if (wrap == Wrap::mirrored_repeat) {
-    if (i < 0) i = -1 - i;
-    if (i >= 2 * size) i -= 2 * size;
-    if (i >= size) i = 2 * size - 1 - i;
-  }
-  return std::clamp(i, 0, size - 1);
-}
-
 // How a texture's bytes become floats.
 struct Decoder {
   const float* color;
@@ -139,37 +108,35 @@ Decoder decoder_of(const Texture& texture) {
   return {texture.srgb ? srgb_byte_decoding().data() : linear, linear};
 }
 
+uint number_of(Wrap wrap) {
+  return static_cast<uint>(wrap);
+}
+static_assert(kWrapRepeat == static_cast<uint>(Wrap::repeat) &&
+              kWrapMirroredRepeat == static_cast<uint>(Wrap::mirrored_repeat) &&
+              kWrapClampToEdge == static_cast<uint>(Wrap::clamp_to_edge));
+
 glm::vec2 wrap_uv(const TextureView& view, glm::vec2 uv) {
   const glm::vec2 transformed = transform_uv(view, uv);
-  return {wrap_coordinate(transformed.x, view.wrap_u), wrap_coordinate(transformed.y, view.wrap_v)};
+  return {wrap_coordinate(transformed.x, number_of(view.wrap_u)),
+          wrap_coordinate(transformed.y, number_of(view.wrap_v))};
 }
 
 glm::vec4 sample_nearest(const TextureLevel& level, const Decoder& decode, const TextureView& view,
                          glm::vec2 wrapped_uv) {
-  const auto x = static_cast<int>(wrapped_uv.x * static_cast<float>(level.width));
-  const auto y = static_cast<int>(wrapped_uv.y * static_cast<float>(level.height));
-  return decode(level, wrap_index(x, level.width, view.wrap_u),
-                wrap_index(y, level.height, view.wrap_v));
+  return decode(level, nearest_index(wrapped_uv.x, level.width, number_of(view.wrap_u)),
+                nearest_index(wrapped_uv.y, level.height, number_of(view.wrap_v)));
 }
 
 glm::vec4 sample_level(const TextureLevel& level, const Decoder& decode, const TextureView& view,
                        glm::vec2 wrapped_uv) {
   if (view.nearest) return sample_nearest(level, decode, view, wrapped_uv);
-  const float x = wrapped_uv.x * static_cast<float>(level.width);
-  const float y = wrapped_uv.y * static_cast<float>(level.height);
-
   // Blend the four texels whose centres surround the point
-  const float left = fast_floor(x - 0.5f);
-  const float top = fast_floor(y - 0.5f);
-  const float fx = x - 0.5f - left;
-  const float fy = y - 0.5f - top;
-  const int x0 = wrap_index(static_cast<int>(left), level.width, view.wrap_u);
-  const int x1 = wrap_index(static_cast<int>(left) + 1, level.width, view.wrap_u);
-  const int y0 = wrap_index(static_cast<int>(top), level.height, view.wrap_v);
-  const int y1 = wrap_index(static_cast<int>(top) + 1, level.height, view.wrap_v);
-  return ((1.0f - fx) * (1.0f - fy)) * decode(level, x0, y0) +
-         (fx * (1.0f - fy)) * decode(level, x1, y0) + ((1.0f - fx) * fy) * decode(level, x0, y1) +
-         (fx * fy) * decode(level, x1, y1);
+  const TexelPair x = texels_around(wrapped_uv.x, level.width, number_of(view.wrap_u));
+  const TexelPair y = texels_around(wrapped_uv.y, level.height, number_of(view.wrap_v));
+  return ((1.0f - x.fraction) * (1.0f - y.fraction)) * decode(level, x.first, y.first) +
+         (x.fraction * (1.0f - y.fraction)) * decode(level, x.second, y.first) +
+         ((1.0f - x.fraction) * y.fraction) * decode(level, x.first, y.second) +
+         (x.fraction * y.fraction) * decode(level, x.second, y.second);
 }
 
 }  // namespace
@@ -182,16 +149,13 @@ void build_mips(Texture& texture) {
   }
 }
 
-// KHR_texture_transform: scale, then rotate counter-clockwise as seen with v pointing down, then
-// offset.
+glm::vec2 uv_rotation(const TextureView& view) {
+  if (view.uv_rotation == 0.0f) return {1.0f, 0.0f};
+  return {std::cos(view.uv_rotation), std::sin(view.uv_rotation)};
+}
+
 glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv) {
-  uv *= view.uv_scale;
-  if (view.uv_rotation != 0.0f) {
-    const float c = std::cos(view.uv_rotation);
-    const float s = std::sin(view.uv_rotation);
-    uv = glm::vec2(c * uv.x + s * uv.y, -s * uv.x + c * uv.y);
-  }
-  return uv + view.uv_offset;
+  return transform_uv(uv, view.uv_scale, uv_rotation(view), view.uv_offset);
 }
 
 glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod) {

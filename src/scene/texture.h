@@ -7,6 +7,9 @@
 
 namespace lambent {
 
+/// Cosine and sine of the view's rotation.
+glm::vec2 uv_rotation(const TextureView& view);
+
 /// Texture coordinates after the view's transform (KHR_texture_transform), before its wrap modes.
 glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv);
 

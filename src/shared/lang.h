@@ -113,4 +113,12 @@ inline vec3 pow(const vec3& v, const vec3& e) {
 #define LAMBENT_PRECISE precise const
 
 #endif
+
+LAMBENT_BEGIN
+
+LAMBENT_FN float infinity() {
+  return uintBitsToFloat(0x7F800000u);
+}
+
+LAMBENT_END
 #endif

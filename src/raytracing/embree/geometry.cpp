@@ -6,18 +6,10 @@
 
 #include "raytracing/raytracer.h"
 #include "raytracing/surface.h"
-#include "shared/random.h"
+#include "scene/coverage.h"
 
 namespace lambent::embree {
 namespace {
-
-/// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without
-/// state.
-float uniform_of_hit(float u, float v, float distance, std::uint32_t triangle) {
-  const uvec3 mixed = hash_pcg3d(uvec3(floatBitsToUint(u) ^ (triangle * 0x9E3779B9u),
-                                       floatBitsToUint(v), floatBitsToUint(distance)));
-  return uniform_from_bits(mixed.x);
-}
 
 /// Embree asks of each candidate hit on a triangle that may be see-through: does it count?
 void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
@@ -32,12 +24,9 @@ void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
     const Material& material =
         scene.materials[scene.meshes[scene.instances[instance].mesh].material];
     const float coverage = coverage_at(scene, instance, hit.primID, {hit.u, hit.v});
-    const float threshold =
-        material.alpha_mode == AlphaMode::mask
-            ? material.alpha_cutoff
-            : uniform_of_hit(hit.u, hit.v, RTCRayN_tfar(args->ray, args->N, lane), hit.primID);
     const bool counts =
-        material.alpha_mode == AlphaMode::mask ? coverage >= threshold : coverage > threshold;
+        stops_ray(static_cast<uint>(material.alpha_mode), material.alpha_cutoff, coverage,
+                  {hit.u, hit.v}, RTCRayN_tfar(args->ray, args->N, lane), hit.primID);
     if (!counts) args->valid[lane] = 0;
   }
 }

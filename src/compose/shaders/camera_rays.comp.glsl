@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ray through each pixel of a band.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "compose/frame_records.h"
+#include "compose/pixel_math.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  CameraRaysArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  uint pixel = args.first_pixel + i;
+  vec2 corner = vec2(float(pixel % args.width), float(pixel / args.width));
+  vec2 offset = subpixel_position(pixel, args.index, args.samples, args.seed);
+  CameraRay ray = camera_ray(args.camera, corner + offset);
+  args.rays.at[i] = RayRecord(ray.origin_ws, 0.0f, ray.direction_ws,
+                              uintBitsToFloat(kMissedDistanceBits), kRayMeetsAll);
+}

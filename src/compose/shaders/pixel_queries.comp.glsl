@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where pixels ask the field for light.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "compose/frame_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  PixelQueriesArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  LitPointRecord point = args.points.at[i];
+  vec3 to_viewer_ws = args.surfaces.at[i].to_viewer_ws;
+  vec3 normal_ws =
+      args.mirrored != 0u ? reflect(-to_viewer_ws, point.normal_ws) : point.normal_ws;
+  args.queries.at[i] = QueryRecord(point.position_ws, normal_ws, to_viewer_ws);
+}

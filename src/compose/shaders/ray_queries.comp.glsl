@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where gathering rays ask the field for light: at what they met.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "compose/frame_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  RayQueriesArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  LitPointRecord point = args.points.at[i];
+  args.queries.at[i] =
+      QueryRecord(point.position_ws, point.normal_ws, -args.rays.at[i].direction_ws);
+}

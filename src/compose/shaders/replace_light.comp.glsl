@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes what another source brings out of the field's light, and adds that source's own.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "compose/frame_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  ReplaceLightArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  vec3 light = args.irradiance.at[i] + args.added.at[i];
+  if (args.takes_out != 0u) light -= args.taken_out.at[i];
+  args.irradiance.at[i] = max(light, vec3(0.0f));
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Candidates of direct light as irradiance: shadow rays, and what arrives where they do.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "raytracing/shaders/direct_light.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  LightDrawsArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  LitPointRecord point = args.points.at[args.first + i];
+  bool asks = point.random_index != kAsksForNoLight;
+  RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
+  uint slots = slot_count(args);
+  for (uint slot = 0u; slot < slots; ++slot) {
+    RayRecord ray = no_ray();
+    vec3 stake = vec3(0.0f);
+    if (asks) {
+      LightCandidate light = candidate_of_slot(args, point, i, slot, random);
+      float cosine = dot(point.normal_ws, light.to_light);
+      float side = dot(point.geometric_normal_ws, light.to_light);
+      if (light.perpendicular_irradiance != vec3(0.0f) && cosine > 0.0f && side > 0.0f) {
+        stake = light.perpendicular_irradiance * cosine;
+        ray = shadow_ray(point, light);
+      }
+    }
+    args.stakes.at[slot * args.count + i] = stake;
+    args.shadow_rays.at[slot * args.count + i] = ray;
+  }
+}

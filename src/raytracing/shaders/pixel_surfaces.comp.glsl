@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera's rays met.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "raytracing/shaders/sky.glsl"
+#include "raytracing/shaders/surface_at.glsl"
+#include "raytracing/vulkan/shading_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  PixelSurfacesArguments args;
+};
+
+void main() {
+  if (gl_GlobalInvocationID.x >= args.count) return;
+  uint i = args.first + gl_GlobalInvocationID.x;
+  RayRecord ray = args.rays.at[i];
+  HitRecord hit = args.hits.at[i];
+  LitPointRecord point =
+      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
+  PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
+                                                -ray.direction_ws, kSurfaceMissed);
+  if (missed(hit)) {
+    pixel.emission = sky_radiance(args.scene, ray.direction_ws);
+  } else {
+    Surface surface = surface_at(args.scene, ray, hit, 0.0f);
+    point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
+                           args.first_index + i);
+    pixel.reflectance = surface.reflectance;
+    pixel.emission = surface.emission;
+    pixel.flags = surface.receives_gi ? kSurfaceReceivesGi : 0u;
+  }
+  args.points.at[i] = point;
+  args.surfaces.at[i] = pixel;
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// The formulas between a hit and the surface that shading sees.
+#ifndef LAMBENT_RAYTRACING_SURFACE_MATH_H
+#define LAMBENT_RAYTRACING_SURFACE_MATH_H
+
+#include "shared/brdf.h"
+
+LAMBENT_BEGIN
+
+// A shading normal turned away from the viewer is bent back to where this cosine is left, so that
+// smooth silhouettes and steep normal maps neither go black nor divide by zero.
+const float kMinViewCosine = 1e-3f;
+// Squared lengths below this are no direction.
+const float kMinSquaredLength = 1e-30f;
+
+LAMBENT_FN vec3 normalize_or(vec3 v, vec3 fallback) {
+  float squared = dot(v, v);
+  return squared > kMinSquaredLength ? v * (1.0f / sqrt(squared)) : fallback;
+}
+
+/// A point given in object space.
+LAMBENT_FN vec3 transform_point(mat4 world_from_object, vec3 position) {
+  return vec3(world_from_object * vec4(position, 1.0f));
+}
+
+/// det(M) * inverse(M)^T: takes normals to the world, but for their length and, in mirrored
+/// instances, their sign, which facing the viewer settles anyway.
+LAMBENT_FN mat3 cofactors(mat4 m) {
+  vec3 x = vec3(m[0]);
+  vec3 y = vec3(m[1]);
+  vec3 z = vec3(m[2]);
+  return mat3(cross(y, z), cross(z, x), cross(x, y));
+}
+
+/// Cross section of a cone of this width over a triangle's area, 0 where there is no cone.
+LAMBENT_FN float share_of_triangle(float footprint, float double_area) {
+  if (footprint <= 0.0f || double_area <= 0.0f) return 0.0f;
+  return 2.0f * footprint * footprint / double_area;
+}
+
+/// Tangent and handedness that the texture coordinates tell, for meshes that come without tangents;
+/// from the edges between a triangle's first vertex and the others.
+LAMBENT_FN vec4 tangent_from_uvs(vec3 edge1, vec3 edge2, vec2 uv1, vec2 uv2) {
+  float determinant = uv1.x * uv2.y - uv1.y * uv2.x;
+  float orientation = determinant < 0.0f ? -1.0f : 1.0f;
+  // glTF's v runs down the image, its bitangent up: hence the sign of the handedness.
+  return vec4(orientation * (edge1 * uv2.y - edge2 * uv1.y), -orientation);
+}
+
+/// `tangent` made orthogonal to a unit normal; 0 where it has no direction of its own.
+LAMBENT_FN vec3 orthogonal_tangent(vec3 normal, vec3 tangent) {
+  return normalize_or(tangent - normal * dot(normal, tangent), vec3(0.0f));
+}
+
+/// The normal that a map's texel says, in the space of the unit vectors normal and tangent.
+LAMBENT_FN vec3 mapped_normal(vec3 normal, vec3 tangent, float handedness, vec3 texel,
+                              float normal_scale) {
+  vec3 b = cross(normal, tangent) * (handedness < 0.0f ? -1.0f : 1.0f);
+  vec3 n = texel * 2.0f - 1.0f;
+  n.x *= normal_scale;
+  n.y *= normal_scale;
+  return normalize_or(tangent * n.x + b * n.y + normal * n.z, normal);
+}
+
+/// A shading normal on the viewer's side. `along_winding`: it points to where the vertices run
+/// counter-clockwise; `from_front`: that is where the ray comes from. `geometric_normal` is on the
+/// viewer's side already.
+LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from_front,
+                                      vec3 direction, vec3 geometric_normal) {
+  vec3 n = along_winding != from_front ? -normal : normal;
+  float view_cosine = -dot(n, direction);
+  if (view_cosine >= kMinViewCosine) return n;
+  return normalize_or(n + (view_cosine - kMinViewCosine) * direction, geometric_normal);
+}
+
+/// What reflects as Lambert says, exactly.
+LAMBENT_FN Reflectance lambert_reflectance(vec3 diffuse) {
+  Reflectance result = {diffuse, 1.0f, vec3(0.0f), 0.0f};
+  return result;
+}
+
+/// glTF 2.0, Appendix B.3, KHR_materials_ior and KHR_materials_specular, with one Fresnel term for
+/// both lobes.
+LAMBENT_FN Reflectance coated_reflectance(vec3 base, float metallic, float roughness,
+                                          float specular, vec3 specular_color, float ior) {
+  float root_f0 = (ior - 1.0f) / (ior + 1.0f);
+  vec3 dielectric_f0 = min(specular_color * (root_f0 * root_f0), vec3(1.0f)) * specular;
+  Reflectance result = {base * (1.0f - metallic), max(roughness * roughness, kMinGgxAlpha),
+                        mix(dielectric_f0, base, metallic), mix(specular, 1.0f, metallic)};
+  return result;
+}
+
+LAMBENT_END
+#endif

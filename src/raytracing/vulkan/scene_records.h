@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene as kernels see it: records in arrays, all reached from one address.
+#ifndef LAMBENT_RAYTRACING_VULKAN_SCENE_RECORDS_H
+#define LAMBENT_RAYTRACING_VULKAN_SCENE_RECORDS_H
+
+#include "raytracing/ray_records.h"
+#include "scene/punctual_light.h"
+
+LAMBENT_BEGIN
+
+LAMBENT_DEVICE_ARRAY(Uvec3Array, uvec3, 4)
+
+// TextureViewRecord::sampling: two bits each for the wraps along u and v, then these.
+const uint kSamplingWrapBits = 2u;
+const uint kSamplingWrapMask = 3u;
+const uint kSamplingNearest = 16u;
+const uint kSamplingSecondUvs = 32u;
+
+/// How a material reads a texture; as struct TextureView of scene.h.
+struct TextureViewRecord {
+  int texture;       ///< Index into the bound textures; -1: none.
+  uint sampling;     ///< Wraps and flags, as above.
+  vec2 uv_scale;     ///< Multiplies texture coordinates first.
+  vec2 uv_rotation;  ///< Cosine and sine.
+  vec2 uv_offset;    ///< Added last.
+  int width;         ///< Of the texture [texels].
+  int height;        ///< [texels]
+  int levels;        ///< Its MIP levels.
+};
+
+LAMBENT_FN uint wrap_u(TextureViewRecord view) {
+  return view.sampling & kSamplingWrapMask;
+}
+LAMBENT_FN uint wrap_v(TextureViewRecord view) {
+  return (view.sampling >> kSamplingWrapBits) & kSamplingWrapMask;
+}
+
+// MaterialRecord::flags
+const uint kMaterialDoubleSided = 1u;
+const uint kMaterialUnlit = 2u;
+const uint kMaterialLambert = 4u;
+const uint kMaterialMayEmit = 8u;  ///< Some point of it may.
+
+/// As struct Material of scene.h.
+struct MaterialRecord {
+  vec4 base_color;
+  vec3 emission;  ///< [W/(m^2 sr)]
+  float metallic;
+  float roughness;
+  float normal_scale;
+  float ior;
+  float specular;
+  vec3 specular_color;
+  float alpha_cutoff;
+  uint alpha_mode;  ///< kAlphaOpaque, ...
+  uint flags;
+  TextureViewRecord base_color_texture;
+  TextureViewRecord metallic_roughness_texture;
+  TextureViewRecord normal_texture;
+  TextureViewRecord emission_texture;
+  TextureViewRecord specular_texture;
+  TextureViewRecord specular_color_texture;
+};
+
+// MeshRecord::attributes: which arrays there are besides positions, normals and triangles.
+const uint kMeshHasTangents = 1u;
+const uint kMeshHasColors = 2u;
+const uint kMeshHasUvs0 = 4u;
+const uint kMeshHasUvs1 = 8u;
+
+/// As struct Mesh of scene.h. Addresses of arrays that are absent are 0.
+struct MeshRecord {
+  Vec3Array positions;  ///< Object space [m].
+  Vec3Array normals;
+  Vec4Array tangents;
+  Vec2Array uvs0;
+  Vec2Array uvs1;
+  Vec4Array colors;
+  Uvec3Array triangles;
+  uint material;
+  uint attributes;
+};
+
+// InstanceRecord::flags
+const uint kInstanceReceivesGi = 1u;
+/// InstanceRecord::first_emitter_pdf where nothing emits.
+const uint kEmitsNothing = 0xFFFFFFFFu;
+
+/// As struct Instance of scene.h.
+struct InstanceRecord {
+  mat4 world_from_object;
+  uint mesh;
+  uint flags;
+  /// Where the densities of its triangles begin in SceneRecord::emitter_pdfs.
+  uint first_emitter_pdf;
+};
+
+/// An emissive triangle.
+struct EmitterRecord {
+  uint instance;
+  uint triangle;
+  float area;         ///< World space [m^2].
+  float probability;  ///< Of being drawn.
+};
+
+LAMBENT_DEVICE_ARRAY(MaterialArray, MaterialRecord, 4)
+LAMBENT_DEVICE_ARRAY(MeshArray, MeshRecord, 8)
+LAMBENT_DEVICE_ARRAY(InstanceArray, InstanceRecord, 4)
+LAMBENT_DEVICE_ARRAY(LightArray, LightRecord, 4)
+LAMBENT_DEVICE_ARRAY(EmitterArray, EmitterRecord, 4)
+
+/// All of a scene.
+struct SceneRecord {
+  InstanceArray instances;
+  MeshArray meshes;
+  MaterialArray materials;
+  LightArray lights;
+  EmitterArray emitters;
+  FloatArray emitter_cumulative;  ///< Upper end of each emitter's interval of [0, 1).
+  /// Density with which points of a triangle are drawn [1/m^2], for all triangles of instances that
+  /// emit.
+  FloatArray emitter_pdfs;
+  Vec3Array sky_map;  ///< Latitude-longitude radiance, rows from the top.
+  uint light_count;
+  uint emitter_count;
+  vec3 sky_radiance;   ///< [W/(m^2 sr)]; multiplies the map where there is one.
+  float sky_rotation;  ///< Of the map about +Y [rad].
+  int sky_width;       ///< Of the map [texels]; 0: there is none.
+  int sky_height;      ///< [texels]
+};
+LAMBENT_DEVICE_ARRAY(SceneArray, SceneRecord, 8)
+
+LAMBENT_END
+#endif

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directions as points of a latitude-longitude map.
+#ifndef LAMBENT_SCENE_LATITUDE_LONGITUDE_H
+#define LAMBENT_SCENE_LATITUDE_LONGITUDE_H
+
+#include "shared/constants.h"
+
+LAMBENT_BEGIN
+
+// Largest float below 1: keeps uv inside the last cell.
+const float kBelowOne = 0.99999994f;
+
+/// Where a unit direction lies in a latitude-longitude map: u to the right, v down from +Y, both 0
+/// to 1. Without rotation the middle of the map is -Z and +X is right of it; `rotation` turns the
+/// sky about +Y [rad].
+LAMBENT_FN vec2 latitude_longitude_from_direction(vec3 direction_ws, float rotation) {
+  // A turn by +rotation about +Y takes -Z towards -X, which is to the left in the map
+  float longitude = atan(direction_ws.x, -direction_ws.z) + rotation;
+  float turns = longitude / kTwoPi + 0.5f;
+  float theta = acos(clamp(direction_ws.y, -1.0f, 1.0f));
+  return vec2(min(turns - floor(turns), kBelowOne), theta * kInvPi);
+}
+
+/// The unit direction for a point of the map. Inverse of latitude_longitude_from_direction.
+LAMBENT_FN vec3 direction_from_latitude_longitude(vec2 uv, float rotation) {
+  float longitude = (uv.x - 0.5f) * kTwoPi - rotation;
+  float theta = uv.y * kPi;
+  float radius = sin(theta);
+  return vec3(radius * sin(longitude), cos(theta), -radius * cos(longitude));
+}
+
+/// The four texels around a point of a map and where it is between them; wraps around in u, clamps
+/// in v.
+struct MapTexels {
+  int left;
+  int right;
+  int top;
+  int bottom;
+  vec2 fraction;
+};
+
+LAMBENT_FN MapTexels map_texels(vec2 uv, int width, int height) {
+  float x = uv.x * float(width) - 0.5f;
+  float y = uv.y * float(height) - 0.5f;
+  float left = floor(x);
+  float top = floor(y);
+  int x0 = int(left) + width;
+  int y0 = int(top);
+  MapTexels texels = {x0 % width, (x0 + 1) % width, clamp(y0, 0, height - 1),
+                      clamp(y0 + 1, 0, height - 1), vec2(x - left, y - top)};
+  return texels;
+}
+
+LAMBENT_END
+#endif

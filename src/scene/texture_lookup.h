@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which texels a texture coordinate asks for.
+#ifndef LAMBENT_SCENE_TEXTURE_LOOKUP_H
+#define LAMBENT_SCENE_TEXTURE_LOOKUP_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+/// Wrap of scene.h, by its numbers.
+const uint kWrapRepeat = 0u;
+const uint kWrapMirroredRepeat = 1u;
+const uint kWrapClampToEdge = 2u;
+
+/// Scale, then rotation counter-clockwise as seen with v pointing down (`rotation`: its cosine and
+/// sine), then offset. KHR_texture_transform.
+LAMBENT_FN vec2 transform_uv(vec2 uv, vec2 scale, vec2 rotation, vec2 offset) {
+  uv *= scale;
+  if (rotation.x != 1.0f || rotation.y != 0.0f) {
+    uv = vec2(rotation.x * uv.x + rotation.y * uv.y, -rotation.y * uv.x + rotation.x * uv.y);
+  }
+  return uv + offset;
+}
+
+const float kAllFloatsAreIntegers = 8388608.0f;  // from 2^23 on
+const uint kFloatExponentMask = 0x7F800000u;
+
+/// The library's floor is a call on a baseline processor.
+LAMBENT_FN float fast_floor(float value) {
+  if (!(abs(value) < kAllFloatsAreIntegers)) return value;
+  float truncated = float(int(value));
+  return truncated > value ? truncated - 1.0f : truncated;
+}
+
+/// Texture coordinate brought into [0, 1], [0, 2] where it mirrors, so that texel indices stay
+/// within one of the texture; 0 where it is not finite.
+LAMBENT_FN float wrap_coordinate(float u, uint wrap) {
+  if ((floatBitsToUint(u) & kFloatExponentMask) == kFloatExponentMask) return 0.0f;
+  if (wrap == kWrapRepeat) return u - fast_floor(u);
+  if (wrap == kWrapClampToEdge) return clamp(u, 0.0f, 1.0f);
+  return u - 2.0f * fast_floor(0.5f * u);
+}
+
+/// Texel index after wrapping, for indices that come from wrap_coordinate or are one off: no
+/// division.
+LAMBENT_FN int wrap_index(int i, int size, uint wrap) {
+  if (wrap == kWrapRepeat) {
+    if (i < 0) return i + size;
+    return i < size ? i : i - size;
+  }
+  if (wrap == kWrapMirroredRepeat) {
+    if (i < 0) i = -1 - i;
+    if (i >= 2 * size) i -= 2 * size;
+    if (i >= size) i = 2 * size - 1 - i;
+  }
+  return clamp(i, 0, size - 1);
+}
+
+/// The texel at a wrapped coordinate, along one axis.
+LAMBENT_FN int nearest_index(float wrapped, int size, uint wrap) {
+  return wrap_index(int(wrapped * float(size)), size, wrap);
+}
+
+/// The two texels whose centres are around a wrapped coordinate, along one axis, and the second's
+/// share.
+struct TexelPair {
+  int first;
+  int second;
+  float fraction;
+};
+
+LAMBENT_FN TexelPair texels_around(float wrapped, int size, uint wrap) {
+  float x = wrapped * float(size);
+  float left = fast_floor(x - 0.5f);
+  TexelPair pair = {wrap_index(int(left), size, wrap), wrap_index(int(left) + 1, size, wrap),
+                    x - 0.5f - left};
+  return pair;
+}
+
+/// The MIP level at which a cone covers about one texel: half the logarithm of the texels it
+/// covers. After Akenine-Moeller et al., "Texture Level of Detail Strategies for Real-Time Ray
+/// Tracing", Ray Tracing Gems, 2019, Eq. 2. The edges are those of the triangle, in texture
+/// coordinates, `share_of_triangle` is the cone's cross section over the triangle's area.
+LAMBENT_FN int mip_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
+                         float share_of_triangle) {
+  float triangle_texels =
+      0.5f * abs((uv_edge1.x * uv_edge2.y - uv_edge1.y * uv_edge2.x) * uv_scale.x * uv_scale.y) *
+      float(width) * float(height);
+  float cone_texels = triangle_texels * share_of_triangle;
+  if (!(cone_texels > 1.0f)) return 0;
+  // round(log2(t) / 2) = floor(log2(2 t) / 2), and the exponent is the logarithm's floor
+  return (int(floatBitsToUint(2.0f * cone_texels) >> 23u) - 127) / 2;
+}
+
+// Details are averaged over from this level on, and few such averages fit into a texture that has
+// no more coarser levels than this.
+const int kMinMeanLevel = 2;
+const int kMaxLevelsToCoarsest = 4;
+
+/// Whether what a level shows of a texture is all but its mean.
+LAMBENT_FN bool shows_mean_alone(int level, int coarsest) {
+  return level >= kMinMeanLevel && coarsest - level <= kMaxLevelsToCoarsest;
+}
+
+LAMBENT_END
+#endif
