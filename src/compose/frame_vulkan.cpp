@@ -26,6 +26,11 @@ FramePassesVulkan::FramePassesVulkan(const FrameRequest& request)
   device_.run([&](Recorder& to) { to.fill(kernels_.layers, 0u, 0, pixels * sizeof(PixelLayers)); });
 }
 
+void FramePassesVulkan::add(const char* name, Record record) {
+  if (steps_.size() == kTimedPasses) run_steps();
+  steps_.push_back({name, std::move(record)});
+}
+
 /// Submits what was recorded, and books the time of each pass.
 void FramePassesVulkan::run_steps() {
   if (steps_.empty()) return;

@@ -39,10 +39,7 @@ class FramePassesVulkan final : public FramePasses {
 
   DeviceStage stage() const { return {world_.scene(), world_.tracer()}; }
   /// Has a pass run after those asked for before; it sees what they wrote.
-  void add(const char* name, Record record) {
-    if (steps_.size() == kTimedPasses) run_steps();
-    steps_.push_back({name, std::move(record)});
-  }
+  void add(const char* name, Record record);
   void run_steps();
   void reserve_pixels(std::size_t pixels);
   void trace_pixels(Recorder& to, const CameraRaysArguments& arguments);
