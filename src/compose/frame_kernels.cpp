@@ -8,6 +8,7 @@
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
+#include "shaders/view_geometry_comp.h"
 
 namespace lambent {
 
@@ -18,8 +19,10 @@ FrameKernels::FrameKernels(const vulkan::Device& device)
       ray_queries(device, shaders::ray_queries_comp(), "ray queries"),
       gather_sum(device, shaders::gather_sum_comp(), "gather sum"),
       replace_light(device, shaders::replace_light_comp(), "replace light"),
+      view_geometry(device, shaders::view_geometry_comp(), "view geometry"),
       compose(device, shaders::compose_comp(), "compose"),
       pixel_shading(device),
-      gather_shading(device) {}
+      gather_shading(device),
+      rsm(device) {}
 
 }  // namespace lambent

@@ -5,6 +5,7 @@
 #include "compose/frame_records.h"
 #include "compose/pixel_math.h"
 #include "raytracing/vulkan/hit_shading.h"
+#include "rsm/gather_vulkan.h"
 #include "vulkan/buffer.h"
 #include "vulkan/kernel.h"
 
@@ -15,8 +16,9 @@ struct FrameKernels {
   explicit FrameKernels(const vulkan::Device& device);
 
   vulkan::Kernel camera_rays, pixel_queries, gather_rays, ray_queries, gather_sum, replace_light,
-      compose;
+      view_geometry, compose;
   HitShading pixel_shading, gather_shading;
+  RsmGathererVulkan rsm;
 
   // Of a band's pixels
   vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;
@@ -24,6 +26,8 @@ struct FrameKernels {
   // Of the rays that gather some pixels' light
   vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
       gathered_direct, gathered_field;
+  // Positions, normals and depths of a band's pixels, and of the small picture that maps light
+  vulkan::Buffer band_geometry[3], small_geometry[3];
   // Of the whole picture
   vulkan::Buffer layers;
 };

@@ -78,17 +78,23 @@ RsmFrame light_by_rsm(const World& world, const Camera& camera, const FrameSetti
   const std::vector<ReflectiveShadowMap> maps = render_rsms(world, camera, aspect, rsm);
   const RsmView view{width, height, frame.positions_ws, frame.normals_ws, frame.depths};
   RsmGatherer().gather(world, maps, view, rsm, frame.light, keep_stages);
-  if (!keep_stages) return frame;
-
-  // Show the first map alone: more would not fit
-  if (!maps.empty()) {
-    frame.layers.push_back(
-        fitted_layer("rsm.flux", flux_image(maps.front()), settings.width, settings.height));
-  }
-  for (const Layer& stage : frame.light.stages) {
-    frame.layers.push_back(fitted_layer(stage.name, stage.image, settings.width, settings.height));
+  if (keep_stages) {
+    frame.layers = rsm_stage_layers(maps, frame.light, settings.width, settings.height);
   }
   return frame;
+}
+
+std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,
+                                    const RsmIrradiance& light, int width, int height) {
+  std::vector<Layer> layers;
+  // Show the first map alone: more would not fit
+  if (!maps.empty()) {
+    layers.push_back(fitted_layer("rsm.flux", flux_image(maps.front()), width, height));
+  }
+  for (const Layer& stage : light.stages) {
+    layers.push_back(fitted_layer(stage.name, stage.image, width, height));
+  }
+  return layers;
 }
 
 void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,

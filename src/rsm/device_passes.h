@@ -132,6 +132,7 @@ struct UpsampleArguments {
   int small_height;
   int width;
   int height;
+  int first_row;  ///< Of the frame, which the surfaces begin with.
   float inverse_downscale;
   float plane_tolerance;
 };

@@ -34,10 +34,10 @@ void add_samples(const ReflectiveShadowMap& map, const RsmSettings& settings, in
 
 }  // namespace
 
-RsmGathererVulkan::RsmGathererVulkan(std::shared_ptr<const vulkan::Device> device)
-    : device_(std::move(device)),
-      restructure_(*device_, shaders::rsm_restructure_comp(), "rsm.restructure"),
-      upsample_(*device_, shaders::rsm_upsample_comp(), "rsm.upsample") {
+RsmGathererVulkan::RsmGathererVulkan(const vulkan::Device& device)
+    : device_(device),
+      restructure_(device_, shaders::rsm_restructure_comp(), "rsm.restructure"),
+      upsample_(device_, shaders::rsm_upsample_comp(), "rsm.upsample") {
   // Passes are given addresses of what they do not read, too
   reserve(texels_.places, 0, "rsm.places");
   reserve(picture_.arrived, 0, "rsm.arrived");
@@ -51,23 +51,23 @@ RsmGathererVulkan::RsmGathererVulkan(std::shared_ptr<const vulkan::Device> devic
 const RsmKernels& RsmGathererVulkan::kernels(int sub_images) {
   const auto found = kernels_.find(sub_images);
   if (found != kernels_.end()) return found->second;
-  return kernels_.emplace(sub_images, RsmKernels(*device_, sub_images)).first->second;
+  return kernels_.emplace(sub_images, RsmKernels(device_, sub_images)).first->second;
 }
 
 void RsmGathererVulkan::reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name) {
   if (buffer.address() != 0 && buffer.bytes() >= bytes) return;
-  buffer = vulkan::Buffer(*device_, bytes, Memory::device, name);
+  buffer = vulkan::Buffer(device_, bytes, Memory::device, name);
 }
 
 void RsmGathererVulkan::set_lights(const RsmLights& lights, const RsmSettings& settings) {
   texels_.count = static_cast<int>(lights.count(0));
   reserve(texels_.restructured, lights.restructured.size() * sizeof(RsmTexel), "rsm.sub_maps");
-  vulkan::write(*device_, std::span(lights.restructured), texels_.restructured);
+  vulkan::write(device_, std::span(lights.restructured), texels_.restructured);
   if (settings.layout != RsmLayout::full) return;
   reserve(texels_.rendered, lights.rendered.size() * sizeof(RsmTexel), "rsm.rendered");
-  vulkan::write(*device_, std::span(lights.rendered), texels_.rendered);
+  vulkan::write(device_, std::span(lights.rendered), texels_.rendered);
   reserve(texels_.places, lights.places.size() * sizeof(std::uint32_t), "rsm.places");
-  vulkan::write(*device_, std::span(lights.places), texels_.places);
+  vulkan::write(device_, std::span(lights.places), texels_.places);
 }
 
 void RsmGathererVulkan::set_maps(std::span<const ReflectiveShadowMap> maps,
@@ -92,19 +92,19 @@ void RsmGathererVulkan::set_maps(std::span<const ReflectiveShadowMap> maps,
                        map.resolution});
     add_samples(map, settings, texels_.samples_per_sub_map, samples);
     if (settings.layout == RsmLayout::full) {
-      vulkan::write(*device_, std::span(map.texels), texels_.map_texels, first);
+      vulkan::write(device_, std::span(map.texels), texels_.map_texels, first);
     } else {
-      const vulkan::Buffer rendered = vulkan::upload(*device_, map.texels, "rsm.map");
+      const vulkan::Buffer rendered = vulkan::upload(device_, map.texels, "rsm.map");
       const RestructureArguments arguments = {
           {rendered.address()}, texels, map.resolution, settings.sub_maps};
       const auto edge = static_cast<std::uint32_t>(map.resolution);
-      device_->run([&](vulkan::Recorder& to) { to.run(restructure_, arguments, edge, edge); });
+      device_.run([&](vulkan::Recorder& to) { to.run(restructure_, arguments, edge, edge); });
     }
     first += map.texels.size();
   }
   reserve(texels_.maps, records.size() * sizeof(DiskMap), "rsm.maps");
-  vulkan::write(*device_, std::span<const DiskMap>(records), texels_.maps);
-  vulkan::write(*device_, std::span<const DiskSample>(samples), texels_.samples);
+  vulkan::write(device_, std::span<const DiskMap>(records), texels_.maps);
+  vulkan::write(device_, std::span<const DiskSample>(samples), texels_.samples);
 }
 
 void RsmGathererVulkan::reserve_picture(int width, int height, const RsmSettings& settings,
@@ -142,7 +142,7 @@ void RsmGathererVulkan::record(vulkan::Recorder& recorder, const RsmViewOnDevice
 
 void RsmGathererVulkan::record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& small,
                                           const RsmSettings& settings, const RsmViewOnDevice& frame,
-                                          Vec3Array irradiance) const {
+                                          int first_row, Vec3Array irradiance) const {
   const UpsampleArguments arguments = {small.arrays,
                                        {picture_.picture.address()},
                                        frame.arrays,
@@ -151,6 +151,7 @@ void RsmGathererVulkan::record_upsampling(vulkan::Recorder& recorder, const RsmV
                                        small.height,
                                        frame.width,
                                        frame.height,
+                                       first_row,
                                        1.0f / static_cast<float>(settings.downscale),
                                        settings.plane_tolerance};
   recorder.begin_pass("rsm.upsample");
@@ -179,14 +180,14 @@ void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const 
   }
   result.passes.push_back({"rsm.choose", watch.lap()});
 
-  const vulkan::Buffer positions = vulkan::upload(*device_, view.positions_ws, "rsm.positions");
-  const vulkan::Buffer normals = vulkan::upload(*device_, view.normals_ws, "rsm.view_normals");
-  const vulkan::Buffer depths = vulkan::upload(*device_, view.depths, "rsm.depths");
+  const vulkan::Buffer positions = vulkan::upload(device_, view.positions_ws, "rsm.positions");
+  const vulkan::Buffer normals = vulkan::upload(device_, view.normals_ws, "rsm.view_normals");
+  const vulkan::Buffer depths = vulkan::upload(device_, view.depths, "rsm.depths");
   const RsmViewOnDevice on_device = {
       view.width, view.height, {{positions.address()}, {normals.address()}, {depths.address()}}};
-  vulkan::Timestamps timestamps(*device_, kTimedPasses);
-  device_->run([&](vulkan::Recorder& untimed) {
-    vulkan::Recorder recorder(*device_, untimed.commands(), &timestamps);
+  vulkan::Timestamps timestamps(device_, kTimedPasses);
+  device_.run([&](vulkan::Recorder& untimed) {
+    vulkan::Recorder recorder(device_, untimed.commands(), &timestamps);
     if (textures != VK_NULL_HANDLE) recorder.bind_textures(textures);
     record(recorder, on_device, settings, tracer, keep_stages);
   });
@@ -194,7 +195,7 @@ void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const 
     result.passes.push_back({time.name, time.ms});
   }
   const auto read = [&](const vulkan::Buffer& from) {
-    vulkan::read(*device_, from, std::span(result.irradiance));
+    vulkan::read(device_, from, std::span(result.irradiance));
   };
   for (int stage = 0; keep_stages && stage < kRsmStages; ++stage) {
     const bool last = stage == static_cast<int>(RsmStage::blurred);
@@ -204,7 +205,7 @@ void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const 
   read(picture_.picture);
   if (settings.visibility_rays == 0 || texels_.count == 0) return;
   std::uint32_t rays = 0;
-  vulkan::read(*device_, picture_.ray_count, std::span(&rays, 1));
+  vulkan::read(device_, picture_.ray_count, std::span(&rays, 1));
   result.rays = rays;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <span>
 
 #include "lambent/rsm.h"
@@ -18,7 +17,8 @@ namespace lambent {
 /// a pixel (12 for what is not blurred), and 40 a ray for visibility.
 class RsmGathererVulkan {
  public:
-  explicit RsmGathererVulkan(std::shared_ptr<const vulkan::Device> device);
+  /// The device must outlive it.
+  explicit RsmGathererVulkan(const vulkan::Device& device);
 
   /// Brings the texels that RsmPattern::whole gathers to the device. Waits for the copy.
   void set_lights(const RsmLights& lights, const RsmSettings& settings);
@@ -33,9 +33,10 @@ class RsmGathererVulkan {
               const DeviceTracer* tracer = nullptr, bool keep_stages = false);
 
   /// Records the upsampling of the last view's light, which must have had these settings, to
-  /// surfaces of a larger frame: where their depth is 0, `irradiance` becomes 0. Then a barrier.
+  /// surfaces of a larger frame, or of its rows from `first_row` on: where their depth is 0,
+  /// `irradiance` becomes 0. Then a barrier.
   void record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& small,
-                         const RsmSettings& settings, const RsmViewOnDevice& frame,
+                         const RsmSettings& settings, const RsmViewOnDevice& frame, int first_row,
                          Vec3Array irradiance) const;
 
   /// Irradiance of the last view recorded: width * height of vec3, rows from the top [W/m^2]. The
@@ -54,7 +55,7 @@ class RsmGathererVulkan {
   void reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name);
   void reserve_picture(int width, int height, const RsmSettings& settings, bool keep_stages);
 
-  std::shared_ptr<const vulkan::Device> device_;
+  const vulkan::Device& device_;
   std::map<int, RsmKernels> kernels_;
   vulkan::Kernel restructure_, upsample_;
   RsmTexelsOnDevice texels_;

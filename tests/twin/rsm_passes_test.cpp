@@ -87,7 +87,7 @@ class RsmTwin : public test::OnDevice {
  protected:
   void SetUp() override {
     OnDevice::SetUp();
-    if (!IsSkipped()) gatherer_ = std::make_unique<RsmGathererVulkan>(shared_device());
+    if (!IsSkipped()) gatherer_ = std::make_unique<RsmGathererVulkan>(device());
   }
   void TearDown() override {
     gatherer_.reset();

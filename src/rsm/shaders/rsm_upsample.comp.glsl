@@ -30,7 +30,7 @@ void main() {
   vec3 light = vec3(0.0f);
   if (depth > 0.0f) {
     light = upsample_light(ivec2(args.small_width, args.small_height),
-                           place_in_small_picture(vec2(pixel), args.inverse_downscale),
+                           place_in_small_picture(vec2(pixel.x, pixel.y + args.first_row), args.inverse_downscale),
                            args.surfaces.positions_ws.at[i], args.surfaces.normals_ws.at[i],
                            1.0f / (args.plane_tolerance * depth));
   }
