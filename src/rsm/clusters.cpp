@@ -21,15 +21,15 @@ constexpr std::size_t kParallelClusters = 2048;
 
 /// A block of a map, for cluster_block.inl.h.
 struct Block {
-  Block(const ReflectiveShadowMap& of, int x, int y) : map(of), left(x), top(y) {}
+  Block(const ReflectiveShadowMap& of, int x, int y) : map(of), first_x(x), first_y(y) {}
 
   std::uint32_t place(int k) const {
-    return static_cast<std::uint32_t>((top + k / kBlockEdge) * map.resolution + left +
+    return static_cast<std::uint32_t>((first_y + k / kBlockEdge) * map.resolution + first_x +
                                       k % kBlockEdge);
   }
   RsmTexelRecord fetch_block_texel(int k) {
     const bool inside =
-        left + k % kBlockEdge < map.resolution && top + k / kBlockEdge < map.resolution;
+        first_x + k % kBlockEdge < map.resolution && first_y + k / kBlockEdge < map.resolution;
     return to_record(inside ? map.texels[place(k)] : RsmTexel());
   }
   void put_cluster(int, const RsmTexelRecord& texel, int seed) {
@@ -39,7 +39,7 @@ struct Block {
 #include "rsm/cluster_block.inl.h"
 
   const ReflectiveShadowMap& map;
-  int left, top;  // first texel
+  int first_x, first_y;
   std::vector<Cluster>* clusters = nullptr;
 };
 
