@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "core/simd.h"
+#include "field/blend_math.h"
 #include "field/tile.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
@@ -20,10 +21,6 @@ typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));
 
 // Keeps the random numbers of rotations apart from those of other passes.
 constexpr uint kRotationSalt = 0x52415953u;
-
-// Smaller weights count for nothing in a float sum, but their products with values are denormal and
-// a hundred times slower to compute.
-constexpr float kMinWeight = 1e-30f;
 
 /// One block of texels: sums[t][c] = sum over rays of values[ray][c] * weights[ray][t].
 template <int channels>
@@ -87,10 +84,8 @@ BlendMatrix::BlendMatrix(int texels, float cosine_exponent, std::span<const vec3
   for (int t = 0; t < texel_count_; ++t) {
     const vec3 normal = tile_direction({t % texels, t / texels}, texels);
     for (int i = 0; i < ray_count_; ++i) {
-      const float cosine = max(0.0f, dot(normal, directions[i]));
-      const float weight = cosine_exponent == 1.0f ? cosine : pow(cosine, cosine_exponent);
       weights_[static_cast<std::size_t>(i) * padded_texels_ + t] =
-          weight < kMinWeight ? 0.0f : weight;
+          blend_weight(normal, directions[i], cosine_exponent);
     }
   }
 }

@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-// A ray that meets the back of a single-sided surface counts as shortened to this share, so that a
-// probe inside something trusts its surroundings little. JCGT 10(2) 2021, sec. 4.
-constexpr float kBackFaceDistanceShare = 0.2f;
-
 bool is_back_face(const Scene& scene, const Hit& hit) {
   if (hit.missed() || hit.front_face) return false;
   return !scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
@@ -38,14 +34,12 @@ void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
   sums.resize(moments.size());
   int back_faces = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    float distance = min(seen[i].distance, farthest);
-    if (seen[i].back_face) {
-      ++back_faces;
-      distance *= kBackFaceDistanceShare;
-    }
+    const uint back_face = seen[i].back_face ? 1u : 0u;
+    back_faces += static_cast<int>(back_face);
+    const float distance = counted_distance(seen[i].distance, back_face, farthest);
     values[i] = {distance, distance * distance};
   }
-  if (static_cast<float>(back_faces) > kMaxBackFaceShare * static_cast<float>(seen.size())) {
+  if (stands_in_matter(back_faces, static_cast<int>(seen.size())) != 0u) {
     std::fill(moments.begin(), moments.end(), vec2(0.0f));
     return;
   }

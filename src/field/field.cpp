@@ -140,6 +140,9 @@ const ProbeStore& IrradianceField::store() const {
   state_->fetch_store();
   return state_->store;
 }
+const FieldDevice* IrradianceField::on_device() const {
+  return state_->device.get();
+}
 std::span<const ProbeRecord> IrradianceField::records() const {
   return state_->records;
 }

@@ -16,6 +16,10 @@
 
 namespace lambent {
 
+namespace vulkan {
+class Recorder;
+}
+
 /// By how much a probe's light changed in an update.
 struct LightChange {
   float relative_square;  ///< As of tile_light.h: of what it holds to what it held.
@@ -95,6 +99,13 @@ class FieldDevice {
   /// As IrradianceField::irradiance. `world`: for visibility by rays; null: by distances.
   virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result,
                           const World* world) const = 0;
+
+  /// Whether lookups can be recorded: those that need no rays.
+  virtual bool records_lookups() const = 0;
+  /// Records lookups of moments' visibility: `count` queries to as many irradiances [W/m^2], at
+  /// these addresses (QueryRecord and vec3).
+  virtual void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries,
+                              std::uint32_t count, std::uint64_t irradiance) const = 0;
 
   virtual std::size_t surfel_bytes() const = 0;
 };

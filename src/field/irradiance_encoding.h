@@ -6,6 +6,7 @@
 #define LAMBENT_FIELD_IRRADIANCE_ENCODING_H
 
 #include "shared/packing.h"
+#include "shared/random.h"
 
 LAMBENT_BEGIN
 
@@ -33,6 +34,13 @@ LAMBENT_FN uint encode_r11g11b10f(vec3 irradiance, vec3 u) {
   return encode_perceptual_channel(irradiance.x, 6, u.x) |
          (encode_perceptual_channel(irradiance.y, 6, u.y) << 11u) |
          (encode_perceptual_channel(irradiance.z, 5, u.z) << 22u);
+}
+
+/// The random numbers with which a texel is stored; `index` is its own among all. Coarser dither
+/// would pull R11G11B10F, whose steps are wide, off by some per mille.
+LAMBENT_FN vec3 irradiance_dither(uint index, uint salt) {
+  uvec3 bits = hash_pcg3d(uvec3(index, salt, 0u));
+  return vec3(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
 }
 
 LAMBENT_FN vec3 decode_r11g11b10f(uint word) {

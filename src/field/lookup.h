@@ -36,6 +36,9 @@ const float kMinVisibilityWeight = 1e-6f;
 // are divided by no less than this [m].
 const float kMinProbeDistance = 1e-6f;
 
+// What no volume has answered for yet below this share is rounding.
+const float kNothingLeft = 1e-6f;
+
 /// The point at which visibility is asked.
 LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                 float spacing_min) {

@@ -1,13 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
 //   ProbeGrid fetch_grid(int volume)
-//   vec2 fetch_moments(int probe, vec3 direction)
-//       mean distance [m] and mean squared distance [m^2], bilinear
+//   vec2 fetch_moments(ProbeGrid grid, int probe, vec3 direction)
+//       mean distance [m] and mean squared distance [m^2], bilinear; of a probe of that grid
 //   vec3 fetch_offset(int probe)
 //       of the probe from its place on the grid, in shares of a cell
 //   vec3 fetch_irradiance(int probe, vec3 direction)
 //       linear irradiance [W/m^2], bilinear
 // In C++ it is included in the body of a struct that has these as members.
+
+/// How much a probe counts for a point with a normal, before trilinear interpolation. `biased_ws`
+/// is where visibility is asked.
+LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, vec3 normal_ws,
+                               vec3 biased_ws) {
+  int probe = probe_index(grid, coords);
+  vec3 probe_ws = grid_position(grid, vec3(coords) + fetch_offset(probe));
+
+  // Ask the probe how far it sees along the direction to the biased point
+  vec3 from_probe = biased_ws - probe_ws;
+  float dist = max(length(from_probe), kMinProbeDistance);
+  vec2 moments = fetch_moments(grid, probe, from_probe / dist);
+
+  // Weigh it by visibility and by its side of the surface
+  vec3 to_probe = probe_ws - position_ws;
+  float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
+  return probe_weight(cos_probe, moments, dist);
+}
 
 /// Irradiance at a point with a normal, seen from `to_viewer_ws`, as the probes of one volume have
 /// it, times the volume's share of what is left to answer; and that share. Averages linear light,
@@ -23,20 +41,9 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float share, vec3 position_ws, vec
   for (int corner = 0; corner < kCellCorners; ++corner) {
     ivec3 offset = cell_corner(corner);
     ivec3 coords = cell.base + offset;
-    int probe = probe_index(grid, coords);
-    vec3 probe_ws = grid_position(grid, vec3(coords) + fetch_offset(probe));
-
-    // Ask the probe how far it sees along the direction to the biased point
-    vec3 from_probe = biased_ws - probe_ws;
-    float dist = max(length(from_probe), kMinProbeDistance);
-    vec2 moments = fetch_moments(probe, from_probe / dist);
-
-    // Weigh it by visibility, by its side of the surface and by nearness
-    vec3 to_probe = probe_ws - position_ws;
-    float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
-    float weight = probe_weight(cos_probe, moments, dist) * trilinear_weight(cell.fraction, offset);
-
-    sum += fetch_irradiance(probe, normal_ws) * weight;
+    float weight = lookup_weight(grid, coords, position_ws, normal_ws, biased_ws) *
+                   trilinear_weight(cell.fraction, offset);
+    sum += fetch_irradiance(probe_index(grid, coords), normal_ws) * weight;
     weight_sum += weight;
   }
   // Where the volume knows nothing, coarser ones answer for it

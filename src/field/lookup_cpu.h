@@ -6,19 +6,11 @@
 #include <cstdint>
 #include <span>
 
+#include "field/lookup_records.h"
 #include "field/probe_store.h"
 #include "lambent/field.h"
 
 namespace lambent {
-
-/// The eight probes around a point: corner k (bit 0 x, bit 1 y, bit 2 z) of the cell whose lowest
-/// probe is `base` counts `weight[k]`. Weights sum to 1, or to the share that the volume has in the
-/// answer.
-struct CornerWeights {
-  int base;
-  std::uint32_t table;  ///< Where the corners lie relative to it, in ProbeStore::corner_table.
-  float weight[kCellCorners];
-};
 
 /// Weights for each query in one volume, from the stored distances. Single-threaded. Spans have the
 /// same length.

@@ -5,14 +5,13 @@
 #include <cassert>
 #include <numeric>
 
+#include "field/lookup.h"
+
 namespace lambent {
 namespace {
 
 // Small batches keep the weights between the two kernels in the first-level cache.
 constexpr std::size_t kBatch = 256;
-
-// What no volume has answered for yet below this share is rounding.
-constexpr float kNothingLeft = 1e-6f;
 
 bool knows_nothing(const CornerWeights& corners) {
   return std::all_of(std::begin(corners.weight), std::end(corners.weight),

@@ -48,6 +48,11 @@ LAMBENT_FN vec3 probe_position(ProbeGrid grid, ivec3 coords) {
   return grid_position(grid, vec3(coords));
 }
 
+/// Where a probe stands that is so many cells off its place on the grid.
+LAMBENT_FN vec3 placed_position(ProbeGrid grid, ivec3 coords, vec3 offset) {
+  return probe_position(grid, coords) + grid.axes * (offset * grid.spacing);
+}
+
 /// Smallest distance between neighbouring probes [m].
 LAMBENT_FN float smallest_spacing(ProbeGrid grid) {
   return min(grid.spacing.x, min(grid.spacing.y, grid.spacing.z));

@@ -6,6 +6,7 @@
 
 #include "core/simd.h"
 #include "field/irradiance_encoding.h"
+#include "field/moments_encoding.h"
 #include "shared/random.h"
 
 namespace lambent {
@@ -24,13 +25,11 @@ std::size_t texel_index(int probe, const ivec2& with_gutter, int texels) {
 /// filled.
 void fill_gutter(uint* tile, int texels, int words) {
   const int width = texels + 2;
-  for (int y = 0; y < width; ++y) {
-    for (int x = 0; x < width; ++x) {
-      if (x > 0 && x <= texels && y > 0 && y <= texels) continue;
-      const ivec2 source = tile_source({x, y}, texels) + ivec2(1);
-      std::copy_n(tile + (source.y * width + source.x) * words, words,
-                  tile + (y * width + x) * words);
-    }
+  for (int i = 0; i < gutter_texels(texels); ++i) {
+    const ivec2 at = gutter_texel(i, texels);
+    const ivec2 source = tile_source(at, texels) + ivec2(1);
+    std::copy_n(tile + (source.y * width + source.x) * words, words,
+                tile + (at.y * width + at.x) * words);
   }
 }
 
@@ -40,26 +39,18 @@ void fill_gutter(uint* tile, int texels, int words) {
 LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count, float share,
                                          float scale, uint first_index) {
   for (int i = 0; i < count; ++i) {
-    const uint word = words[i];
-    const float old_mean = decode_small_float(word & 0x7FFFu, 10);
-    const float old_square = decode_small_float((word >> 16u) & 0x7FFFu, 10);
-    const float mean = old_mean + share * (scale * now[2 * i] - old_mean);
-    const float square = old_square + share * (scale * scale * now[2 * i + 1] - old_square);
-    const uint bits = hash_pcg(first_index + static_cast<uint>(i));
-    const float u = static_cast<float>(bits & 0xFFFFu) * (1.0f / 65536.0f);
-    const float v = static_cast<float>(bits >> 16u) * (1.0f / 65536.0f);
-    words[i] = encode_small_float(mean, 10, u) | (encode_small_float(square, 10, v) << 16u);
+    words[i] = blended_halves(words[i], vec2(now[2 * i], now[2 * i + 1]), share, scale,
+                              first_index + static_cast<uint>(i));
   }
 }
 
 LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int count, float share,
                                          float scale, uint /*first_index*/) {
   for (int i = 0; i < count; ++i) {
-    const float old_mean = uintBitsToFloat(words[2 * i]);
-    const float old_square = uintBitsToFloat(words[2 * i + 1]);
-    words[2 * i] = floatBitsToUint(old_mean + share * (scale * now[2 * i] - old_mean));
-    words[2 * i + 1] =
-        floatBitsToUint(old_square + share * (scale * scale * now[2 * i + 1] - old_square));
+    const vec2 old(uintBitsToFloat(words[2 * i]), uintBitsToFloat(words[2 * i + 1]));
+    const vec2 moments = blended_moments(old, vec2(now[2 * i], now[2 * i + 1]), share, scale);
+    words[2 * i] = floatBitsToUint(moments.x);
+    words[2 * i + 1] = floatBitsToUint(moments.y);
   }
 }
 
@@ -182,9 +173,7 @@ void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uin
       for (int c = 0; c < 3; ++c) word[c] = floatBitsToUint(value[c]);
       continue;
     }
-    // Coarser dither than this would pull R11G11B10F, whose steps are wide, off by some per mille
-    const uvec3 bits = hash_pcg3d(uvec3(static_cast<uint>(index), salt, 0u));
-    const vec3 u(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
+    const vec3 u = irradiance_dither(static_cast<uint>(index), salt);
     *word = irradiance_format_ == IrradianceFormat::rgb9e5 ? encode_rgb9e5(value, u)
                                                            : encode_r11g11b10f(value, u);
   }

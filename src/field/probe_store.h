@@ -7,16 +7,12 @@
 #include <vector>
 
 #include "core/large_pages.h"
+#include "field/lookup_records.h"
 #include "field/probe_grid.h"
 #include "field/tile.h"
 #include "lambent/field.h"
 
 namespace lambent {
-
-/// Index of each corner of a cell relative to that of the cell's lowest probe.
-struct CornerOffsets {
-  int probe[kCellCorners];
-};
 
 /// Tiles of the probes of all volumes, probe after probe; a tile is (texels + 2)^2 texels, row
 /// after row, gutter included.
@@ -52,8 +48,7 @@ class ProbeStore {
   /// Where a probe stands: on the grid, or a little off it.
   vec3 probe_position_ws(int probe) const {
     const ProbeGrid& grid = grid_of(probe);
-    return probe_position(grid, probe_coords(grid, probe)) +
-           grid.axes * (probe_offset(probe) * grid.spacing);
+    return placed_position(grid, probe_coords(grid, probe), probe_offset(probe));
   }
   /// Where it belongs.
   vec3 probe_home_ws(int probe) const {

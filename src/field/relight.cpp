@@ -8,8 +8,8 @@
 
 #include "core/parallel.h"
 #include "core/simd.h"
+#include "field/blend_math.h"
 #include "field/tile.h"
-#include "shared/constants.h"
 
 namespace lambent {
 namespace {
@@ -17,11 +17,6 @@ namespace {
 constexpr std::size_t kProbesPerTask = 16;
 constexpr std::size_t kProbesPerCopy = 512;
 constexpr std::size_t kTexelsPerTask = 16384;
-
-// Texels whose rays count for less than this share of all are too few to tell anything.
-constexpr float kMinBlendWeight = 1e-4f;
-// Keeps the division by the weights of a texel for which no ray counts finite.
-constexpr float kTiniestWeight = 1e-20f;
 
 // The error estimate never assumes faster convergence than this, whatever two steps seem to say.
 constexpr double kMinContraction = 0.1;
@@ -193,12 +188,10 @@ void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback
       radiance.resize(4 * trace.surfels.size());
       gather(trace, radiance.data());
       trace.rays->irradiance_blend.apply4(radiance.data(), &sums[0].x);
-      // The mean radiance, weighted by the cosine, times pi is the irradiance at the texels'
-      // centres
       bool known = true;
       for (int t = 0; t < texels_; ++t) {
         known = known && sums[t].w > enough;
-        at_centres[t] = vec4(vec3(sums[t]) * (kPi / max(sums[t].w, kTiniestWeight)), 0.0f);
+        at_centres[t] = vec4(irradiance_at_centre(sums[t]), 0.0f);
       }
       vec4* out = &received[k * texels_];
       if (known) {

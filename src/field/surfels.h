@@ -39,15 +39,6 @@ struct Surfel {
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }
 };
 
-/// How a surfel reads the field: the shares of the eight probes around it, and, within each of
-/// their tiles, the four texels around its normal (a place in the tile's interior grid, counted
-/// with gutter).
-struct SurfelLookup {
-  CornerWeights corners;
-  std::uint32_t tile_corner;  ///< x + (texels + 1) * y of the fetch's first texel.
-  float fraction_x, fraction_y;
-};
-
 /// What a surfel reads besides, where volumes blend into each other.
 struct FurtherLookup {
   std::uint32_t ray;

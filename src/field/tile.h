@@ -31,6 +31,19 @@ LAMBENT_FN TileFetch tile_fetch(vec3 direction, int texels) {
   return fetch;
 }
 
+/// Texels of the gutter.
+LAMBENT_FN int gutter_texels(int texels) {
+  return 4 * (texels + 1);
+}
+
+/// One of them (coordinates with gutter): the top row, the bottom row, then both sides.
+LAMBENT_FN ivec2 gutter_texel(int index, int texels) {
+  int width = texels + 2;
+  if (index < 2 * width) return ivec2(index % width, index < width ? 0 : width - 1);
+  int i = index - 2 * width;
+  return ivec2((i & 1) * (width - 1), 1 + (i >> 1));
+}
+
 /// The interior texel (coordinates without gutter) that a texel of the whole tile (coordinates with
 /// gutter, 0 to texels + 1) shows: itself, or the one across the fold.
 LAMBENT_FN ivec2 tile_source(ivec2 with_gutter, int texels) {

@@ -9,6 +9,7 @@
 #include "core/cross_bilateral.h"
 #include "core/simd_levels.h"
 #include "lambent/rsm.h"
+#include "rsm/gather_texel.h"
 #include "rsm/pattern.h"
 
 namespace lambent {
@@ -23,8 +24,6 @@ struct GatherRow {
   int count = 0;  ///< Pixels; more are touched, up to a multiple of kLanes.
 };
 
-/// Raising it saves up to a twentieth of a gather: a way costs as much again as a third of a texel.
-inline constexpr int kTexelsPerWay = 8;
 /// x, y, z, summed over texels by the luminance that they bring.
 inline constexpr int kWayPlanes = 3;
 
@@ -78,10 +77,7 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
                  int sub_row);
 
 /// A map's texels, sub-map after sub-map: texel (x, y) is texel (x / n, y / n) of sub-map
-/// (x mod n, y mod n). Every texel lands in exactly one.
+/// (x mod n, y mod n). Every texel lands in exactly one, where sub_map_texel tells.
 std::vector<RsmTexel> restructure_map(const ReflectiveShadowMap& map, int sub_maps);
-
-/// Where the texels of a sub-map start in restructure_map's result.
-std::size_t sub_map_start(int resolution, int sub_maps, int column, int row);
 
 }  // namespace lambent

@@ -18,6 +18,8 @@
 #define LAMBENT_FN inline
 #define LAMBENT_INOUT(T) T&
 #define LAMBENT_OUT(T) T&
+/// Before a float of which each operation must round as written.
+#define LAMBENT_PRECISE const
 
 /// An array in a device's memory, as shaders reach it: `Name` holds its address in C++, and in GLSL
 /// is a reference whose member `at` is the array. Its address is a multiple of `alignment`.
@@ -108,6 +110,7 @@ inline vec3 pow(const vec3& v, const vec3& e) {
 #define LAMBENT_FN
 #define LAMBENT_INOUT(T) inout T
 #define LAMBENT_OUT(T) out T
+#define LAMBENT_PRECISE precise const
 
 #endif
 

@@ -16,7 +16,9 @@ struct SharedLookup {
   const ProbeStore& store;
 
   ProbeGrid fetch_grid(int volume) { return store.grid(volume); }
-  vec2 fetch_moments(int probe, vec3 direction) { return store.moments(probe, direction); }
+  vec2 fetch_moments(const ProbeGrid& /*grid*/, int probe, vec3 direction) {
+    return store.moments(probe, direction);
+  }
   vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
   vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }
 #include "field/lookup.inl.h"

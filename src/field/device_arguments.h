@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arguments of the kernels that work on a field in a device's memory. "Of probes" are arrays in
+// the order of a pass's list; "of all probes" those by a probe's index.
+#ifndef LAMBENT_FIELD_DEVICE_ARGUMENTS_H
+#define LAMBENT_FIELD_DEVICE_ARGUMENTS_H
+
+#include "field/device_records.h"
+#include "field/device_solve.h"
+
+LAMBENT_BEGIN
+
+// Lanes that share what they load, in matrix products and sums: every subgroup holds some.
+const int kClusterLanes = 8;
+const int kGroupLanes = 64;
+// Probes and texels that a cluster's matrix product keeps in registers; so many texels are blocks
+// of a matrix's row.
+const int kBlockProbes = 8;
+const int kIrradianceVectors = 2;
+const int kIrradianceBlock = 16;
+const int kDistanceVectors = 4;
+const int kDistanceBlock = 32;
+
+/// Rays of probes. `rays`: probes x stride; beyond a probe's rays, none.
+struct ProbeRaysArguments {
+  StoreArrays store;
+  ProbeList list;
+  RayArray rays;
+  int probes;
+  int stride;
+};
+
+/// What their hits count as in distances. `seen`: probes x stride [m]; `blocked`: of probes, 1:
+/// stands in solid matter. `single_sided`: of the scene's instances, 1: has backs.
+struct SeeDistancesArguments {
+  GridArray grids;
+  ProbeList list;
+  HitArray hits;
+  UintArray single_sided;
+  FloatArray seen;
+  UintArray blocked;
+  int probes;
+  int stride;
+};
+
+/// Blends them into the store. `shares`: of probes.
+struct BlendDistancesArguments {
+  StoreArrays store;
+  ProbeList list;
+  ProbeBlockArray blocks;
+  FloatArray seen;
+  UintArray blocked;
+  FloatArray shares;
+  int block_count;
+  int stride;
+  uint salt;
+};
+
+/// Fills a ray set's matrix of weights.
+struct BlendWeightsArguments {
+  Vec3Array directions;
+  FloatArray weights;
+  int rays;
+  int columns;
+  int texels;  ///< Along a tile's edge.
+  float cosine_exponent;
+};
+
+/// Fills the gutters of tiles.
+struct GuttersArguments {
+  UintArray words;
+  IntArray probes;
+  int count;
+  int texels;
+  int words_per_texel;
+};
+
+/// Finds the surfels' lookups. Records of surfels and lookups: all probes x stride (x lookups).
+struct FindLookupsArguments {
+  StoreArrays store;
+  ProbeList list;
+  SurfelArray surfels;
+  LookupArray lookups;
+  int probes;
+  int stride;
+};
+
+// What rays bring back: all light, direct and sky light, the sky's alone.
+const uint kGatherAll = 0u;
+const uint kGatherDirect = 1u;
+const uint kGatherSky = 2u;
+
+/// Radiance along rays, and whether they count. `field`: of all probes x texels; `radiance`: probes
+/// x stride.
+struct GatherArguments {
+  ProbeList list;
+  CornerOffsetsArray corners;
+  SurfelArray surfels;
+  LookupArray lookups;
+  Vec4Array field;
+  Vec4Array radiance;
+  int probes;
+  int stride;
+  uint light;
+};
+
+/// Irradiance at texels' centres from radiance; w: 1 where enough rays count. Probes x texels.
+struct ReceiveArguments {
+  ProbeList list;
+  ProbeBlockArray blocks;
+  Vec4Array radiance;
+  Vec4Array at_centres;
+  int block_count;
+  int stride;
+};
+
+/// What to store from that, times `gain`. Probes x texels.
+struct FitArguments {
+  FloatArray fit;
+  ProbeBlockArray blocks;
+  Vec4Array at_centres;
+  Vec4Array fallback;
+  Vec4Array gain;
+  Vec4Array received;
+  int block_count;
+  uint has_gain;
+};
+
+/// Encodes light. `light`: of all probes x texels.
+struct StoreIrradianceArguments {
+  UintArray words;
+  IntArray probes;
+  Vec4Array light;
+  int count;
+  uint salt;
+};
+
+/// By how much light changed. `before`: probes x texels; `changes`: of probes.
+struct CompareLightArguments {
+  IntArray probes;
+  Vec4Array light;
+  Vec4Array before;
+  Vec3Array changes;  ///< Relative square, luminance before, luminance now.
+  int count;
+  float darkest;
+};
+
+struct LookupArguments {
+  StoreArrays store;
+  QueryArray queries;
+  Vec3Array irradiance;
+  int count;
+  int width;  ///< Queries in a row of the dispatch.
+};
+
+LAMBENT_END
+#endif
