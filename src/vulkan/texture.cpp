@@ -16,7 +16,8 @@ namespace {
 
 std::uint32_t memory_type(const Device& device, std::uint32_t types) {
   const VkPhysicalDeviceMemoryProperties& memory = device.memory();
-  for (const VkMemoryPropertyFlags wished : {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0}) {
+  constexpr VkMemoryPropertyFlags kWishes[] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+  for (const VkMemoryPropertyFlags wished : kWishes) {
     for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
       const bool fits = (memory.memoryTypes[i].propertyFlags & wished) == wished;
       if ((types & (1u << i)) != 0 && fits) return i;
