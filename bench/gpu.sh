@@ -66,6 +66,7 @@ prepare() {
 
   mkdir -p "$folder/headers" "$folder/spirv"
   copy_headers glm tl Eigen vulkan vk_video
+  rm -f "$folder"/headers/vulkan/*.hpp # most of that folder, and not used
   cp "$build"/spirv/*.inc "$folder/spirv/"
   du -sh "$folder"
 }
