@@ -23,13 +23,17 @@ struct ShadingNumbers {
   PunctualSample punctual[3];
   vec2 uv;
   float wrapped[3];
-  vec2 map_point;
-  vec3 map_direction;
   vec2 map_fraction;
   EmitterDraw draw;
   EmitterPoint drawn, met;
   LightCandidate candidate;
   float shadow_length, stopping;
+};
+
+/// What comes of inverse sines and tangents, which devices approximate.
+struct AngleNumbers {
+  vec2 map_point;
+  vec3 map_direction;
 };
 
 /// What decides, and must be the same.
@@ -47,6 +51,7 @@ struct ShadingDecisions {
 
 struct ShadingMath {
   ShadingNumbers numbers;
+  AngleNumbers angles;
   ShadingDecisions decisions;
 };
 LAMBENT_DEVICE_ARRAY(ShadingMathArray, ShadingMath, 4)
@@ -70,9 +75,12 @@ LAMBENT_FN vec3 random_direction(LAMBENT_INOUT(RandomStream) random) {
 
 LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
                                   LAMBENT_INOUT(ShadingNumbers) n) {
-  mat4 place = mat4(
-      vec4(random_vec3(random, -1.0f, 1.0f), 0.0f), vec4(random_vec3(random, -1.0f, 1.0f), 0.0f),
-      vec4(random_vec3(random, -1.0f, 1.0f), 0.0f), vec4(random_vec3(random, -10.0f, 10.0f), 1.0f));
+  // Drawn one by one: languages differ in the order of arguments
+  vec3 x = random_vec3(random, -1.0f, 1.0f);
+  vec3 y = random_vec3(random, -1.0f, 1.0f);
+  vec3 z = random_vec3(random, -1.0f, 1.0f);
+  vec3 origin = random_vec3(random, -10.0f, 10.0f);
+  mat4 place = mat4(vec4(x, 0.0f), vec4(y, 0.0f), vec4(z, 0.0f), vec4(origin, 1.0f));
   vec3 edge1 = random_vec3(random, -1.0f, 1.0f);
   vec3 edge2 = random_vec3(random, -1.0f, 1.0f);
   n.position = transform_point(place, edge1);
@@ -85,22 +93,24 @@ LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
   vec3 normal = random_direction(random);
   vec3 along = random_direction(random);
   n.orthogonal = orthogonal_tangent(normal, along);
-  n.mapped = mapped_normal(normal, n.orthogonal, next_uniform(random) - 0.5f,
-                           random_vec3(random, 0.0f, 1.0f), 2.0f * next_uniform(random));
+  float handedness = next_uniform(random) - 0.5f;
+  vec3 texel = random_vec3(random, 0.0f, 1.0f);
+  n.mapped = mapped_normal(normal, n.orthogonal, handedness, texel, 2.0f * next_uniform(random));
   vec3 geometric = random_direction(random);
   bool along_winding = next_uniform(random) < 0.5f;
   bool from_front = next_uniform(random) < 0.5f;
   n.shading_normal = normal_towards_viewer(normal, along_winding, from_front, along, geometric);
   vec3 base = random_vec3(random, 0.0f, 1.0f);
   vec3 tint = random_vec3(random, 0.0f, 1.5f);
-  vec4 factors = vec4(next_uniform2(random), next_uniform2(random));
+  vec2 amounts = next_uniform2(random);
+  vec2 strengths = next_uniform2(random);
   n.coated =
-      coated_reflectance(base, factors.x, factors.y, factors.z, tint, 1.0f + 2.0f * factors.w);
+      coated_reflectance(base, amounts.x, amounts.y, strengths.x, tint, 1.0f + 2.0f * strengths.y);
   n.plain = lambert_reflectance(base);
 }
 
-LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random,
-                                LAMBENT_INOUT(ShadingNumbers) n) {
+LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOUT(ShadingNumbers) n,
+                                LAMBENT_INOUT(AngleNumbers) angles) {
   vec3 point = random_vec3(random, -3.0f, 3.0f);
   for (uint type = kLightDirectional; type <= kLightSpot; ++type) {
     LightRecord light = {random_vec3(random, 0.0f, 5.0f),
@@ -124,8 +134,8 @@ LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random,
   n.candidate = emitter_candidate(n.met, normal, 0.5f);
   n.shadow_length = shadow_ray_length(n.drawn.distance);
   vec3 towards = random_direction(random);
-  n.map_point = latitude_longitude_from_direction(towards, 0.7f);
-  n.map_direction = direction_from_latitude_longitude(n.map_point, 0.7f);
+  angles.map_point = latitude_longitude_from_direction(towards, 0.7f);
+  angles.map_direction = direction_from_latitude_longitude(angles.map_point, 0.7f);
   n.map_fraction = map_texels(next_uniform2(random), 16, 8).fraction;
 }
 
@@ -165,7 +175,7 @@ LAMBENT_FN ShadingMath evaluate_shading_math(uint i) {
   ShadingMath result;
   RandomStream random = make_random_stream(i, 3u, 5u);
   evaluate_surfaces(random, result.numbers);
-  evaluate_lights(random, result.numbers);
+  evaluate_lights(random, result.numbers, result.angles);
   evaluate_textures(random, result);
   return result;
 }
