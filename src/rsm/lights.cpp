@@ -141,11 +141,11 @@ std::vector<std::uint32_t> morton_order(int resolution) {
 
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings) {
   const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
-  struct Light {
+  struct DealtLight {
     RsmTexel texel;
     std::uint32_t place;
   };
-  std::vector<std::vector<Light>> dealt(subs);
+  std::vector<std::vector<DealtLight>> dealt(subs);
   std::uint32_t first = 0;
   for (std::size_t m = 0; m < maps.size(); ++m) {
     // Deal each run of neighbours to all sub-maps: in order, or in one of its own
@@ -173,10 +173,10 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
 
   // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
   std::size_t longest = 0;
-  for (const std::vector<Light>& sub_map : dealt) longest = std::max(longest, sub_map.size());
+  for (const std::vector<DealtLight>& sub_map : dealt) longest = std::max(longest, sub_map.size());
   Light dark = {{}, first};
   dark.texel.softening = 1.0f;
-  for (std::vector<Light>& sub_map : dealt) sub_map.resize(longest, dark);
+  for (std::vector<DealtLight>& sub_map : dealt) sub_map.resize(longest, dark);
 
   // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
   // together the ways to all
@@ -190,7 +190,7 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
 
   RsmLights lights;
   lights.starts.push_back(0);
-  for (const std::vector<Light>& sub_map : dealt) {
+  for (const std::vector<DealtLight>& sub_map : dealt) {
     for (const Light& light : sub_map) {
       lights.places.push_back(light.place);
       lights.restructured.push_back(light.texel);
