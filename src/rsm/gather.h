@@ -9,6 +9,7 @@
 #include "core/cross_bilateral.h"
 #include "core/simd_levels.h"
 #include "lambent/rsm.h"
+#include "rsm/choice.h"
 #include "rsm/gather_texel.h"
 #include "rsm/pattern.h"
 
@@ -44,11 +45,6 @@ void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
 /// tables of their own.
 void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count);
-
-/// Sums over points of a texel's bounded_geometry_term, and of its square.
-struct TermSums {
-  float terms, squares;
-};
 
 /// One for each texel. `count` is a multiple of kLanes; a point without a normal adds nothing.
 void sum_terms(const ConstPlanes& points, int count, std::span<const RsmTexel> texels,

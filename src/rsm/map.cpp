@@ -11,8 +11,8 @@
 #include "lambent/rsm.h"
 #include "lambent/world.h"
 #include "raytracing/camera_rays.h"
-#include "raytracing/shade_hits.h"
 #include "raytracing/surface.h"
+#include "rsm/map.h"
 #include "rsm/map_texel.h"
 #include "rsm/projection.h"
 #include "rsm/to_records.h"
@@ -70,19 +70,6 @@ RsmProjection fit_orthographic(const Scene& scene, const vec3& direction) {
   return best;
 }
 
-RsmProjection fit_projection(const Scene& scene, const Light& light) {
-  if (light.type == Light::Type::directional) return fit_orthographic(scene, light.direction_ws);
-  RsmProjection projection;
-  projection.origin_ws = light.position_ws;
-  if (light.type == Light::Type::spot && light.outer_cone_angle <= kWidestPerspective) {
-    projection.kind = Kind::perspective;
-    projection.world_from_light = axes_along(light.direction_ws);
-    projection.half_extent =
-        vec2(std::tan(std::max(light.outer_cone_angle, kNarrowestPerspective)));
-  }
-  return projection;
-}
-
 Ray texel_ray(const MapProjection& p, const vec2& square) {
   const MapRay through = map_ray(p, square);
   Ray ray;
@@ -121,6 +108,37 @@ void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, S
 
 }  // namespace
 
+RsmProjection fit_projection(const Scene& scene, const Light& light) {
+  if (light.type == Light::Type::directional) return fit_orthographic(scene, light.direction_ws);
+  RsmProjection projection;
+  projection.origin_ws = light.position_ws;
+  if (light.type == Light::Type::spot && light.outer_cone_angle <= kWidestPerspective) {
+    projection.kind = Kind::perspective;
+    projection.world_from_light = axes_along(light.direction_ws);
+    projection.half_extent =
+        vec2(std::tan(std::max(light.outer_cone_angle, kNarrowestPerspective)));
+  }
+  return projection;
+}
+
+RsmProjection camera_projection(const Camera& camera, float aspect) {
+  RsmProjection p;
+  p.kind = camera.orthographic ? Kind::orthographic : Kind::perspective;
+  p.origin_ws = vec3(camera.world_from_view[3]);
+  for (int i = 0; i < 3; ++i) p.world_from_light[i] = normalize(vec3(camera.world_from_view[i]));
+  const float half_height =
+      camera.orthographic ? 0.5f * camera.vertical_extent : std::tan(0.5f * camera.vertical_fov);
+  p.half_extent = vec2(aspect * half_height, half_height);
+  return p;
+}
+
+ShadeHitsSettings camera_shading(const RsmSettings& settings) {
+  ShadeHitsSettings shading;
+  shading.back_faces_count = true;
+  shading.seed = settings.seed;
+  return shading;
+}
+
 ReflectiveShadowMap render_rsm(const World& world, const Light& light,
                                const RsmSettings& settings) {
   assert(check(settings));
@@ -150,18 +168,9 @@ ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float a
   assert(check(settings) && aspect > 0.0f);
   ReflectiveShadowMap map;
   map.resolution = settings.resolution;
-  RsmProjection& p = map.projection;
-  p.kind = camera.orthographic ? Kind::orthographic : Kind::perspective;
-  p.origin_ws = vec3(camera.world_from_view[3]);
-  for (int i = 0; i < 3; ++i) p.world_from_light[i] = normalize(vec3(camera.world_from_view[i]));
-  const float half_height =
-      camera.orthographic ? 0.5f * camera.vertical_extent : std::tan(0.5f * camera.vertical_fov);
-  p.half_extent = vec2(aspect * half_height, half_height);
-
-  const MapProjection projection = to_record(p);
-  ShadeHitsSettings shading;
-  shading.back_faces_count = true;
-  shading.seed = settings.seed;
+  map.projection = camera_projection(camera, aspect);
+  const MapProjection projection = to_record(map.projection);
+  const ShadeHitsSettings shading = camera_shading(settings);
   trace_map(
       world, map, [&](const vec2& square) { return texel_ray(projection, square); },
       [&](std::size_t first, const std::vector<Ray>& rays, const std::vector<Hit>& hits) {
@@ -171,16 +180,12 @@ ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float a
         for (std::size_t i = 0; i < rays.size(); ++i) {
           if (hits[i].missed()) continue;
           const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
-          const vec3 normal = surface.geometric_normal_ws;
-          const float grazing = grazing_cosine(normal, rays[i].direction);
           const vec2 square = texel_middle(static_cast<int>(i),
                                            static_cast<int>(first / rays.size()), map.resolution);
-          const float area =
-              perpendicular_area(projection, square, map.resolution, hits[i].distance) / grazing;
-          const vec3 flux = shaded[i].albedo_over_pi * shaded[i].direct_irradiance * (kPi * area);
-          if (area > 0.0f) {
-            map.texels[first + i] = to_texel(make_texel(surface.position_ws, normal, area, flux));
-          }
+          map.texels[first + i] = to_texel(
+              seen_texel(surface.position_ws, surface.geometric_normal_ws, rays[i].direction,
+                         shaded[i].albedo_over_pi * shaded[i].direct_irradiance,
+                         perpendicular_area(projection, square, map.resolution, hits[i].distance)));
         }
       });
   return map;

@@ -51,5 +51,13 @@ LAMBENT_FN RsmTexelRecord lit_texel(vec3 position_ws, vec3 normal_ws, vec3 geome
                     albedo * irradiance * (cross_section * tilt));
 }
 
+/// The texel of a surface that a camera's ray met and that sends back that radiance, evenly.
+LAMBENT_FN RsmTexelRecord seen_texel(vec3 position_ws, vec3 geometric_normal_ws,
+                                     vec3 ray_direction_ws, vec3 radiance, float cross_section) {
+  float area = cross_section / grazing_cosine(geometric_normal_ws, ray_direction_ws);
+  if (!(area > 0.0f)) return empty_texel();
+  return make_texel(position_ws, geometric_normal_ws, area, radiance * (kPi * area));
+}
+
 LAMBENT_END
 #endif

@@ -177,8 +177,10 @@ void DeviceScene::update_instances(const Scene& scene) {
   records.reserve(scene.instances.size());
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    records.push_back({instance.world_from_object, static_cast<uint>(instance.mesh),
-                       instance.receives_gi ? kInstanceReceivesGi : 0, first_emitter_pdfs_[i]});
+    const uint flags = (instance.receives_gi ? kInstanceReceivesGi : 0) |
+                       (instance.casts_gi ? kInstanceCastsGi : 0);
+    records.push_back({instance.world_from_object, static_cast<uint>(instance.mesh), flags,
+                       first_emitter_pdfs_[i]});
   }
   instances_.set(device_, std::move(records), "instances");
 }

@@ -14,6 +14,7 @@
 #include "shaders/closest_rchit.h"
 #include "shaders/closest_rgen.h"
 #include "shaders/closest_rmiss.h"
+#include "shaders/coverage_rahit.h"
 #include "shaders/occlusion_rgen.h"
 #include "shaders/occlusion_rmiss.h"
 #include "vulkan/device.h"
@@ -55,13 +56,15 @@ class VulkanRayTracer::Staging {
 
   /// Carries rays up, has `record` trace them, and their results, of so many bytes each, down.
   template <class Record>
-  const std::byte* carry(const vulkan::Device& device, std::span<const Ray> rays,
+  const std::byte* carry(const DeviceScene& scene, std::span<const Ray> rays,
                          std::size_t result_bytes, Record record) {
+    const vulkan::Device& device = scene.device();
     make_room(device, rays.size());
     std::memcpy(up_.host(), rays.data(), rays.size_bytes());
     device.run([&](vulkan::Recorder& recorder) {
       recorder.copy(up_, rays_, rays.size_bytes());
       recorder.barrier();
+      recorder.bind_textures(scene.textures());
       record(recorder, RayBatch{{rays_.address()}, static_cast<std::uint32_t>(rays.size())},
              results_.address());
       recorder.barrier();
@@ -100,17 +103,28 @@ class VulkanRayTracer::Borrowed {
   std::unique_ptr<Staging> staging_;
 };
 
-VulkanRayTracer::VulkanRayTracer(const vulkan::Device& device, const Scene& scene,
-                                 GeometryOfMesh geometry_of)
-    : device_(device),
-      scene_(scene),
-      closest_(device,
-               {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(), {}},
+VulkanRayTracer::VulkanRayTracer(const Scene& scene, const DeviceScene& device_scene)
+    : scene_(scene),
+      device_scene_(device_scene),
+      device_(device_scene.device()),
+      closest_(device_,
+               {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(),
+                shaders::coverage_rahit()},
                "closest hits"),
-      occlusion_(device, {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, {}},
-                 "occlusions") {
+      occlusion_(
+          device_,
+          {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, shaders::coverage_rahit()},
+          "occlusions") {
   Stopwatch watch;
-  acceleration_ = std::make_unique<SceneAcceleration>(device, scene, std::move(geometry_of));
+  acceleration_ = std::make_unique<SceneAcceleration>(device_, scene, [this](std::size_t mesh) {
+    const MeshRecord& record = device_scene_.mesh(mesh);
+    vulkan::TriangleGeometry geometry;
+    geometry.positions = record.positions.address;
+    geometry.indices = record.triangles.address;
+    geometry.vertices = static_cast<std::uint32_t>(scene_.meshes[mesh].positions.size());
+    geometry.triangles = static_cast<std::uint32_t>(scene_.meshes[mesh].triangles.size());
+    return geometry;
+  });
   statistics_.build_ms = watch.lap();
   tell_sizes();
 }
@@ -139,8 +153,12 @@ void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel&
   if (batch.count == 0) return;
   const VkDeviceAddress structure = acceleration_->address();
   const TraceArguments arguments = {
-      uvec2(static_cast<uint>(structure), static_cast<uint>(structure >> 32)), batch.rays, hits,
-      occluded, batch.count};
+      uvec2(static_cast<uint>(structure), static_cast<uint>(structure >> 32)),
+      batch.rays,
+      hits,
+      occluded,
+      device_scene_.address(),
+      batch.count};
   if (batch.indirect != nullptr) {
     recorder.trace_indirect(kernel, arguments, *batch.indirect, batch.indirect_offset);
     return;
@@ -165,7 +183,7 @@ void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
   parallel_chunks(rays.size(), kBatchRays, [&](std::size_t begin, std::size_t end) {
     const Borrowed staging(*this);
     const std::byte* results =
-        staging->carry(device_, rays.subspan(begin, end - begin), sizeof(HitRecord),
+        staging->carry(device_scene_, rays.subspan(begin, end - begin), sizeof(HitRecord),
                        [&](vulkan::Recorder& recorder, const RayBatch& batch,
                            VkDeviceAddress address) { closest_hits(recorder, batch, {address}); });
     for (std::size_t i = begin; i < end; ++i) {
@@ -183,7 +201,7 @@ void VulkanRayTracer::occlusions(std::span<const Ray> rays,
   parallel_chunks(rays.size(), kBatchRays, [&](std::size_t begin, std::size_t end) {
     const Borrowed staging(*this);
     const std::byte* results =
-        staging->carry(device_, rays.subspan(begin, end - begin), sizeof(std::uint32_t),
+        staging->carry(device_scene_, rays.subspan(begin, end - begin), sizeof(std::uint32_t),
                        [&](vulkan::Recorder& recorder, const RayBatch& batch,
                            VkDeviceAddress address) { occlusions(recorder, batch, {address}); });
     for (std::size_t i = begin; i < end; ++i) {
