@@ -141,11 +141,11 @@ std::vector<std::uint32_t> morton_order(int resolution) {
 
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings) {
   const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
-  struct Light {
+  struct DealtTexel {
     RsmTexel texel;
     std::uint32_t place;
   };
-  std::vector<std::vector<Light>> dealt(subs);
+  std::vector<std::vector<DealtTexel>> dealt(subs);
   std::uint32_t first = 0;
   for (std::size_t m = 0; m < maps.size(); ++m) {
     // Deal each run of neighbours to all sub-maps: in order, or in one of its own
@@ -163,7 +163,7 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
       }
       // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
       // is spread no wider for that, as the blurs bring all sub-maps together
-      Light light = {chosen[k].texel, first + chosen[k].place};
+      DealtTexel light = {chosen[k].texel, first + chosen[k].place};
       light.texel.flux *= static_cast<float>(subs);
       light.texel.softening *= settings.softening;
       dealt[deal[k % subs]].push_back(light);
@@ -173,10 +173,10 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
 
   // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
   std::size_t longest = 0;
-  for (const std::vector<Light>& sub_map : dealt) longest = std::max(longest, sub_map.size());
-  Light dark = {{}, first};
+  for (const std::vector<DealtTexel>& sub_map : dealt) longest = std::max(longest, sub_map.size());
+  DealtTexel dark = {{}, first};
   dark.texel.softening = 1.0f;
-  for (std::vector<Light>& sub_map : dealt) sub_map.resize(longest, dark);
+  for (std::vector<DealtTexel>& sub_map : dealt) sub_map.resize(longest, dark);
 
   // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
   // together the ways to all
@@ -190,8 +190,8 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
 
   RsmLights lights;
   lights.starts.push_back(0);
-  for (const std::vector<Light>& sub_map : dealt) {
-    for (const Light& light : sub_map) {
+  for (const std::vector<DealtTexel>& sub_map : dealt) {
+    for (const DealtTexel& light : sub_map) {
       lights.places.push_back(light.place);
       lights.restructured.push_back(light.texel);
     }
