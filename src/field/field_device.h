@@ -94,8 +94,8 @@ class FieldDevice {
   /// Luminance of what each probe receives of direct light and the sky, added up over its texels.
   virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
 
-  /// As probe_importance.
-  virtual std::vector<float> importance(std::span<const FieldQuery> points) = 0;
+  /// As SendBack of importance.h.
+  virtual std::vector<float> send_back(std::span<const float> received, float least) = 0;
   /// Irradiance for each query [W/m^2], by the probes' distances.
   virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const = 0;
   /// Whether these lookups are the field's: it asks no rays.

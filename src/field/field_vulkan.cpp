@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "field/device_memory.h"
 #include "shared/color.h"
@@ -19,6 +20,10 @@ constexpr int kMostRays = 1 << 18;
 
 // Queries of the host answered at a time, likewise.
 constexpr std::size_t kQueriesAtATime = 1 << 20;
+
+// The sum of what is sent back, in whole numbers: rounding to the nearest adds up to less than what
+// is left to 2^32.
+constexpr double kMostSent = 2147483648.0;
 
 // Passes that one command buffer may take the time of.
 constexpr std::uint32_t kTimedPasses = 16;
@@ -317,6 +322,29 @@ std::vector<double> FieldVulkan::direct_light(std::span<const int> probes) {
     for (std::size_t t = 0; t < texels; ++t) light[named[k]] += luminance(vec3(tile[t]));
   }
   return light;
+}
+
+std::vector<float> FieldVulkan::send_back(std::span<const float> received, float least) {
+  std::vector<int> sending;
+  for (int probe = 0; probe < field_.probes(); ++probe) {
+    if (received[probe] > least && field_.rays_of(probe)) sending.push_back(probe);
+  }
+  std::vector<float> sent(received.size(), 0.0f);
+  if (sending.empty()) return sent;
+  const DeviceProbes list = field_.list(sending);
+  const Buffer given = host_buffer(*device_, received, "importance");
+  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance sent");
+  // Whole numbers are added up, so that the order does not matter: what is sent is no more than
+  // what was received
+  const double most = std::accumulate(received.begin(), received.end(), 0.0);
+  const auto scale = static_cast<float>(kMostSent / most);
+  device_->run([&](Recorder& to) {
+    field_.record_send_back(to, list, {given.address()}, {taken.address()}, scale);
+  });
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    sent[i] = static_cast<float>(taken.as<std::uint32_t>()[i]) / scale;
+  }
+  return sent;
 }
 
 void FieldVulkan::irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const {
