@@ -359,10 +359,6 @@ void FieldVulkan::irradiance(std::span<const FieldQuery> queries, std::span<vec3
   }
 }
 
-bool FieldVulkan::records_lookups() const {
-  return settings_.visibility == Visibility::moments;
-}
-
 void FieldVulkan::record_lookups(Recorder& recorder, std::uint64_t queries, std::uint32_t count,
                                  std::uint64_t irradiance) const {
   field_.record_lookup(recorder, {queries}, count, {irradiance});
@@ -370,6 +366,8 @@ void FieldVulkan::record_lookups(Recorder& recorder, std::uint64_t queries, std:
 
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store) {
+  // Lookups that ask rays are found on the host, which asks the device for the rays
+  if (settings.visibility != Visibility::moments) return nullptr;
   return std::make_unique<FieldVulkan>(world, settings, store);
 }
 

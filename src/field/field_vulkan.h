@@ -41,7 +41,6 @@ class FieldVulkan final : public FieldDevice {
 
   std::vector<float> send_back(std::span<const float> received, float least) override;
   void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const override;
-  bool records_lookups() const override;
   void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries, std::uint32_t count,
                       std::uint64_t irradiance) const override;
 
