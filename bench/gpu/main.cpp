@@ -63,7 +63,7 @@ int run(const Options& options) {
   const std::vector<Row> rows = measure(world, options);
   std::printf("\n| what | | | bar |\n|---|---|---|---|\n");
   for (const Row& row : rows) {
-    std::printf("| %s | %.3f | %s | %s |\n", row.what.c_str(), row.value, row.unit.c_str(),
+    std::printf("| %s | %.4g | %s | %s |\n", row.what.c_str(), row.value, row.unit.c_str(),
                 row.bar.c_str());
   }
   for (const std::string& message : vulkan::validation_messages(**device)) {
