@@ -23,6 +23,9 @@ FramePassesVulkan::FramePassesVulkan(const FrameRequest& request)
   const std::size_t pixels =
       static_cast<std::size_t>(request.settings.width) * request.settings.height;
   reserve<PixelLayers>(pixels, "layers", kernels_.layers);
+  for (Buffer& count : shadow_rays_) {
+    count = Buffer(device_, sizeof(uint), vulkan::Memory::readback, "shadow rays");
+  }
   device_.run([&](Recorder& to) { to.fill(kernels_.layers, 0u, 0, pixels * sizeof(PixelLayers)); });
 }
 
@@ -48,7 +51,10 @@ void FramePassesVulkan::run_steps() {
       to.barrier();
       to.end_pass();
     }
+    kernels_.pixel_shading.take_ray_count(to, shadow_rays_[0]);
+    kernels_.gather_shading.take_ray_count(to, shadow_rays_[1]);
   });
+  for (const Buffer& count : shadow_rays_) frame_.rays += count.as<uint>().front();
   for (const vulkan::DevicePassTime& time : timestamps_.read()) {
     const auto known = std::find_if(frame_.passes.begin(), frame_.passes.end(),
                                     [&](const PassTime& pass) { return pass.name == time.name; });

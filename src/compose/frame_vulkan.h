@@ -60,6 +60,7 @@ class FramePassesVulkan final : public FramePasses {
   const vulkan::Device& device_;
   FrameKernels& kernels_;
   vulkan::Timestamps timestamps_;
+  Buffer shadow_rays_[2];  // of pixels, and of what gathering rays met
   std::vector<Step> steps_;
   RenderedFrame frame_;
   std::vector<Layer> stage_layers_;

@@ -164,7 +164,7 @@ class DeviceField {
   FieldSettings settings_;
   int probes_, volumes_, lookups_;
   int words_per_irradiance_texel_, words_per_distance_texel_;
-  FieldKernels kernels_;
+  const FieldKernels& kernels_;
   vulkan::Buffer grids_, offsets_, irradiance_, distance_, corners_, fit_;
   vulkan::Buffer light_, told_;
   vulkan::Buffer surfels_, lookup_records_;  // probes x stride_ (x lookups_)

@@ -2,6 +2,8 @@
 #include "field/device_kernels.h"
 
 #include <array>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "shaders/blend_distances_comp.h"
@@ -24,6 +26,7 @@
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
+#include "vulkan/device.h"
 
 namespace lambent {
 namespace {
@@ -39,7 +42,34 @@ std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, in
            {5, static_cast<std::uint32_t>(lookups)}}};
 }
 
+/// Kernels by their constants.
+class KernelShelf {
+ public:
+  explicit KernelShelf(const vulkan::Device& device) : device_(device) {}
+
+  const FieldKernels& get(const FieldSettings& settings, int volumes, int lookups) {
+    std::array<std::uint32_t, 6> key{};
+    for (const vulkan::Constant& constant : tile_constants(settings, volumes, lookups)) {
+      key[constant.id] = constant.value;
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = kernels_.find(key);
+    if (found != kernels_.end()) return found->second;
+    return kernels_.emplace(key, FieldKernels(device_, settings, volumes, lookups)).first->second;
+  }
+
+ private:
+  const vulkan::Device& device_;
+  std::mutex mutex_;
+  std::map<std::array<std::uint32_t, 6>, FieldKernels> kernels_;
+};
+
 }  // namespace
+
+const FieldKernels& FieldKernels::of(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups) {
+  return device.kept<KernelShelf>().get(settings, volumes, lookups);
+}
 
 FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                            int lookups) {

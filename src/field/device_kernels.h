@@ -12,6 +12,10 @@ namespace lambent {
 inline constexpr int kMaxSurfelLookups = 4;
 
 struct FieldKernels {
+  /// Those for these settings, made once and kept by the device.
+  static const FieldKernels& of(const vulkan::Device& device, const FieldSettings& settings,
+                                int volumes, int lookups);
+
   FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                int lookups);
 

@@ -160,6 +160,7 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
   field_.reserve_seen(list);
   field_.reserve_transport(list);
   solver_.reserve(list);
+  const Buffer shadow_rays(*device_, sizeof(uint), vulkan::Memory::readback, "shadow rays");
 
   const float largest = *std::max_element(shares.begin(), shares.end());
   vulkan::Timestamps timestamps(*device_,
@@ -167,6 +168,7 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
     record_tracing(to, *tracing.world.on_device(), list, /*seen=*/true);
+    shading_.take_ray_count(to, shadow_rays);
     to.begin_pass("blend");
     field_.record_blend_distances(to, list, {share_buffer.address()}, tracing.salt);
     to.end_pass();
@@ -188,6 +190,7 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
     to.end_pass();
   });
   book(timestamps.read(), traced);
+  traced.shadow_rays = shadow_rays.as<uint>().front();
   traced.solve = solver_.result();
   const std::span<const LightChange> found = changes.as<LightChange>();
   for (const std::size_t position : list.position) traced.changes.push_back(found[position]);
@@ -218,12 +221,14 @@ DeviceTraced FieldVulkan::retrace(const World& world, std::span<const int> probe
   }
   reserve_rays(most_rays, list.probes.size());
   vulkan::write<uint>(*device_, first_indices, first_indices_);
+  const Buffer shadow_rays(*device_, sizeof(uint), vulkan::Memory::readback, "shadow rays");
   vulkan::Timestamps timestamps(*device_,
                                 static_cast<std::uint32_t>(2 * most_groups) + kTimedPasses);
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
     field_.record_distances_before(to, list);
     record_tracing(to, *world.on_device(), list, /*seen=*/false);
+    shading_.take_ray_count(to, shadow_rays);
     to.begin_pass("blend");
     field_.record_move_distances(to, list, salt);
     to.end_pass();
@@ -232,6 +237,7 @@ DeviceTraced FieldVulkan::retrace(const World& world, std::span<const int> probe
     to.end_pass();
   });
   book(timestamps.read(), traced);
+  traced.shadow_rays = shadow_rays.as<uint>().front();
   return traced;
 }
 

@@ -23,15 +23,21 @@ constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
 
 }  // namespace
 
+HitShadingKernels::HitShadingKernels(const vulkan::Device& device)
+    : hit_surfaces(device, shaders::hit_surfaces_comp(), "hit surfaces"),
+      pixel_surfaces(device, shaders::pixel_surfaces_comp(), "pixel surfaces"),
+      emitter_rays(device, shaders::emitter_rays_comp(), "emitter rays"),
+      light_irradiance(device, shaders::light_irradiance_comp(), "light as irradiance"),
+      light_reflected(device, shaders::light_reflected_comp(), "light as reflected"),
+      collect_irradiance(device, shaders::collect_irradiance_comp(), "collect irradiance"),
+      collect_reflected(device, shaders::collect_reflected_comp(), "collect reflected light") {}
+
 HitShading::HitShading(const vulkan::Device& device)
     : device_(device),
-      hit_surfaces_(device, shaders::hit_surfaces_comp(), "hit surfaces"),
-      pixel_surfaces_(device, shaders::pixel_surfaces_comp(), "pixel surfaces"),
-      emitter_rays_(device, shaders::emitter_rays_comp(), "emitter rays"),
-      light_irradiance_(device, shaders::light_irradiance_comp(), "light as irradiance"),
-      light_reflected_(device, shaders::light_reflected_comp(), "light as reflected"),
-      collect_irradiance_(device, shaders::collect_irradiance_comp(), "collect irradiance"),
-      collect_reflected_(device, shaders::collect_reflected_comp(), "collect reflected light") {}
+      kernels_(device.kept<HitShadingKernels>()),
+      ray_count_(device, sizeof(uint), vulkan::Memory::device, "shadow rays counted") {
+  device.run([&](vulkan::Recorder& to) { to.fill(ray_count_, 0u); });
+}
 
 template <class Work>
 void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
@@ -75,7 +81,7 @@ void HitShading::find_emitters(vulkan::Recorder& recorder, const DeviceStage& st
   const EmitterRaysArguments arguments = {stage.scene.address(), points,        rays,
                                           chunk.first,           chunk.count,   chunk.samples,
                                           settings.salt,         settings.seed, 0};
-  recorder.run(emitter_rays_, arguments, chunk.count);
+  recorder.run(kernels_.emitter_rays, arguments, chunk.count);
   recorder.barrier();
   RayBatch batch;
   batch.rays = rays;
@@ -92,12 +98,21 @@ LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray po
   arguments.emitter_rays.address = emitter_ray_memory_.address();
   arguments.emitter_hits.address = emitter_hit_memory_.address();
   arguments.shadow_rays.address = shadow_ray_memory_.address();
+  arguments.ray_count.address = ray_count_.address();
   arguments.first = chunk.first;
   arguments.count = chunk.count;
   arguments.emissive_samples = chunk.samples;
   arguments.salt = settings.salt;
   arguments.seed = settings.seed;
   return arguments;
+}
+
+void HitShading::take_ray_count(vulkan::Recorder& recorder, const vulkan::Buffer& count) const {
+  recorder.barrier();
+  recorder.copy(ray_count_, count, sizeof(uint));
+  recorder.barrier();
+  recorder.fill(ray_count_, 0u);
+  recorder.barrier();
 }
 
 void HitShading::trace_shadows(vulkan::Recorder& recorder, const DeviceStage& stage,
@@ -138,7 +153,7 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
     arguments.cone_width = settings.cone_width;
     arguments.max_albedo = settings.max_albedo;
     arguments.back_faces_count = settings.back_faces_count ? 1 : 0;
-    recorder.run(hit_surfaces_, arguments, arguments.count);
+    recorder.run(kernels_.hit_surfaces, arguments, arguments.count);
   }
   recorder.barrier();
   direct_irradiance(recorder, stage, out.points, hits.count, settings, out.irradiance);
@@ -152,12 +167,12 @@ void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage
     find_emitters(recorder, stage, points, chunk, settings);
     LightDrawsArguments arguments = draws(stage, points, chunk, settings);
     arguments.stakes.address = stake_memory_.address();
-    recorder.run(light_irradiance_, arguments, chunk.count);
+    recorder.run(kernels_.light_irradiance, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
     CollectArguments collect = collecting(chunk);
     collect.stakes.address = stake_memory_.address();
     collect.irradiance = irradiance;
-    recorder.run(collect_irradiance_, collect, chunk.count);
+    recorder.run(kernels_.collect_irradiance, collect, chunk.count);
     recorder.barrier();
   });
 }
@@ -176,7 +191,7 @@ void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& s
     arguments.first = first;
     arguments.count = std::min(kMaxInvocations, hits.count - first);
     arguments.first_index = first_index;
-    recorder.run(pixel_surfaces_, arguments, arguments.count);
+    recorder.run(kernels_.pixel_surfaces, arguments, arguments.count);
   }
   recorder.barrier();
 }
@@ -191,13 +206,13 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
     LightDrawsArguments arguments = draws(stage, pixels.points, chunk, settings);
     arguments.pairs.address = stake_memory_.address();
     arguments.surfaces = pixels.surfaces;
-    recorder.run(light_reflected_, arguments, chunk.count);
+    recorder.run(kernels_.light_reflected, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
     CollectArguments collect = collecting(chunk);
     collect.pairs.address = stake_memory_.address();
     collect.diffuse = out.diffuse;
     collect.specular = out.specular;
-    recorder.run(collect_reflected_, collect, chunk.count);
+    recorder.run(kernels_.collect_reflected, collect, chunk.count);
     recorder.barrier();
   });
 }

@@ -49,6 +49,13 @@ struct DeviceReflectedLight {
   Vec3Array specular;
 };
 
+/// Kept by the device (Device::kept).
+struct HitShadingKernels {
+  explicit HitShadingKernels(const vulkan::Device& device);
+  vulkan::Kernel hit_surfaces, pixel_surfaces, emitter_rays;
+  vulkan::Kernel light_irradiance, light_reflected, collect_irradiance, collect_reflected;
+};
+
 /// Kernels of shading, and memory that passes use one after the other. The memory grows while
 /// passes are recorded; what was recorded before stays good.
 class HitShading {
@@ -77,6 +84,10 @@ class HitShading {
                        const DevicePixels& pixels, std::uint32_t count,
                        const ShadeHitsSettings& settings, const DeviceReflectedLight& out);
 
+  /// Copies the number of shadow rays traced since the last time into the buffer (one word), and
+  /// starts counting anew.
+  void take_ray_count(vulkan::Recorder& recorder, const vulkan::Buffer& count) const;
+
  private:
   /// Points that are worked on at once, so that their slots fit into memory of a fixed size.
   struct Chunk {
@@ -96,10 +107,10 @@ class HitShading {
   CollectArguments collecting(const Chunk& chunk) const;
 
   const vulkan::Device& device_;
-  vulkan::Kernel hit_surfaces_, pixel_surfaces_, emitter_rays_;
-  vulkan::Kernel light_irradiance_, light_reflected_, collect_irradiance_, collect_reflected_;
+  const HitShadingKernels& kernels_;
   vulkan::Buffer emitter_ray_memory_, emitter_hit_memory_;
   vulkan::Buffer shadow_ray_memory_, stake_memory_, occlusion_memory_;
+  vulkan::Buffer ray_count_;
   std::vector<vulkan::Buffer> outgrown_;  // commands may still refer to them
 };
 
