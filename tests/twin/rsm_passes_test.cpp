@@ -85,18 +85,10 @@ constexpr float kBlurredDifference = 0.02f;
 
 class RsmTwin : public test::OnDevice {
  protected:
-  void SetUp() override {
-    OnDevice::SetUp();
-    if (!IsSkipped()) gatherer_ = std::make_unique<RsmGathererVulkan>(device());
-  }
-  void TearDown() override {
-    gatherer_.reset();
-    OnDevice::TearDown();
-  }
   RsmIrradiance on_device(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                           const RsmSettings& settings, bool keep_stages = false) {
     RsmIrradiance result;
-    gatherer_->gather(maps, view, settings, result, nullptr, VK_NULL_HANDLE, keep_stages);
+    gatherer().gather(maps, view, settings, result, nullptr, VK_NULL_HANDLE, keep_stages);
     return result;
   }
   static RsmIrradiance on_host(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
@@ -112,10 +104,7 @@ class RsmTwin : public test::OnDevice {
     return difference(on_host(maps, view, settings).irradiance,
                       on_device(maps, view, settings).irradiance);
   }
-  RsmGathererVulkan& gatherer() { return *gatherer_; }
-
- private:
-  std::unique_ptr<RsmGathererVulkan> gatherer_;
+  static RsmGathererVulkan& gatherer() { return device().kept<RsmGathererVulkan>(); }
 };
 
 RsmSettings few_texels() {
@@ -252,8 +241,8 @@ TEST_F(RsmTwin, FindsTheSameTexelsHidden) {
   RsmGatherer().gather(box.host, box.maps, box.seen.view(), settings, expected);
   for (const RsmLayout layout : {RsmLayout::full, RsmLayout::restructured}) {
     settings.layout = layout;
-    gatherer().gather(box.maps, box.seen.view(), settings, result,
-                      &box.world.on_device()->tracer());
+    gatherer().gather(box.maps, box.seen.view(), settings, result, &box.world.on_device()->tracer(),
+                      box.world.on_device()->scene().textures());
     EXPECT_EQ(result.rays, expected.rays);
     // Rays that graze an edge, or were drawn on one, may be told otherwise: a pixel in a hundred
     std::size_t others = 0;
