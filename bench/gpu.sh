@@ -9,11 +9,12 @@
 #        bench/gpu.sh run DIR [OPTION...]
 #          where there is a C++ compiler, CMake, a Vulkan driver, DIR and this repository: builds without the CPU backend,
 #          checks against what it found and prints one table. Options go to lambent_gpu_bench.
-# LAMBENT_BENCH_SCENE, a path or a built-in name, is the scene in place of these.
+# LAMBENT_BENCH_SCENE, a path or a built-in name, is the scene in place of these; LAMBENT_BUILD a build folder where
+# lambent and lambent_gpu_bench lie already; LAMBENT_CMAKE_OPTIONS go to CMake.
 set -euo pipefail
 
 usage() {
-  sed -n 's/^# \{0,1\}//; 3,12p' "$0" | tail -n +2 >&2
+  sed -n 's/^# \{0,1\}//; 5,13p' "$0" >&2
   exit 2
 }
 (($# >= 2)) || usage
@@ -23,13 +24,19 @@ folder=$(cd "$2" && pwd)
 shift 2
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+read -r -a cmake_options <<<"${LAMBENT_CMAKE_OPTIONS:-}"
+
 # copy_headers NAME...: each from where the compiler looks for it, or from Eigen's own folder
 copy_headers() {
   local name place
   for name in "$@"; do
-    for place in /usr/local/include /usr/include /usr/include/eigen3; do
+    for place in /usr/local/include /usr/include /usr/include/eigen3 ''; do
       [[ -d $place/$name ]] && break
     done
+    if [[ -z $place ]]; then
+      echo "bench/gpu.sh: no folder $name among the compiler's headers" >&2
+      exit 1
+    fi
     rm -rf "$folder/headers/$name"
     cp -rL "$place/$name" "$folder/headers/$name"
   done
@@ -41,10 +48,12 @@ prepare() {
     [[ $1 == --texture-size && $# == 2 ]] || usage
     texture_size=$2
   fi
-  local build=build/gpu_prepare
-  cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLAMBENT_BUILD_BENCHES=ON -DLAMBENT_BUILD_TESTS=OFF \
-    ${LAMBENT_CMAKE_OPTIONS:-} >/dev/null
-  cmake --build "$build" --parallel --target lambent_cli lambent_gpu_bench
+  local build=${LAMBENT_BUILD:-build/gpu_prepare}
+  if [[ ! -v LAMBENT_BUILD ]]; then
+    cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLAMBENT_BUILD_BENCHES=ON -DLAMBENT_BUILD_TESTS=OFF \
+      "${cmake_options[@]}" >/dev/null
+    cmake --build "$build" --parallel "$(nproc)" --target lambent_cli lambent_gpu_bench
+  fi
 
   scene=${LAMBENT_BENCH_SCENE:-atrium}
   if [[ ! -v LAMBENT_BENCH_SCENE && -f ../shared/scenes/Sponza/Sponza.gltf ]]; then
@@ -64,8 +73,8 @@ prepare() {
 run() {
   local build=$folder/build
   cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=Release -DLAMBENT_CPU=OFF -DLAMBENT_BUILD_BENCHES=ON \
-    -DLAMBENT_HEADERS_DIR="$folder/headers" -DLAMBENT_SPIRV_DIR="$folder/spirv" ${LAMBENT_CMAKE_OPTIONS:-} >/dev/null
-  cmake --build "$build" --parallel --target lambent_gpu_bench
+    -DLAMBENT_HEADERS_DIR="$folder/headers" -DLAMBENT_SPIRV_DIR="$folder/spirv" "${cmake_options[@]}" >/dev/null
+  cmake --build "$build" --parallel "$(nproc)" --target lambent_gpu_bench
   "$build/lambent_gpu_bench" "$folder/scene" --check "$folder/expected" "$@"
 }
 

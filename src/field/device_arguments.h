@@ -6,6 +6,7 @@
 
 #include "field/device_records.h"
 #include "field/device_solve.h"
+#include "raytracing/vulkan/shading_records.h"
 
 LAMBENT_BEGIN
 
@@ -20,26 +21,41 @@ const int kIrradianceBlock = 16;
 const int kDistanceVectors = 4;
 const int kDistanceBlock = 32;
 
-/// Rays of probes. `rays`: probes x stride; beyond a probe's rays, none.
+/// Rays of probes that trace the same. `rays`: probes x rays.
 struct ProbeRaysArguments {
   StoreArrays store;
-  ProbeList list;
+  IntArray probes;
+  Vec3Array directions;
   RayArray rays;
-  int probes;
+  int count;
+  int rays_per_probe;
+};
+
+/// Surfels of the same, from what shading made of their hits.
+struct MakeSurfelsArguments {
+  IntArray probes;
+  LitPointArray points;
+  ShadedHitArray shaded;
+  Vec3Array irradiance;
+  SurfelArray surfels;  ///< All probes x stride.
+  int count;
+  int rays_per_probe;
   int stride;
 };
 
-/// What their hits count as in distances. `seen`: probes x stride [m]; `blocked`: of probes, 1:
-/// stands in solid matter. `single_sided`: of the scene's instances, 1: has backs.
+/// What their hits count as in distances. `seen`: probes x seen_stride [m], 0 beyond the rays;
+/// `blocked`: of probes, 1: stands in solid matter.
 struct SeeDistancesArguments {
   GridArray grids;
-  ProbeList list;
+  IntArray probes;
   HitArray hits;
-  UintArray single_sided;
+  SurfelArray surfels;  ///< All probes x stride.
   FloatArray seen;
   UintArray blocked;
-  int probes;
+  int count;
+  int rays_per_probe;
   int stride;
+  int seen_stride;
 };
 
 /// Blends them into the store. `shares`: of probes.
@@ -99,7 +115,8 @@ struct GatherArguments {
   Vec4Array field;
   Vec4Array radiance;
   int probes;
-  int stride;
+  int stride;           ///< Of surfels.
+  int radiance_stride;  ///< The probes' most rays, up to a whole cluster.
   uint light;
 };
 

@@ -91,18 +91,16 @@ class FieldDevice {
   /// What some probes receive of the light that there is.
   virtual void receive(std::span<const int> probes, const WorkingIrradiance& fallback,
                        WorkingIrradiance& received) = 0;
-  /// Luminance that each probe's rays bring back of direct light and the sky, added up.
+  /// Luminance of what each probe receives of direct light and the sky, added up over its texels.
   virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
 
   /// As probe_importance.
   virtual std::vector<float> importance(std::span<const FieldQuery> points) = 0;
-  /// As IrradianceField::irradiance. `world`: for visibility by rays; null: by distances.
-  virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result,
-                          const World* world) const = 0;
-
-  /// Whether lookups can be recorded: those that need no rays.
+  /// Irradiance for each query [W/m^2], by the probes' distances.
+  virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const = 0;
+  /// Whether these lookups are the field's: it asks no rays.
   virtual bool records_lookups() const = 0;
-  /// Records lookups of moments' visibility: `count` queries to as many irradiances [W/m^2], at
+  /// Records them: `count` queries to as many irradiances [W/m^2], at
   /// these addresses (QueryRecord and vec3).
   virtual void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries,
                               std::uint32_t count, std::uint64_t irradiance) const = 0;

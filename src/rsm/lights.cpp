@@ -131,6 +131,17 @@ std::vector<std::uint32_t> morton_order(int resolution) {
   return order;
 }
 
+namespace {
+
+void shuffle(std::vector<std::uint32_t>& deal, RandomStream& random) {
+  for (auto left = static_cast<std::uint32_t>(deal.size()); left > 1; --left) {
+    const auto other = static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
+    std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
+  }
+}
+
+}  // namespace
+
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings) {
   const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
   struct Dealt {
@@ -146,13 +157,7 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
     std::iota(deal.begin(), deal.end(), 0u);
     RandomStream random = make_random_stream(static_cast<uint>(m), kDealSalt, settings.seed);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      if (settings.shuffle && k % subs == 0) {
-        for (std::uint32_t left = subs; left > 1; --left) {
-          const auto other =
-              static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
-          std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
-        }
-      }
+      if (settings.shuffle && k % subs == 0) shuffle(deal, random);
       // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
       // is spread no wider for that, as the blurs bring all sub-maps together
       Dealt light = {chosen[k].texel, first + chosen[k].place};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hits become surfaces and are lit directly, on the host and on a device.
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>
@@ -200,6 +201,50 @@ TEST_F(ShadingTwin, LightsPointsAtAnyTimeAsWhenTheyWereHit) {
                               {irradiance.address()});
   });
   EXPECT_EQ(vulkan::download<glm::vec3>(device(), irradiance), shaded.irradiance);
+}
+
+TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
+  const TwinWorld twin(device(), test::material_scene());
+  constexpr int kSmall = 50, kLarge = 5000;  // larger than any before, so that memory must grow
+  const ShadeHitsSettings settings;
+  std::vector<vulkan::Buffer> points, irradiance;
+  for (const int count : {kSmall, kLarge}) {
+    const HitBatch batch = test::trace_batch(twin.world, test::random_rays(twin.scene, count, 5u));
+    std::vector<LitPointRecord> records(batch.rays.size());
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      if (batch.hits[i].missed()) {
+        records[i].random_index = kAsksForNoLight;
+        continue;
+      }
+      const Surface surface = surface_at(twin.scene, batch.rays[i], batch.hits[i]);
+      records[i] = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
+                    static_cast<std::uint32_t>(i)};
+    }
+    points.push_back(vulkan::upload(device(), records, "points"));
+    irradiance.emplace_back(device(), records.size() * sizeof(glm::vec3), vulkan::Memory::device,
+                            "irradiance");
+  }
+  HostTracer tracer(device(), twin.world.tracer());
+  const auto light = [&](std::initializer_list<int> batches) {
+    tracer.run([&](vulkan::Recorder& to) {
+      for (const int b : batches) {
+        shading_on(device()).direct_irradiance(
+            to, {twin.on_device, tracer}, {points[b].address()},
+            static_cast<std::uint32_t>(points[b].bytes() / sizeof(LitPointRecord)), settings,
+            {irradiance[b].address()});
+      }
+    });
+  };
+  light({0, 1});
+  const auto small = vulkan::download<glm::vec3>(device(), irradiance[0]);
+  const auto large = vulkan::download<glm::vec3>(device(), irradiance[1]);
+  light({0});
+  light({1});
+  EXPECT_EQ(vulkan::download<glm::vec3>(device(), irradiance[0]), small);
+  EXPECT_EQ(vulkan::download<glm::vec3>(device(), irradiance[1]), large);
+  EXPECT_GT(std::count_if(large.begin(), large.end(),
+                          [](const glm::vec3& e) { return e != glm::vec3(0.0f); }),
+            kLarge / 10);
 }
 
 /// Pixels of a camera on both sides: their surfaces, and the light that they reflect.

@@ -40,11 +40,12 @@ vec3 read_field(SurfelLookup lookup) {
 void main() {
   int ray = int(gl_GlobalInvocationID.x);
   int k = int(gl_GlobalInvocationID.y);
-  if (k >= args.probes || ray >= args.stride) return;
+  if (k >= args.probes || ray >= args.radiance_stride) return;
   int probe = args.list.probes.at[k];
-  int slot = probe * args.stride + ray;
+  int rays = args.list.sets.at[args.list.ray_sets.at[k]].rays;
+  bool there = ray < rays;
+  int slot = probe * args.stride + min(ray, rays - 1);
   SurfelRecord surfel = args.surfels.at[slot];
-  bool there = ray < args.list.sets.at[args.list.ray_sets.at[k]].rays;
 
   vec3 share = surfel.kind == kSurfelSky       ? vec3(1.0)
                : args.light != kGatherSky      ? surfel.albedo_over_pi
@@ -57,5 +58,5 @@ void main() {
     }
   }
   float counts = there && surfel.kind != kSurfelBackFace ? 1.0 : 0.0;
-  args.radiance.at[k * args.stride + ray] = there ? vec4(share * arrives, counts) : vec4(0.0);
+  args.radiance.at[k * args.radiance_stride + ray] = there ? vec4(share * arrives, counts) : vec4(0.0);
 }

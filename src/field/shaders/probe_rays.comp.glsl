@@ -14,13 +14,11 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   int ray = int(gl_GlobalInvocationID.x);
   int k = int(gl_GlobalInvocationID.y);
-  if (k >= args.probes || ray >= args.stride) return;
-  RaySetRecord set = args.list.sets.at[args.list.ray_sets.at[k]];
-  int probe = args.list.probes.at[k];
+  if (k >= args.count || ray >= args.rays_per_probe) return;
+  int probe = args.probes.at[k];
   ProbeGrid grid = args.store.grids.at[volume_of(args.store.grids, probe)];
   vec3 offset = decode_probe_offset(args.store.offsets.at[probe]);
   vec3 origin = placed_position(grid, probe_coords(grid, probe), offset);
-  RayRecord record = probe_ray_record(origin, set.directions.at[min(ray, set.rays - 1)]);
-  if (ray >= set.rays) record.mask = 0u;
-  args.rays.at[k * args.stride + ray] = record;
+  args.rays.at[k * args.rays_per_probe + ray] =
+      probe_ray_record(origin, args.directions.at[ray]);
 }

@@ -12,22 +12,22 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-  int k = int(gl_WorkGroupID.y * kGroupClusters + cluster_in_group());
-  if (k >= args.probes) return;
-  int rays = args.list.sets.at[args.list.ray_sets.at[k]].rays;
-  int probe = args.list.probes.at[k];
+  int k = int(gl_WorkGroupID.x * kGroupClusters + cluster_in_group());
+  if (k >= args.count) return;
+  int probe = args.probes.at[k];
   float farthest = max_probe_distance(args.grids.at[volume_of(args.grids, probe)]);
   int back_faces = 0;
-  for (int ray = cluster_lane(); ray < args.stride; ray += kClusterLanes) {
-    HitRecord hit = args.hits.at[k * args.stride + ray];
-    uint back_face = 0u;
-    if (ray < rays && !missed(hit) && hit.front_face == 0u) {
-      back_face = args.single_sided.at[hit.instance];
+  for (int ray = cluster_lane(); ray < args.seen_stride; ray += kClusterLanes) {
+    float counted = 0.0;
+    if (ray < args.rays_per_probe) {
+      uint kind = args.surfels.at[probe * args.stride + ray].kind;
+      uint back_face = kind == kSurfelBackFace ? 1u : 0u;
+      float seen = args.hits.at[k * args.rays_per_probe + ray].distance;
+      counted = counted_distance(seen, back_face, farthest);
+      back_faces += int(back_face);
     }
-    back_faces += int(back_face);
-    float counted = counted_distance(hit.distance, back_face, farthest);
-    args.seen.at[k * args.stride + ray] = ray < rays ? counted : 0.0;
+    args.seen.at[k * args.seen_stride + ray] = counted;
   }
   back_faces = cluster_sum(back_faces);
-  if (cluster_lane() == 0) args.blocked.at[k] = stands_in_matter(back_faces, rays);
+  if (cluster_lane() == 0) args.blocked.at[k] = stands_in_matter(back_faces, args.rays_per_probe);
 }

@@ -2,6 +2,7 @@
 #include "raytracing/vulkan/hit_shading.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "shaders/collect_irradiance_comp.h"
 #include "shaders/collect_reflected_comp.h"
@@ -19,13 +20,6 @@ namespace {
 constexpr std::uint32_t kMaxSlots = 1u << 21;
 // Invocations of one dispatch: the groups that every device takes, of 64 invocations.
 constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
-
-void grow(const vulkan::Device& device, std::size_t bytes, const char* name,
-          vulkan::Buffer& buffer) {
-  if (buffer.handle() != VK_NULL_HANDLE && buffer.bytes() >= bytes) return;
-  buffer = {};
-  buffer = vulkan::Buffer(device, bytes, vulkan::Memory::device, name);
-}
 
 }  // namespace
 
@@ -54,14 +48,23 @@ void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
   }
 }
 
+void HitShading::grow(std::size_t bytes, const char* name, vulkan::Buffer& buffer) {
+  if (buffer.handle() != VK_NULL_HANDLE && buffer.bytes() >= bytes) return;
+  // Twice as large at least: all that is outgrown is then no larger than what is in use
+  const std::size_t room = std::max(bytes, 2 * buffer.bytes());
+  vulkan::Buffer larger(device_, room, vulkan::Memory::device, name);
+  if (buffer.handle() != VK_NULL_HANDLE) outgrown_.push_back(std::move(buffer));
+  buffer = std::move(larger);
+}
+
 void HitShading::reserve(const Chunk& chunk) {
   const std::size_t samples = std::size_t{chunk.count} * chunk.samples;
   const std::size_t slots = std::size_t{chunk.count} * chunk.slots;
-  grow(device_, samples * sizeof(RayRecord), "emitter rays", emitter_ray_memory_);
-  grow(device_, samples * sizeof(HitRecord), "emitter hits", emitter_hit_memory_);
-  grow(device_, slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
-  grow(device_, slots * sizeof(ReflectedPair), "stakes of shadow rays", stake_memory_);
-  grow(device_, slots * sizeof(uint), "occlusions", occlusion_memory_);
+  grow(samples * sizeof(RayRecord), "emitter rays", emitter_ray_memory_);
+  grow(samples * sizeof(HitRecord), "emitter hits", emitter_hit_memory_);
+  grow(slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
+  grow(slots * sizeof(ReflectedPair), "stakes of shadow rays", stake_memory_);
+  grow(slots * sizeof(uint), "occlusions", occlusion_memory_);
 }
 
 void HitShading::find_emitters(vulkan::Recorder& recorder, const DeviceStage& stage,

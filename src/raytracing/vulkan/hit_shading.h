@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "raytracing/shade_hits.h"
 #include "raytracing/vulkan/device_scene.h"
@@ -48,8 +49,8 @@ struct DeviceReflectedLight {
   Vec3Array specular;
 };
 
-/// Kernels and memory of shading. Recording into one command buffer after the other may use one
-/// object; its memory grows while recording, after which command buffers recorded before are void.
+/// Kernels of shading, and memory that passes use one after the other. The memory grows while
+/// passes are recorded; what was recorded before stays good.
 class HitShading {
  public:
   explicit HitShading(const vulkan::Device& device);
@@ -86,6 +87,7 @@ class HitShading {
   void for_each_chunk(const DeviceScene& scene, std::uint32_t count,
                       const ShadeHitsSettings& settings, Work work);
   void reserve(const Chunk& chunk);
+  void grow(std::size_t bytes, const char* name, vulkan::Buffer& buffer);
   void find_emitters(vulkan::Recorder& recorder, const DeviceStage& stage, LitPointArray points,
                      const Chunk& chunk, const ShadeHitsSettings& settings);
   LightDrawsArguments draws(const DeviceStage& stage, LitPointArray points, const Chunk& chunk,
@@ -98,6 +100,7 @@ class HitShading {
   vulkan::Kernel light_irradiance_, light_reflected_, collect_irradiance_, collect_reflected_;
   vulkan::Buffer emitter_ray_memory_, emitter_hit_memory_;
   vulkan::Buffer shadow_ray_memory_, stake_memory_, occlusion_memory_;
+  std::vector<vulkan::Buffer> outgrown_;  // commands may still refer to them
 };
 
 }  // namespace lambent

@@ -56,15 +56,13 @@ class VulkanRayTracer::Staging {
 
   /// Carries rays up, has `record` trace them, and their results, of so many bytes each, down.
   template <class Record>
-  const std::byte* carry(const DeviceScene& scene, std::span<const Ray> rays,
+  const std::byte* carry(const vulkan::Device& device, std::span<const Ray> rays,
                          std::size_t result_bytes, Record record) {
-    const vulkan::Device& device = scene.device();
     make_room(device, rays.size());
     std::memcpy(up_.host(), rays.data(), rays.size_bytes());
     device.run([&](vulkan::Recorder& recorder) {
       recorder.copy(up_, rays_, rays.size_bytes());
       recorder.barrier();
-      recorder.bind_textures(scene.textures());
       record(recorder, RayBatch{{rays_.address()}, static_cast<std::uint32_t>(rays.size())},
              results_.address());
       recorder.barrier();
@@ -103,18 +101,26 @@ class VulkanRayTracer::Borrowed {
   std::unique_ptr<Staging> staging_;
 };
 
+/// The two pipelines, which all worlds on a device share.
+struct VulkanRayTracer::Kernels {
+  explicit Kernels(const vulkan::Device& device)
+      : closest(device,
+                {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(),
+                 shaders::coverage_rahit()},
+                "closest hits"),
+        occlusion(
+            device,
+            {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, shaders::coverage_rahit()},
+            "occlusions") {}
+
+  vulkan::RayKernel closest, occlusion;
+};
+
 VulkanRayTracer::VulkanRayTracer(const Scene& scene, const DeviceScene& device_scene)
     : scene_(scene),
       device_scene_(device_scene),
       device_(device_scene.device()),
-      closest_(device_,
-               {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(),
-                shaders::coverage_rahit()},
-               "closest hits"),
-      occlusion_(
-          device_,
-          {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, shaders::coverage_rahit()},
-          "occlusions") {
+      kernels_(device_.kept<Kernels>()) {
   Stopwatch watch;
   acceleration_ = std::make_unique<SceneAcceleration>(device_, scene, [this](std::size_t mesh) {
     const MeshRecord& record = device_scene_.mesh(mesh);
@@ -151,6 +157,7 @@ std::size_t VulkanRayTracer::batch_rays() const {
 void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel& kernel,
                             const RayBatch& batch, HitArray hits, UintArray occluded) const {
   if (batch.count == 0) return;
+  recorder.bind_textures(device_scene_.textures());
   const VkDeviceAddress structure = acceleration_->address();
   const TraceArguments arguments = {
       uvec2(static_cast<uint>(structure), static_cast<uint>(structure >> 32)),
@@ -169,12 +176,12 @@ void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel&
 
 void VulkanRayTracer::closest_hits(vulkan::Recorder& recorder, const RayBatch& batch,
                                    HitArray hits) const {
-  trace(recorder, closest_, batch, hits, {});
+  trace(recorder, kernels_.closest, batch, hits, {});
 }
 
 void VulkanRayTracer::occlusions(vulkan::Recorder& recorder, const RayBatch& batch,
                                  UintArray occluded) const {
-  trace(recorder, occlusion_, batch, {}, occluded);
+  trace(recorder, kernels_.occlusion, batch, {}, occluded);
 }
 
 void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
@@ -183,7 +190,7 @@ void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
   parallel_chunks(rays.size(), kBatchRays, [&](std::size_t begin, std::size_t end) {
     const Borrowed staging(*this);
     const std::byte* results =
-        staging->carry(device_scene_, rays.subspan(begin, end - begin), sizeof(HitRecord),
+        staging->carry(device_, rays.subspan(begin, end - begin), sizeof(HitRecord),
                        [&](vulkan::Recorder& recorder, const RayBatch& batch,
                            VkDeviceAddress address) { closest_hits(recorder, batch, {address}); });
     for (std::size_t i = begin; i < end; ++i) {
@@ -201,7 +208,7 @@ void VulkanRayTracer::occlusions(std::span<const Ray> rays,
   parallel_chunks(rays.size(), kBatchRays, [&](std::size_t begin, std::size_t end) {
     const Borrowed staging(*this);
     const std::byte* results =
-        staging->carry(device_scene_, rays.subspan(begin, end - begin), sizeof(std::uint32_t),
+        staging->carry(device_, rays.subspan(begin, end - begin), sizeof(std::uint32_t),
                        [&](vulkan::Recorder& recorder, const RayBatch& batch,
                            VkDeviceAddress address) { occlusions(recorder, batch, {address}); });
     for (std::size_t i = begin; i < end; ++i) {

@@ -38,6 +38,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
                   UintArray occluded) const override;
 
  private:
+  struct Kernels;
   class Staging;
   class Borrowed;
 
@@ -48,7 +49,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
   const Scene& scene_;
   const DeviceScene& device_scene_;
   const vulkan::Device& device_;
-  vulkan::RayKernel closest_, occlusion_;
+  const Kernels& kernels_;
   std::unique_ptr<SceneAcceleration> acceleration_;
   AccelerationStatistics statistics_;
   mutable std::mutex staging_mutex_;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/device_kernels.h"
+
+#include <array>
+#include <string>
+
+#include "shaders/blend_distances_comp.h"
+#include "shaders/blend_in_comp.h"
+#include "shaders/blend_weights_comp.h"
+#include "shaders/compare_light_comp.h"
+#include "shaders/find_lookups_comp.h"
+#include "shaders/fit_comp.h"
+#include "shaders/gather_comp.h"
+#include "shaders/gutters_comp.h"
+#include "shaders/lookup_comp.h"
+#include "shaders/make_surfels_comp.h"
+#include "shaders/probe_rays_comp.h"
+#include "shaders/receive_comp.h"
+#include "shaders/see_distances_comp.h"
+#include "shaders/solve_step_comp.h"
+#include "shaders/solve_sums_comp.h"
+#include "shaders/store_irradiance_comp.h"
+
+namespace lambent {
+namespace {
+
+/// The constants of shaders/tiles.glsl.
+std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, int volumes,
+                                               int lookups) {
+  return {{{0, static_cast<std::uint32_t>(settings.irradiance_texels)},
+           {1, static_cast<std::uint32_t>(settings.distance_texels)},
+           {2, static_cast<std::uint32_t>(settings.irradiance_format)},
+           {3, static_cast<std::uint32_t>(settings.distance_format)},
+           {4, static_cast<std::uint32_t>(volumes)},
+           {5, static_cast<std::uint32_t>(lookups)}}};
+}
+
+}  // namespace
+
+FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+                           int lookups) {
+  const std::array constants = tile_constants(settings, volumes, lookups);
+  const auto make = [&](vulkan::Spirv spirv, const char* name) {
+    return vulkan::Kernel(device, spirv, name, constants);
+  };
+  blend_weights = make(shaders::blend_weights_comp(), "blend_weights");
+  probe_rays = make(shaders::probe_rays_comp(), "probe_rays");
+  make_surfels = make(shaders::make_surfels_comp(), "make_surfels");
+  see_distances = make(shaders::see_distances_comp(), "see_distances");
+  blend_distances = make(shaders::blend_distances_comp(), "blend_distances");
+  gutters = make(shaders::gutters_comp(), "gutters");
+  find_lookups = make(shaders::find_lookups_comp(), "find_lookups");
+  gather = make(shaders::gather_comp(), "gather");
+  receive = make(shaders::receive_comp(), "receive");
+  fit = make(shaders::fit_comp(), "fit");
+  blend_in = make(shaders::blend_in_comp(), "blend_in");
+  solve_sums = make(shaders::solve_sums_comp(), "solve_sums");
+  solve_step = make(shaders::solve_step_comp(), "solve_step");
+  store_irradiance = make(shaders::store_irradiance_comp(), "store_irradiance");
+  compare_light = make(shaders::compare_light_comp(), "compare_light");
+  lookup = make(shaders::lookup_comp(), "lookup");
+}
+
+}  // namespace lambent

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The kernels of a field's passes, made for the settings of one field.
+#pragma once
+
+#include "lambent/field.h"
+#include "vulkan/kernel.h"
+
+namespace lambent {
+
+// A surfel reads at most so many volumes; where more have a share in it, those asked first answer
+// for all. Cascades hand over to the next but one only within a cell or two.
+inline constexpr int kMaxSurfelLookups = 4;
+
+struct FieldKernels {
+  FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+               int lookups);
+
+  vulkan::Kernel blend_weights, probe_rays, make_surfels, see_distances, blend_distances, gutters;
+  vulkan::Kernel find_lookups, gather, receive, fit, blend_in, solve_sums, solve_step;
+  vulkan::Kernel store_irradiance, compare_light, lookup;
+};
+
+}  // namespace lambent

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small conveniences around buffers.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+
+#include "vulkan/buffer.h"
+#include "vulkan/device.h"
+
+namespace lambent {
+
+/// A buffer that the host writes and the device reads where it is: for what is used once.
+template <class T>
+vulkan::Buffer host_buffer(const vulkan::Device& device, std::span<const T> data,
+                           const std::string& name) {
+  vulkan::Buffer buffer(device, data.size_bytes(), vulkan::Memory::upload, name);
+  std::copy(data.begin(), data.end(), buffer.as<T>().begin());
+  return buffer;
+}
+
+/// Makes a buffer hold at least so many of a type. What it held is lost where it grows.
+template <class T>
+void reserve(const vulkan::Device& device, std::size_t count, const std::string& name,
+             vulkan::Buffer& buffer) {
+  if (buffer.bytes() >= count * sizeof(T) && buffer.handle() != VK_NULL_HANDLE) return;
+  buffer = vulkan::Buffer(device, count * sizeof(T), vulkan::Memory::device, name);
+}
+
+inline int round_up(int value, int multiple) {
+  return (value + multiple - 1) / multiple * multiple;
+}
+inline std::uint32_t groups_of(int count, int per_group) {
+  return static_cast<std::uint32_t>((count + per_group - 1) / per_group);
+}
+
+}  // namespace lambent

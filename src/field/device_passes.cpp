@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recording the passes of a field.
+#include <cassert>
+
+#include "field/device_field.h"
+#include "field/device_memory.h"
+
+namespace lambent {
+namespace {
+
+// Points in a row of a lookup's dispatch: rows are whole groups, and few enough.
+constexpr std::uint32_t kLookupRow = 1u << 20;
+
+/// Part of a list's array of indices.
+IntArray indices_from(const DeviceProbes& list, int first) {
+  return {list.indices.address() + static_cast<std::size_t>(first) * sizeof(int)};
+}
+
+template <class Array>
+Array from(const vulkan::Buffer& buffer, std::size_t first, std::size_t size) {
+  return {buffer.address() + first * size};
+}
+
+}  // namespace
+
+ProbeList DeviceField::arrays(const DeviceProbes& list) const {
+  return {list.index_array(), {list.ray_sets.address()}, {sets_.address()}};
+}
+
+StoreArrays DeviceField::store() const {
+  return {{grids_.address()}, {offsets_.address()}, {irradiance_.address()}, {distance_.address()}};
+}
+
+void DeviceField::record_rays(vulkan::Recorder& to, const DeviceProbes& list,
+                              const DeviceGroup& group, RayArray rays) const {
+  const RaySlot& slot = slots_[slot_of_[list.probes[group.first]]];
+  const ProbeRaysArguments arguments = {
+      store(),   indices_from(list, group.first), {slot.directions.address()}, rays, group.count,
+      group.rays};
+  to.run(kernels_.probe_rays, arguments, group.rays, group.count);
+  to.barrier();
+}
+
+void DeviceField::record_surfels(vulkan::Recorder& to, const DeviceProbes& list,
+                                 const DeviceGroup& group, LitPointArray points,
+                                 ShadedHitArray shaded, Vec3Array irradiance) const {
+  const MakeSurfelsArguments arguments = {indices_from(list, group.first),
+                                          points,
+                                          shaded,
+                                          irradiance,
+                                          {surfels_.address()},
+                                          group.count,
+                                          group.rays,
+                                          stride_};
+  to.run(kernels_.make_surfels, arguments, group.rays, group.count);
+  to.barrier();
+}
+
+void DeviceField::reserve_seen(const DeviceProbes& list) {
+  const auto count = static_cast<std::size_t>(list.count());
+  reserve<float>(device_, count * round_up(list.most_rays, kClusterLanes), "seen distances", seen_);
+  reserve<uint>(device_, count, "probes in solid matter", blocked_);
+}
+
+void DeviceField::record_seen_distances(vulkan::Recorder& to, const DeviceProbes& list,
+                                        const DeviceGroup& group, HitArray hits) {
+  const int seen_stride = round_up(list.most_rays, kClusterLanes);
+  const auto first = static_cast<std::size_t>(group.first);
+  const SeeDistancesArguments arguments = {
+      {grids_.address()},
+      indices_from(list, group.first),
+      hits,
+      {surfels_.address()},
+      from<FloatArray>(seen_, first * seen_stride, sizeof(float)),
+      from<UintArray>(blocked_, first, sizeof(uint)),
+      group.count,
+      group.rays,
+      stride_,
+      seen_stride};
+  to.run(kernels_.see_distances, arguments, group.count * kClusterLanes);
+  to.barrier();
+}
+
+void DeviceField::record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list,
+                                         FloatArray shares, uint salt) {
+  const int edge = settings_.distance_texels;
+  const BlendDistancesArguments arguments = {store(),
+                                             arrays(list),
+                                             list.block_array(),
+                                             {seen_.address()},
+                                             {blocked_.address()},
+                                             shares,
+                                             list.block_count,
+                                             round_up(list.most_rays, kClusterLanes),
+                                             salt};
+  to.run(kernels_.blend_distances, arguments, groups_of(edge * edge, kDistanceBlock) * kGroupLanes,
+         groups_of(list.block_count, kGroupLanes / kClusterLanes));
+  to.barrier();
+  record_gutters(to, {distance_.address()}, list.index_array(), list.count(), edge,
+                 words_per_distance_texel_);
+}
+
+void DeviceField::record_gutters(vulkan::Recorder& to, UintArray words, IntArray probes, int count,
+                                 int texels, int words_per_texel) const {
+  const GuttersArguments arguments = {words, probes, count, texels, words_per_texel};
+  to.run(kernels_.gutters, arguments, gutter_texels(texels), count);
+  to.barrier();
+}
+
+void DeviceField::record_lookups(vulkan::Recorder& to, const DeviceProbes& list) const {
+  const FindLookupsArguments arguments = {
+      store(),      arrays(list), {surfels_.address()}, {lookup_records_.address()},
+      list.count(), stride_};
+  to.run(kernels_.find_lookups, arguments, list.most_rays, list.count());
+  to.barrier();
+}
+
+void DeviceField::reserve_transport(const DeviceProbes& list) {
+  const auto count = static_cast<std::size_t>(list.count());
+  reserve<vec4>(device_, count * round_up(list.most_rays, kClusterLanes), "radiance", radiance_);
+  reserve<vec4>(device_, count * tile_texels(), "irradiance at centres", at_centres_);
+}
+
+TransportSize DeviceField::transport_size(const DeviceProbes& list) const {
+  const std::uint32_t blocks = groups_of(list.block_count, kGroupLanes / kClusterLanes);
+  const std::uint32_t columns = groups_of(tile_texels(), kIrradianceBlock);
+  const auto x = static_cast<int>(kernels_.gather.group_size(0));
+  const auto y = static_cast<int>(kernels_.gather.group_size(1));
+  return {{groups_of(round_up(list.most_rays, kClusterLanes), x), groups_of(list.count(), y), 1},
+          {columns, blocks, 1},
+          {columns, blocks, 1}};
+}
+
+void DeviceField::record_transport(vulkan::Recorder& to, const DeviceProbes& list,
+                                   const DeviceTransport& transport,
+                                   const TransportGroups& groups) const {
+  const int radiance_stride = round_up(list.most_rays, kClusterLanes);
+  const GatherArguments gather = {
+      arrays(list),    {corners_.address()},  {surfels_.address()}, {lookup_records_.address()},
+      transport.field, {radiance_.address()}, list.count(),         stride_,
+      radiance_stride, transport.light};
+  const ReceiveArguments receive = {arrays(list),          list.block_array(),
+                                    {radiance_.address()}, {at_centres_.address()},
+                                    list.block_count,      radiance_stride};
+  const FitArguments fit = {{fit_.address()},        list.block_array(),
+                            {at_centres_.address()}, transport.fallback,
+                            transport.gain,          transport.received,
+                            list.block_count,        transport.gain.address != 0 ? 1u : 0u};
+  const TransportSize size = transport_size(list);
+  const auto run = [&](const vulkan::Kernel& kernel, const auto& arguments, GroupCounts count,
+                       std::size_t offset) {
+    if (groups.buffer != nullptr) {
+      to.run_indirect(kernel, arguments, *groups.buffer, offset);
+    } else {
+      to.run(kernel, arguments, count.x * kernel.group_size(0), count.y * kernel.group_size(1));
+    }
+    to.barrier();
+  };
+  run(kernels_.gather, gather, size.over_rays, groups.rays);
+  run(kernels_.receive, receive, size.over_receive_blocks, groups.receive_blocks);
+  run(kernels_.fit, fit, size.over_fit_blocks, groups.fit_blocks);
+}
+
+void DeviceField::record_store_light(vulkan::Recorder& to, IntArray probes, int count,
+                                     uint salt) const {
+  const UintArray words = {irradiance_.address()};
+  const StoreIrradianceArguments arguments = {words, probes, {light_.address()}, count, salt};
+  to.run(kernels_.store_irradiance, arguments, tile_texels(), count);
+  to.barrier();
+  record_gutters(to, words, probes, count, settings_.irradiance_texels,
+                 words_per_irradiance_texel_);
+}
+
+void DeviceField::record_compare_light(vulkan::Recorder& to, const DeviceProbes& list,
+                                       Vec4Array before, float darkest, Vec3Array changes) const {
+  const CompareLightArguments arguments = {
+      list.index_array(), {light_.address()}, before, changes, list.count(), darkest};
+  to.run(kernels_.compare_light, arguments, list.count());
+  to.barrier();
+}
+
+void DeviceField::record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
+                                Vec3Array irradiance) const {
+  if (count == 0) return;
+  const std::uint32_t width = std::min(count, kLookupRow);
+  const LookupArguments arguments = {store(), queries, irradiance, static_cast<int>(count),
+                                     static_cast<int>(kLookupRow)};
+  to.run(kernels_.lookup, arguments, width, groups_of(static_cast<int>(count), kLookupRow));
+  to.barrier();
+}
+
+}  // namespace lambent
