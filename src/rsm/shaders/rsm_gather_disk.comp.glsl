@@ -38,7 +38,7 @@ void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
 void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
-  if (!find_pixel(args.view, size, 0, pixel)) return;
+  if (!find_pixel(args.view, size, own_place(0), pixel)) return;
   GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
   for (int m = 0; m < args.map_count; ++m) gather_map(sum, args.maps.at[m], pixel);
   finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
