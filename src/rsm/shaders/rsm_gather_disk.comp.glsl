@@ -11,8 +11,9 @@ layout(push_constant, scalar) uniform Push {
 /// Where a map's texel (x, y) of a sub-map lies.
 uint texel_index(int resolution, ivec2 sub_map, ivec2 place) {
   ivec2 texel = pixel_of_sub_image(sub_map, place, args.sub_maps);
-  return uint((args.flags & kGatherRendered) != 0u ? texel.y * resolution + texel.x
-                                                   : sub_map_texel(texel, resolution, args.sub_maps));
+  bool rendered = (args.flags & kGatherRendered) != 0u;
+  return uint(rendered ? texel.y * resolution + texel.x
+                       : sub_map_texel(texel, resolution, args.sub_maps));
 }
 
 void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
