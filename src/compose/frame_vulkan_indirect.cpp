@@ -23,7 +23,7 @@ void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count,
                                 const Buffer& irradiance) {
   const FieldDevice* there = field.on_device();
-  if (there != nullptr && there->is_on(request_.world) && there->records_lookups()) {
+  if (there != nullptr && there->is_on(request_.world)) {
     add(name, [there, &queries, &irradiance, count](Recorder& to) {
       there->record_lookups(to, queries.address(), count, irradiance.address());
     });

@@ -14,9 +14,13 @@
 #include "shaders/gutters_comp.h"
 #include "shaders/lookup_comp.h"
 #include "shaders/make_surfels_comp.h"
+#include "shaders/move_distances_comp.h"
 #include "shaders/probe_rays_comp.h"
 #include "shaders/receive_comp.h"
+#include "shaders/scatter_tiles_comp.h"
 #include "shaders/see_distances_comp.h"
+#include "shaders/see_surfels_comp.h"
+#include "shaders/send_back_comp.h"
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
@@ -59,6 +63,10 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   store_irradiance = make(shaders::store_irradiance_comp(), "store_irradiance");
   compare_light = make(shaders::compare_light_comp(), "compare_light");
   lookup = make(shaders::lookup_comp(), "lookup");
+  scatter_tiles = make(shaders::scatter_tiles_comp(), "scatter_tiles");
+  see_surfels = make(shaders::see_surfels_comp(), "see_surfels");
+  send_back = make(shaders::send_back_comp(), "send_back");
+  move_distances = make(shaders::move_distances_comp(), "move_distances");
 }
 
 }  // namespace lambent

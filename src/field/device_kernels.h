@@ -17,7 +17,8 @@ struct FieldKernels {
 
   vulkan::Kernel blend_weights, probe_rays, make_surfels, see_distances, blend_distances, gutters;
   vulkan::Kernel find_lookups, gather, receive, fit, blend_in, solve_sums, solve_step;
-  vulkan::Kernel store_irradiance, compare_light, lookup;
+  vulkan::Kernel store_irradiance, compare_light, lookup, scatter_tiles;
+  vulkan::Kernel see_surfels, move_distances, send_back;
 };
 
 }  // namespace lambent

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "field/device_memory.h"
 #include "shared/color.h"
@@ -19,6 +20,10 @@ constexpr int kMostRays = 1 << 18;
 
 // Queries of the host answered at a time, likewise.
 constexpr std::size_t kQueriesAtATime = 1 << 20;
+
+// The sum of what is sent back, in whole numbers: rounding to the nearest adds up to less than what
+// is left to 2^32.
+constexpr double kMostSent = 2147483648.0;
 
 // Passes that one command buffer may take the time of.
 constexpr std::uint32_t kTimedPasses = 16;
@@ -319,6 +324,29 @@ std::vector<double> FieldVulkan::direct_light(std::span<const int> probes) {
   return light;
 }
 
+std::vector<float> FieldVulkan::send_back(std::span<const float> received, float least) {
+  std::vector<int> sending;
+  for (int probe = 0; probe < field_.probes(); ++probe) {
+    if (received[probe] > least && field_.rays_of(probe)) sending.push_back(probe);
+  }
+  std::vector<float> sent(received.size(), 0.0f);
+  if (sending.empty()) return sent;
+  const DeviceProbes list = field_.list(sending);
+  const Buffer given = host_buffer(*device_, received, "importance");
+  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance sent");
+  // Whole numbers are added up, so that the order does not matter: what is sent is no more than
+  // what was received
+  const double most = std::accumulate(received.begin(), received.end(), 0.0);
+  const auto scale = static_cast<float>(kMostSent / most);
+  device_->run([&](Recorder& to) {
+    field_.record_send_back(to, list, {given.address()}, {taken.address()}, scale);
+  });
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    sent[i] = static_cast<float>(taken.as<std::uint32_t>()[i]) / scale;
+  }
+  return sent;
+}
+
 void FieldVulkan::irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const {
   for (std::size_t first = 0; first < queries.size(); first += kQueriesAtATime) {
     const std::size_t count = std::min(kQueriesAtATime, queries.size() - first);
@@ -331,10 +359,6 @@ void FieldVulkan::irradiance(std::span<const FieldQuery> queries, std::span<vec3
   }
 }
 
-bool FieldVulkan::records_lookups() const {
-  return settings_.visibility == Visibility::moments;
-}
-
 void FieldVulkan::record_lookups(Recorder& recorder, std::uint64_t queries, std::uint32_t count,
                                  std::uint64_t irradiance) const {
   field_.record_lookup(recorder, {queries}, count, {irradiance});
@@ -342,6 +366,8 @@ void FieldVulkan::record_lookups(Recorder& recorder, std::uint64_t queries, std:
 
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store) {
+  // Lookups that ask rays are found on the host, which asks the device for the rays
+  if (settings.visibility != Visibility::moments) return nullptr;
   return std::make_unique<FieldVulkan>(world, settings, store);
 }
 

@@ -39,9 +39,8 @@ class FieldVulkan final : public FieldDevice {
                WorkingIrradiance& received) override;
   std::vector<double> direct_light(std::span<const int> probes) override;
 
-  std::vector<float> importance(std::span<const FieldQuery> points) override;
+  std::vector<float> send_back(std::span<const float> received, float least) override;
   void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const override;
-  bool records_lookups() const override;
   void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries, std::uint32_t count,
                       std::uint64_t irradiance) const override;
 
