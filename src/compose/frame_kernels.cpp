@@ -23,6 +23,7 @@ FrameKernels::FrameKernels(const vulkan::Device& device)
       compose(device, shaders::compose_comp(), "compose"),
       pixel_shading(device),
       gather_shading(device),
+      mapper(device),
       rsm(device) {}
 
 }  // namespace lambent

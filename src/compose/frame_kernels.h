@@ -18,7 +18,9 @@ struct FrameKernels {
   vulkan::Kernel camera_rays, pixel_queries, gather_rays, ray_queries, gather_sum, replace_light,
       view_geometry, compose;
   HitShading pixel_shading, gather_shading;
+  RsmMapperVulkan mapper;
   RsmGathererVulkan rsm;
+  RsmMapsOnDevice maps;
 
   // Of a band's pixels
   vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;

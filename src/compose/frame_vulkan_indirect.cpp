@@ -188,25 +188,18 @@ void FramePassesVulkan::rsm() {
   small_ = add_geometry("rsm.view", width, height, kernels_.small_geometry);
   run_steps();
 
-  // Which texels light the view is decided by what it shows
-  std::vector<vec3> positions(pixels), normals(pixels);
-  std::vector<float> depths(pixels);
-  vulkan::read(device_, kernels_.small_geometry[0], std::span(positions));
-  vulkan::read(device_, kernels_.small_geometry[1], std::span(normals));
-  vulkan::read(device_, kernels_.small_geometry[2], std::span(depths));
-  const RsmView view{width, height, positions, normals, depths};
   const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   Stopwatch watch;
-  const std::vector<ReflectiveShadowMap> maps =
-      render_rsms(request_.world, request_.camera, aspect, by);
+  kernels_.mapper.render(request_.world, request_.camera, aspect, by, kernels_.maps);
   frame_.passes.push_back({"rsm", watch.lap()});
   RsmIrradiance light;
-  kernels_.rsm.gather(maps, view, by, light, &world_.tracer(), world_.scene().textures(),
-                      request_.sources.rsm_stages);
+  kernels_.rsm.light(kernels_.mapper, kernels_.maps, small_, by, world_, light,
+                     request_.sources.rsm_stages);
   frame_.rays += light.rays;
   frame_.passes.insert(frame_.passes.end(), light.passes.begin(), light.passes.end());
   if (request_.sources.rsm_stages) {
-    stage_layers_ = rsm_stage_layers(maps, light, settings.width, settings.height);
+    stage_layers_ = rsm_stage_layers(download_maps(device_, kernels_.maps), light, settings.width,
+                                     settings.height);
   }
 }
 

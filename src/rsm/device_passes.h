@@ -39,6 +39,10 @@ const uint kGatherDimmed = 2u;
 /// Texels are asked where they were rendered: `places` tells where.
 const uint kGatherRendered = 4u;
 
+/// Pixels of an invocation of rsm_gather, a tile's height apart: a texel that was read from the
+/// workgroup's memory, which takes as long as its arithmetic, serves all of them.
+const int kGatherPixels = 2;
+
 struct GatherArguments {
   DeviceView view;
   GatherTarget target;

@@ -20,16 +20,25 @@ using vulkan::Memory;
 constexpr std::uint32_t kTimedPasses = 8;
 
 /// Samples of the disks of a map, for the sub-maps in turn.
-void add_samples(const ReflectiveShadowMap& map, const RsmSettings& settings, int per_sub_map,
+void add_samples(int resolution, const RsmSettings& settings, int per_sub_map,
                  std::vector<DiskSample>& samples) {
   const int subs = settings.sub_maps * settings.sub_maps;
-  const float radius = settings.disk_radius * static_cast<float>(map.resolution);
+  const float radius = settings.disk_radius * static_cast<float>(resolution);
   for (int sub = 0; sub < subs; ++sub) {
     for (int k = 0; k < per_sub_map; ++k) {
       samples.push_back(disk_sample(static_cast<uint>(k * subs + sub),
                                     static_cast<uint>(per_sub_map * subs), radius));
     }
   }
+}
+
+/// Forgets what a result held.
+void start(int width, int height, RsmIrradiance& result) {
+  result.width = width;
+  result.height = height;
+  result.passes.clear();
+  result.stages.clear();
+  result.rays = 0;
 }
 
 }  // namespace
@@ -70,41 +79,71 @@ void RsmGathererVulkan::set_lights(const RsmLights& lights, const RsmSettings& s
   vulkan::write(device_, std::span(lights.places), texels_.places);
 }
 
-void RsmGathererVulkan::set_maps(std::span<const ReflectiveShadowMap> maps,
-                                 const RsmSettings& settings) {
+/// A map on the device, as it was rendered.
+struct RsmGathererVulkan::DiskSource {
+  const RsmProjection* projection;
+  int resolution;
+  RsmTexelArray rendered;
+};
+
+void RsmGathererVulkan::set_disks(std::span<const DiskSource> sources,
+                                  const RsmSettings& settings) {
   const int subs = settings.sub_maps * settings.sub_maps;
-  texels_.map_count = static_cast<int>(maps.size());
+  const bool restructured = settings.layout != RsmLayout::full;
+  texels_.map_count = static_cast<int>(sources.size());
   texels_.samples_per_sub_map = (settings.texels + subs - 1) / subs;
   const auto samples_per_map = static_cast<std::size_t>(texels_.samples_per_sub_map * subs);
-  std::size_t texel_count = 0;
-  for (const ReflectiveShadowMap& map : maps) texel_count += map.texels.size();
-  reserve(texels_.map_texels, texel_count * sizeof(RsmTexel), "rsm.map_texels");
-  reserve(texels_.samples, maps.size() * samples_per_map * sizeof(DiskSample), "rsm.samples");
+  std::size_t texels = 0;
+  for (const DiskSource& map : sources)
+    texels += static_cast<std::size_t>(map.resolution) * map.resolution;
+  if (restructured) reserve(texels_.map_texels, texels * sizeof(RsmTexel), "rsm.map_texels");
+  reserve(texels_.samples, sources.size() * samples_per_map * sizeof(DiskSample), "rsm.samples");
 
   std::vector<DiskMap> records;
   std::vector<DiskSample> samples;
-  std::size_t first = 0;
-  for (const ReflectiveShadowMap& map : maps) {
-    const RsmTexelArray texels = {texels_.map_texels.address() + first * sizeof(RsmTexel)};
-    records.push_back({texels,
-                       {texels_.samples.address() + samples.size() * sizeof(DiskSample)},
-                       to_record(map.projection),
-                       map.resolution});
-    add_samples(map, settings, texels_.samples_per_sub_map, samples);
-    if (settings.layout == RsmLayout::full) {
-      vulkan::write(device_, std::span(map.texels), texels_.map_texels, first);
-    } else {
-      const vulkan::Buffer rendered = vulkan::upload(device_, map.texels, "rsm.map");
-      const RestructureArguments arguments = {
-          {rendered.address()}, texels, map.resolution, settings.sub_maps};
+  RsmTexelArray next = {texels_.map_texels.address()};
+  device_.run([&](vulkan::Recorder& to) {
+    for (const DiskSource& map : sources) {
+      records.push_back({restructured ? next : map.rendered,
+                         {texels_.samples.address() + samples.size() * sizeof(DiskSample)},
+                         to_record(*map.projection),
+                         map.resolution});
+      add_samples(map.resolution, settings, texels_.samples_per_sub_map, samples);
+      if (!restructured) continue;
+      const RestructureArguments arguments = {map.rendered, next, map.resolution,
+                                              settings.sub_maps};
       const auto edge = static_cast<std::uint32_t>(map.resolution);
-      device_.run([&](vulkan::Recorder& to) { to.run(restructure_, arguments, edge, edge); });
+      to.run(restructure_, arguments, edge, edge);
+      next.address += static_cast<std::size_t>(edge) * edge * sizeof(RsmTexel);
     }
-    first += map.texels.size();
-  }
-  reserve(texels_.maps, records.size() * sizeof(DiskMap), "rsm.maps");
+  });
+  reserve(texels_.maps, records.size() * sizeof(DiskMap), "rsm.disk_maps");
   vulkan::write(device_, std::span<const DiskMap>(records), texels_.maps);
   vulkan::write(device_, std::span<const DiskSample>(samples), texels_.samples);
+}
+
+void RsmGathererVulkan::set_maps(std::span<const ReflectiveShadowMap> maps,
+                                 const RsmSettings& settings) {
+  std::size_t texels = 0;
+  for (const ReflectiveShadowMap& map : maps) texels += map.texels.size();
+  reserve(uploaded_maps_, texels * sizeof(RsmTexel), "rsm.uploaded_maps");
+  std::vector<DiskSource> sources;
+  std::size_t first = 0;
+  for (const ReflectiveShadowMap& map : maps) {
+    vulkan::write(device_, std::span(map.texels), uploaded_maps_, first);
+    sources.push_back(
+        {&map.projection, map.resolution, {uploaded_maps_.address() + first * sizeof(RsmTexel)}});
+    first += map.texels.size();
+  }
+  set_disks(sources, settings);
+}
+
+void RsmGathererVulkan::set_maps(const RsmMapsOnDevice& maps, const RsmSettings& settings) {
+  std::vector<DiskSource> sources;
+  for (std::size_t i = 0; i < maps.projections.size(); ++i) {
+    sources.push_back({&maps.projections[i], maps.resolution, maps.of(i)});
+  }
+  set_disks(sources, settings);
 }
 
 void RsmGathererVulkan::reserve_picture(int width, int height, const RsmSettings& settings,
@@ -161,17 +200,50 @@ void RsmGathererVulkan::record_upsampling(vulkan::Recorder& recorder, const RsmV
   recorder.barrier();
 }
 
+void RsmGathererVulkan::run(const RsmViewOnDevice& view, const RsmSettings& settings,
+                            const DeviceTracer* tracer, VkDescriptorSet textures, bool keep_stages,
+                            RsmIrradiance& result) {
+  vulkan::Timestamps timestamps(device_, kTimedPasses);
+  device_.run([&](vulkan::Recorder& untimed) {
+    vulkan::Recorder recorder(device_, untimed.commands(), &timestamps);
+    if (textures != VK_NULL_HANDLE) recorder.bind_textures(textures);
+    record(recorder, view, settings, tracer, keep_stages);
+  });
+  for (const vulkan::DevicePassTime& time : timestamps.read()) {
+    result.passes.push_back({time.name, time.ms});
+  }
+  for (int stage = 0; keep_stages && stage < kRsmStages; ++stage) {
+    const bool last = stage == static_cast<int>(RsmStage::blurred);
+    result.irradiance.resize(static_cast<std::size_t>(view.width) * view.height);
+    vulkan::read(device_, last ? picture_.picture : picture_.stages[stage],
+                 std::span(result.irradiance));
+    add_stage_layers(static_cast<RsmStage>(stage), result.irradiance, settings, result);
+  }
+  if (settings.visibility_rays == 0 || texels_.count == 0) return;
+  std::uint32_t rays = 0;
+  vulkan::read(device_, picture_.ray_count, std::span(&rays, 1));
+  result.rays = rays;
+}
+
+void RsmGathererVulkan::light(RsmMapperVulkan& mapper, const RsmMapsOnDevice& maps,
+                              const RsmViewOnDevice& view, const RsmSettings& settings,
+                              const DeviceWorld& world, RsmIrradiance& result, bool keep_stages) {
+  start(view.width, view.height, result);
+  Stopwatch watch;
+  if (settings.pattern == RsmPattern::whole) {
+    set_lights(mapper.choose(maps, view, settings), settings);
+  } else {
+    set_maps(maps, settings);
+  }
+  result.passes.push_back({"rsm.choose", watch.lap()});
+  run(view, settings, &world.tracer(), world.scene().textures(), keep_stages, result);
+}
+
 void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                                const RsmSettings& settings, RsmIrradiance& result,
                                const DeviceTracer* tracer, VkDescriptorSet textures,
                                bool keep_stages) {
-  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
-  result.width = view.width;
-  result.height = view.height;
-  result.irradiance.resize(pixels);
-  result.passes.clear();
-  result.stages.clear();
-  result.rays = 0;
+  start(view.width, view.height, result);
   Stopwatch watch;
   if (settings.pattern == RsmPattern::whole) {
     set_lights(choose_lights(maps, view, settings), settings);
@@ -185,28 +257,9 @@ void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const 
   const vulkan::Buffer depths = vulkan::upload(device_, view.depths, "rsm.depths");
   const RsmViewOnDevice on_device = {
       view.width, view.height, {{positions.address()}, {normals.address()}, {depths.address()}}};
-  vulkan::Timestamps timestamps(device_, kTimedPasses);
-  device_.run([&](vulkan::Recorder& untimed) {
-    vulkan::Recorder recorder(device_, untimed.commands(), &timestamps);
-    if (textures != VK_NULL_HANDLE) recorder.bind_textures(textures);
-    record(recorder, on_device, settings, tracer, keep_stages);
-  });
-  for (const vulkan::DevicePassTime& time : timestamps.read()) {
-    result.passes.push_back({time.name, time.ms});
-  }
-  const auto read = [&](const vulkan::Buffer& from) {
-    vulkan::read(device_, from, std::span(result.irradiance));
-  };
-  for (int stage = 0; keep_stages && stage < kRsmStages; ++stage) {
-    const bool last = stage == static_cast<int>(RsmStage::blurred);
-    read(last ? picture_.picture : picture_.stages[stage]);
-    add_stage_layers(static_cast<RsmStage>(stage), result.irradiance, settings, result);
-  }
-  read(picture_.picture);
-  if (settings.visibility_rays == 0 || texels_.count == 0) return;
-  std::uint32_t rays = 0;
-  vulkan::read(device_, picture_.ray_count, std::span(&rays, 1));
-  result.rays = rays;
+  run(on_device, settings, tracer, textures, keep_stages, result);
+  result.irradiance.resize(static_cast<std::size_t>(view.width) * view.height);
+  vulkan::read(device_, picture_.picture, std::span(result.irradiance));
 }
 
 }  // namespace lambent

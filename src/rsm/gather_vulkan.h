@@ -8,6 +8,7 @@
 
 #include "lambent/rsm.h"
 #include "rsm/lights.h"
+#include "rsm/maps_vulkan.h"
 #include "rsm/passes_vulkan.h"
 #include "vulkan/device.h"
 
@@ -24,6 +25,8 @@ class RsmGathererVulkan {
   void set_lights(const RsmLights& lights, const RsmSettings& settings);
   /// Brings maps to the device, as RsmPattern::disk reads them. Waits.
   void set_maps(std::span<const ReflectiveShadowMap> maps, const RsmSettings& settings);
+  /// The same of maps that are there, and must stay.
+  void set_maps(const RsmMapsOnDevice& maps, const RsmSettings& settings);
 
   /// Records all passes and a barrier after each. What was set must have been so with the same
   /// settings, which must be in range. `tracer` is asked for visibility alone, and may be null
@@ -43,6 +46,12 @@ class RsmGathererVulkan {
   /// buffer may be larger.
   const vulkan::Buffer& irradiance() const { return picture_.picture; }
 
+  /// Gathers the light of maps that `mapper` made, and leaves it on the device; the result's times,
+  /// rays and stages are filled in. Waits.
+  void light(RsmMapperVulkan& mapper, const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
+             const RsmSettings& settings, const DeviceWorld& world, RsmIrradiance& result,
+             bool keep_stages = false);
+
   /// All of it, as RsmGatherer does: brings everything to the device, and the light back. Textures
   /// that the tracer needs: `textures`.
   void gather(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
@@ -53,12 +62,17 @@ class RsmGathererVulkan {
  private:
   const RsmKernels& kernels(int sub_images);
   void reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name);
+  struct DiskSource;
+  void set_disks(std::span<const DiskSource> sources, const RsmSettings& settings);
+  void run(const RsmViewOnDevice& view, const RsmSettings& settings, const DeviceTracer* tracer,
+           VkDescriptorSet textures, bool keep_stages, RsmIrradiance& result);
   void reserve_picture(int width, int height, const RsmSettings& settings, bool keep_stages);
 
   const vulkan::Device& device_;
   std::map<int, RsmKernels> kernels_;
   vulkan::Kernel restructure_, upsample_;
   RsmTexelsOnDevice texels_;
+  vulkan::Buffer uploaded_maps_;
   RsmPictureOnDevice picture_;
 };
 

@@ -68,14 +68,6 @@ void weigh(std::span<const TermSums> sums, std::vector<Cluster>& clusters) {
   }
 }
 
-std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
-  std::vector<Cluster> chosen;
-  for (const std::uint32_t i : morton_order(map.resolution)) {
-    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
-  }
-  return chosen;
-}
-
 }  // namespace
 
 ViewPoints::ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
@@ -139,13 +131,24 @@ std::vector<std::uint32_t> morton_order(int resolution) {
   return order;
 }
 
+namespace {
+
+void shuffle(std::vector<std::uint32_t>& deal, RandomStream& random) {
+  for (auto left = static_cast<std::uint32_t>(deal.size()); left > 1; --left) {
+    const auto other = static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
+    std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
+  }
+}
+
+}  // namespace
+
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings) {
   const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
-  struct DealtTexel {
+  struct Dealt {
     RsmTexel texel;
     std::uint32_t place;
   };
-  std::vector<std::vector<DealtTexel>> dealt(subs);
+  std::vector<std::vector<Dealt>> dealt(subs);
   std::uint32_t first = 0;
   for (std::size_t m = 0; m < maps.size(); ++m) {
     // Deal each run of neighbours to all sub-maps: in order, or in one of its own
@@ -154,16 +157,10 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
     std::iota(deal.begin(), deal.end(), 0u);
     RandomStream random = make_random_stream(static_cast<uint>(m), kDealSalt, settings.seed);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      if (settings.shuffle && k % subs == 0) {
-        for (std::uint32_t left = subs; left > 1; --left) {
-          const auto other =
-              static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
-          std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
-        }
-      }
+      if (settings.shuffle && k % subs == 0) shuffle(deal, random);
       // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
       // is spread no wider for that, as the blurs bring all sub-maps together
-      DealtTexel light = {chosen[k].texel, first + chosen[k].place};
+      Dealt light = {chosen[k].texel, first + chosen[k].place};
       light.texel.flux *= static_cast<float>(subs);
       light.texel.softening *= settings.softening;
       dealt[deal[k % subs]].push_back(light);
@@ -173,10 +170,10 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
 
   // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
   std::size_t longest = 0;
-  for (const std::vector<DealtTexel>& sub_map : dealt) longest = std::max(longest, sub_map.size());
-  DealtTexel dark = {{}, first};
+  for (const std::vector<Dealt>& sub_map : dealt) longest = std::max(longest, sub_map.size());
+  Dealt dark = {{}, first};
   dark.texel.softening = 1.0f;
-  for (std::vector<DealtTexel>& sub_map : dealt) sub_map.resize(longest, dark);
+  for (std::vector<Dealt>& sub_map : dealt) sub_map.resize(longest, dark);
 
   // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
   // together the ways to all
@@ -190,14 +187,33 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
 
   RsmLights lights;
   lights.starts.push_back(0);
-  for (const std::vector<DealtTexel>& sub_map : dealt) {
-    for (const DealtTexel& light : sub_map) {
+  for (const std::vector<Dealt>& sub_map : dealt) {
+    for (const Dealt& light : sub_map) {
       lights.places.push_back(light.place);
       lights.restructured.push_back(light.texel);
     }
     lights.starts.push_back(static_cast<std::uint32_t>(lights.places.size()));
   }
   return lights;
+}
+
+std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
+  std::vector<Cluster> chosen;
+  for (const std::uint32_t i : morton_order(map.resolution)) {
+    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
+  }
+  return chosen;
+}
+
+void place_rendered(std::span<const ReflectiveShadowMap> maps, RsmLights& lights) {
+  lights.rendered.clear();
+  for (const ReflectiveShadowMap& map : maps) {
+    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
+  }
+  lights.rendered.emplace_back().softening = 1.0f;
+  for (std::size_t k = 0; k < lights.places.size(); ++k) {
+    lights.rendered[lights.places[k]] = lights.restructured[k];
+  }
 }
 
 RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
@@ -218,13 +234,7 @@ RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView
     chosen.push_back(std::move(of_map));
   }
   RsmLights lights = deal_lights(chosen, settings);
-  for (const ReflectiveShadowMap& map : maps) {
-    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
-  }
-  lights.rendered.emplace_back().softening = 1.0f;
-  for (std::size_t k = 0; k < lights.places.size(); ++k) {
-    lights.rendered[lights.places[k]] = lights.restructured[k];
-  }
+  place_rendered(maps, lights);
   return lights;
 }
 

@@ -64,6 +64,12 @@ struct ChosenOfMap {
 /// Deals what was chosen to sub-maps. `rendered` stays empty.
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings);
 
+/// All texels that are lit, as they are, neighbours after each other.
+std::vector<Cluster> all_texels(const ReflectiveShadowMap& map);
+
+/// Fills in `rendered`.
+void place_rendered(std::span<const ReflectiveShadowMap> maps, RsmLights& lights);
+
 /// The order in which a curve that keeps neighbours together (Morton 1966) visits the texels of a
 /// square map of any size.
 std::vector<std::uint32_t> morton_order(int resolution);

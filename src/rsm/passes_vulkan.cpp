@@ -128,8 +128,8 @@ void RsmPassesOnDevice::gather_whole() {
   const int p = mosaic_sub_images(settings_);
   const bool rendered = settings_.layout == RsmLayout::full;
   // Where the picture is not restructured, neighbouring pixels ask different sub-maps
-  const vulkan::Kernel& kernel =
-      p == 1 && settings_.sub_maps > 1 ? kernels_.gather_mixed : kernels_.gather;
+  const bool mixed = p == 1 && settings_.sub_maps > 1;
+  const vulkan::Kernel& kernel = mixed ? kernels_.gather_mixed : kernels_.gather;
   const vulkan::Buffer& texels = rendered ? texels_.rendered : texels_.restructured;
   const GatherArguments arguments = {view_.arrays,
                                      target(),
@@ -142,7 +142,10 @@ void RsmPassesOnDevice::gather_whole() {
                                      flags(),
                                      0};
   const Tiles tiles = tiles_of(kernel, p);
-  recorder_.run(kernel, arguments, tiles.width, tiles.height);
+  const int taller = mixed ? 1 : kGatherPixels;
+  const int rows = groups(static_cast<int>(tiles.height), kGatherTileHeight * taller);
+  recorder_.run(kernel, arguments, tiles.width,
+                static_cast<std::uint32_t>(rows * kGatherTileHeight));
 }
 
 void RsmPassesOnDevice::gather_disks() {

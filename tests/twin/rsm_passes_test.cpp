@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "compose/rsm_frame.h"
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_world.h"
 #include "rsm/gather_vulkan.h"
@@ -85,18 +86,10 @@ constexpr float kBlurredDifference = 0.02f;
 
 class RsmTwin : public test::OnDevice {
  protected:
-  void SetUp() override {
-    OnDevice::SetUp();
-    if (!IsSkipped()) gatherer_ = std::make_unique<RsmGathererVulkan>(device());
-  }
-  void TearDown() override {
-    gatherer_.reset();
-    OnDevice::TearDown();
-  }
   RsmIrradiance on_device(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                           const RsmSettings& settings, bool keep_stages = false) {
     RsmIrradiance result;
-    gatherer_->gather(maps, view, settings, result, nullptr, VK_NULL_HANDLE, keep_stages);
+    gatherer().gather(maps, view, settings, result, nullptr, VK_NULL_HANDLE, keep_stages);
     return result;
   }
   static RsmIrradiance on_host(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
@@ -112,10 +105,20 @@ class RsmTwin : public test::OnDevice {
     return difference(on_host(maps, view, settings).irradiance,
                       on_device(maps, view, settings).irradiance);
   }
-  RsmGathererVulkan& gatherer() { return *gatherer_; }
+  static RsmGathererVulkan& gatherer() { return device().kept<RsmGathererVulkan>(); }
+};
 
- private:
-  std::unique_ptr<RsmGathererVulkan> gatherer_;
+/// A view in the device's memory.
+struct ViewBuffers {
+  ViewBuffers(const vulkan::Device& device, const RsmView& view)
+      : positions(vulkan::upload(device, view.positions_ws, "positions")),
+        normals(vulkan::upload(device, view.normals_ws, "normals")),
+        depths(vulkan::upload(device, view.depths, "depths")),
+        on_device{view.width,
+                  view.height,
+                  {{positions.address()}, {normals.address()}, {depths.address()}}} {}
+  vulkan::Buffer positions, normals, depths;
+  RsmViewOnDevice on_device;
 };
 
 RsmSettings few_texels() {
@@ -252,8 +255,8 @@ TEST_F(RsmTwin, FindsTheSameTexelsHidden) {
   RsmGatherer().gather(box.host, box.maps, box.seen.view(), settings, expected);
   for (const RsmLayout layout : {RsmLayout::full, RsmLayout::restructured}) {
     settings.layout = layout;
-    gatherer().gather(box.maps, box.seen.view(), settings, result,
-                      &box.world.on_device()->tracer());
+    gatherer().gather(box.maps, box.seen.view(), settings, result, &box.world.on_device()->tracer(),
+                      box.world.on_device()->scene().textures());
     EXPECT_EQ(result.rays, expected.rays);
     // Rays that graze an edge, or were drawn on one, may be told otherwise: a pixel in a hundred
     std::size_t others = 0;
@@ -263,6 +266,46 @@ TEST_F(RsmTwin, FindsTheSameTexelsHidden) {
     }
     EXPECT_LT(others, expected.irradiance.size() / 100);
   }
+}
+
+TEST_F(RsmTwin, UpsamplesTheSameLight) {
+  const Cornell box(shared_device());
+  const Camera& camera = box.scene.cameras[0];
+  FrameSettings frame;
+  frame.width = 61;
+  frame.height = 43;
+  RsmSettings settings = few_texels();
+  settings.resolution = 96;
+  settings.downscale = 3;
+  const RsmFrame small = light_by_rsm(box.host, camera, frame, settings, false);
+  GBuffer gbuffer;
+  trace_gbuffer(box.host, camera, frame, {0, frame.height}, 0, gbuffer);
+  std::vector<vec3> expected;
+  look_up_rsm(small, gbuffer, camera, frame.width, {0, frame.height}, expected);
+
+  RsmIrradiance light;
+  const RsmView small_view = {small.light.width, small.light.height, small.positions_ws,
+                              small.normals_ws, small.depths};
+  gatherer().gather(render_rsms(box.host, camera, 61.0f / 43.0f, settings), small_view, settings,
+                    light);
+  const ViewBuffers from(device(), small_view), to(device(), box.seen.view());
+  // The picture in two bands of rows
+  constexpr int kFirstRows = 17;
+  const auto first = static_cast<std::size_t>(kFirstRows) * frame.width;
+  RsmViewOnDevice upper = to.on_device, lower = to.on_device;
+  upper.height = kFirstRows;
+  lower.height = frame.height - kFirstRows;
+  lower.arrays.positions_ws.address += first * sizeof(vec3);
+  lower.arrays.normals_ws.address += first * sizeof(vec3);
+  lower.arrays.depths.address += first * sizeof(float);
+  const vulkan::Buffer out(device(), expected.size() * sizeof(vec3), vulkan::Memory::device,
+                           "upsampled");
+  device().run([&](vulkan::Recorder& recorder) {
+    gatherer().record_upsampling(recorder, from.on_device, settings, upper, 0, {out.address()});
+    gatherer().record_upsampling(recorder, from.on_device, settings, lower, kFirstRows,
+                                 {out.address() + first * sizeof(vec3)});
+  });
+  EXPECT_LT(difference(expected, vulkan::download<vec3>(device(), out)), kBlurredDifference);
 }
 
 }  // namespace

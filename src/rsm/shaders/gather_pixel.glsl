@@ -16,9 +16,13 @@ struct Pixel {
   vec3 normal_ws;
 };
 
-/// This invocation's; false where the picture has none.
-bool find_pixel(DeviceView view, ivec2 size, int first_row, out Pixel pixel) {
-  ivec2 place = tile_of_group(kSubImages, first_row) + ivec2(gl_LocalInvocationID);
+/// This invocation's place, where the first row of workgroups is that row of tiles.
+ivec2 own_place(int first_row) {
+  return tile_of_group(kSubImages, first_row) + ivec2(gl_LocalInvocationID);
+}
+
+/// The pixel at a place of this workgroup's sub-image; false where the picture has none.
+bool find_pixel(DeviceView view, ivec2 size, ivec2 place, out Pixel pixel) {
   pixel.at = pixel_of_sub_image(sub_image_of_group(kSubImages), place, kSubImages);
   pixel.position_ws = vec3(0.0f);
   pixel.normal_ws = vec3(0.0f);

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
-  if (!find_pixel(args.view, size, args.first_tile_row, pixel)) return;
+  if (!find_pixel(args.view, size, own_place(args.first_tile_row), pixel)) return;
   uint first = invocation_index() * uint(args.rays_per_pixel);
   uint occluded = 0u;
   for (int i = 0; i < args.rays_per_pixel; ++i) {

@@ -34,13 +34,24 @@ RsmTexelRecord staged_texel(int k) {
   return texel;
 }
 
+/// This invocation's pixels, one below the other's tile.
+ivec2 place_of(int i) {
+  ivec2 place = own_place(0);
+  int rows = int(gl_WorkGroupSize.y);
+  return ivec2(place.x, place.y + rows * (int(gl_WorkGroupID.y) * (kGatherPixels - 1) + i));
+}
+
 void main() {
-  Pixel pixel;
+  Pixel pixels[kGatherPixels];
+  bool exists[kGatherPixels];
+  GatheredLight sums[kGatherPixels];
   ivec2 size = ivec2(args.width, args.height);
-  bool exists = find_pixel(args.view, size, 0, pixel);
+  for (int i = 0; i < kGatherPixels; ++i) {
+    exists[i] = find_pixel(args.view, size, place_of(i), pixels[i]);
+    sums[i] = GatheredLight(vec3(0.0f), vec3(0.0f));
+  }
   bool ways = (args.flags & kGatherBlurred) != 0u;
   int sub_map = sub_map_of(sub_image_of_group(kSubImages), args.sub_maps);
-  GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
   for (int first = 0; first < args.count; first += kGroup) {
     barrier();
     stage_texel(sub_map, first + int(gl_LocalInvocationIndex));
@@ -48,10 +59,14 @@ void main() {
     int count = min(kGroup, args.count - first);
     for (int k = 0; k < count; ++k) {
       RsmTexelRecord texel = staged_texel(k);
-      TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
-      gather_texel(sum, pixel.normal_ws, sight, texel);
-      if (ways && k % kTexelsPerWay == 0) gather_way(sum, sight, texel);
+      for (int i = 0; i < kGatherPixels; ++i) {
+        TexelSight sight = see_texel(pixels[i].position_ws, pixels[i].normal_ws, texel);
+        gather_texel(sums[i], pixels[i].normal_ws, sight, texel);
+        if (ways && k % kTexelsPerWay == 0) gather_way(sums[i], sight, texel);
+      }
     }
   }
-  if (exists) finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
+  for (int i = 0; i < kGatherPixels; ++i) {
+    if (exists[i]) finish_pixel(args.view, args.target, size, args.flags, pixels[i], sums[i]);
+  }
 }

@@ -11,8 +11,9 @@ layout(push_constant, scalar) uniform Push {
 /// Where a map's texel (x, y) of a sub-map lies.
 uint texel_index(int resolution, ivec2 sub_map, ivec2 place) {
   ivec2 texel = pixel_of_sub_image(sub_map, place, args.sub_maps);
-  return uint((args.flags & kGatherRendered) != 0u ? texel.y * resolution + texel.x
-                                                   : sub_map_texel(texel, resolution, args.sub_maps));
+  bool rendered = (args.flags & kGatherRendered) != 0u;
+  return uint(rendered ? texel.y * resolution + texel.x
+                       : sub_map_texel(texel, resolution, args.sub_maps));
 }
 
 void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
@@ -38,7 +39,7 @@ void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
 void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
-  if (!find_pixel(args.view, size, 0, pixel)) return;
+  if (!find_pixel(args.view, size, own_place(0), pixel)) return;
   GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
   for (int m = 0; m < args.map_count; ++m) gather_map(sum, args.maps.at[m], pixel);
   finish_pixel(args.view, args.target, size, args.flags, pixel, sum);

@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
-  if (!find_pixel(args.view, size, 0, pixel)) return;
+  if (!find_pixel(args.view, size, own_place(0), pixel)) return;
   bool ways = (args.flags & kGatherBlurred) != 0u;
   bool rendered = (args.flags & kGatherRendered) != 0u;
   uint start = uint(sub_map_of(pixel.at, args.sub_maps) * args.count);

@@ -28,9 +28,10 @@ void main() {
   int i = pixel.y * args.width + pixel.x;
   float depth = args.surfaces.depths.at[i];
   vec3 light = vec3(0.0f);
+  vec2 in_frame = vec2(pixel.x, pixel.y + args.first_row);
   if (depth > 0.0f) {
     light = upsample_light(ivec2(args.small_width, args.small_height),
-                           place_in_small_picture(vec2(pixel.x, pixel.y + args.first_row), args.inverse_downscale),
+                           place_in_small_picture(in_frame, args.inverse_downscale),
                            args.surfaces.positions_ws.at[i], args.surfaces.normals_ws.at[i],
                            1.0f / (args.plane_tolerance * depth));
   }

@@ -33,7 +33,7 @@ float worth(Pixel pixel, RsmTexelRecord texel) {
 void main() {
   Pixel pixel;
   ivec2 size = ivec2(args.width, args.height);
-  bool exists = find_pixel(args.view, size, args.first_tile_row, pixel);
+  bool exists = find_pixel(args.view, size, own_place(args.first_tile_row), pixel);
   int start = sub_map_of(pixel.at, args.sub_maps) * args.count;
   float total = 0.0f;
   for (int k = 0; exists && k < args.count; ++k) total += worth(pixel, texel_at(start, k));
