@@ -122,7 +122,10 @@ class DeviceField {
   /// As TransportOperator::apply, apply_direct and apply_sky.
   void record_transport(vulkan::Recorder& to, const DeviceProbes& list,
                         const DeviceTransport& transport, const TransportGroups& groups = {}) const;
-  /// Makes room for it: before it is recorded.
+  /// Its second half alone: from the radiance that was gathered last.
+  void record_receive(vulkan::Recorder& to, const DeviceProbes& list,
+                      const DeviceTransport& transport, const TransportGroups& groups = {}) const;
+  /// Makes room for both: before they are recorded.
   void reserve_transport(const DeviceProbes& list);
   /// Groups of its kernels.
   TransportSize transport_size(const DeviceProbes& list) const;

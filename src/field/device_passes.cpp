@@ -21,6 +21,18 @@ Array from(const vulkan::Buffer& buffer, std::size_t first, std::size_t size) {
   return {buffer.address() + first * size};
 }
 
+/// Runs so many groups of a kernel, or as many as the device says.
+template <class Arguments>
+void run_groups(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
+                const GroupCounts& count, const TransportGroups& groups, std::size_t offset) {
+  if (groups.buffer != nullptr) {
+    to.run_indirect(kernel, arguments, *groups.buffer, offset);
+  } else {
+    to.run(kernel, arguments, count.x * kernel.group_size(0), count.y * kernel.group_size(1));
+  }
+  to.barrier();
+}
+
 }  // namespace
 
 ProbeList DeviceField::arrays(const DeviceProbes& list) const {
@@ -134,31 +146,34 @@ TransportSize DeviceField::transport_size(const DeviceProbes& list) const {
 void DeviceField::record_transport(vulkan::Recorder& to, const DeviceProbes& list,
                                    const DeviceTransport& transport,
                                    const TransportGroups& groups) const {
-  const int radiance_stride = round_up(list.most_rays, kClusterLanes);
-  const GatherArguments gather = {
-      arrays(list),    {corners_.address()},  {surfels_.address()}, {lookup_records_.address()},
-      transport.field, {radiance_.address()}, list.count(),         stride_,
-      radiance_stride, transport.light};
+  const GatherArguments gather = {arrays(list),
+                                  {corners_.address()},
+                                  {surfels_.address()},
+                                  {lookup_records_.address()},
+                                  transport.field,
+                                  {radiance_.address()},
+                                  list.count(),
+                                  stride_,
+                                  round_up(list.most_rays, kClusterLanes),
+                                  transport.light};
+  run_groups(to, kernels_.gather, gather, transport_size(list).over_rays, groups, groups.rays);
+  record_receive(to, list, transport, groups);
+}
+
+void DeviceField::record_receive(vulkan::Recorder& to, const DeviceProbes& list,
+                                 const DeviceTransport& transport,
+                                 const TransportGroups& groups) const {
   const ReceiveArguments receive = {arrays(list),          list.block_array(),
                                     {radiance_.address()}, {at_centres_.address()},
-                                    list.block_count,      radiance_stride};
+                                    list.block_count,      round_up(list.most_rays, kClusterLanes)};
   const FitArguments fit = {{fit_.address()},        list.block_array(),
                             {at_centres_.address()}, transport.fallback,
                             transport.gain,          transport.received,
                             list.block_count,        transport.gain.address != 0 ? 1u : 0u};
   const TransportSize size = transport_size(list);
-  const auto run = [&](const vulkan::Kernel& kernel, const auto& arguments, GroupCounts count,
-                       std::size_t offset) {
-    if (groups.buffer != nullptr) {
-      to.run_indirect(kernel, arguments, *groups.buffer, offset);
-    } else {
-      to.run(kernel, arguments, count.x * kernel.group_size(0), count.y * kernel.group_size(1));
-    }
-    to.barrier();
-  };
-  run(kernels_.gather, gather, size.over_rays, groups.rays);
-  run(kernels_.receive, receive, size.over_receive_blocks, groups.receive_blocks);
-  run(kernels_.fit, fit, size.over_fit_blocks, groups.fit_blocks);
+  run_groups(to, kernels_.receive, receive, size.over_receive_blocks, groups,
+             groups.receive_blocks);
+  run_groups(to, kernels_.fit, fit, size.over_fit_blocks, groups, groups.fit_blocks);
 }
 
 void DeviceField::record_store_light(vulkan::Recorder& to, IntArray probes, int count,

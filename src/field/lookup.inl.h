@@ -38,7 +38,7 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float share, vec3 position_ws, vec
 
   vec3 sum = vec3(0.0f);
   float weight_sum = 0.0f;
-  for (int corner = 0; corner < kCellCorners; ++corner) {
+  LAMBENT_UNROLL for (int corner = 0; corner < kCellCorners; ++corner) {
     ivec3 offset = cell_corner(corner);
     ivec3 coords = cell.base + offset;
     float weight = lookup_weight(grid, coords, position_ws, normal_ws, biased_ws) *

@@ -20,6 +20,8 @@
 #define LAMBENT_OUT(T) T&
 /// Before a float of which each operation must round as written.
 #define LAMBENT_PRECISE const
+/// Before a loop that devices should unroll.
+#define LAMBENT_UNROLL
 
 /// An array in a device's memory, as shaders reach it: `Name` holds its address in C++, and in GLSL
 /// is a reference whose member `at` is the array. Its address is a multiple of `alignment`.
@@ -99,6 +101,7 @@ inline vec3 pow(const vec3& v, const vec3& e) {
 
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_buffer_reference : require
+#extension GL_EXT_control_flow_attributes : require
 
 #define LAMBENT_DEVICE_ARRAY(Name, T, alignment)                                     \
   layout(buffer_reference, scalar, buffer_reference_align = alignment) buffer Name { \
@@ -111,6 +114,7 @@ inline vec3 pow(const vec3& v, const vec3& e) {
 #define LAMBENT_INOUT(T) inout T
 #define LAMBENT_OUT(T) out T
 #define LAMBENT_PRECISE precise const
+#define LAMBENT_UNROLL [[unroll]]
 
 #endif
 

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The field's passes on a Vulkan device: blending what rays brought into 4,096 probes, and looking
+// the field up at every pixel of a picture.
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <thread>
+
+#include "bench/workload.h"
+#include "field/device_solver.h"
+#include "field/volumes.h"
+#include "lambent/vulkan.h"
+#include "vulkan/device.h"
+
+namespace lambent::bench {
+namespace {
+
+constexpr int kRepetitions = 15;
+constexpr int kRays = 144;
+constexpr glm::ivec3 kProbeCount{16, 16, 16};
+
+/// Null where there is none.
+const vulkan::Device* device() {
+  static const auto opened = vulkan::open_device();
+  return opened ? opened->get() : nullptr;
+}
+
+/// Times what is recorded, once it has run for the first time.
+template <class Record>
+void time_on_device(benchmark::State& state, Record record) {
+  device()->run(record);
+  Median ms;
+  double least = std::numeric_limits<double>::infinity();
+  double least_busy = least;
+  for (auto _ : state) {
+    const std::clock_t before = std::clock();
+    const double elapsed = time_ms([&] { device()->run(record); });
+    const double busy = static_cast<double>(std::clock() - before) * 1e3 / CLOCKS_PER_SEC;
+    state.SetIterationTime(elapsed * 1e-3);
+    ms.add(elapsed);
+    least = std::min(least, elapsed);
+    least_busy = std::min(least_busy, busy);
+  }
+  // A device that is the processor: what it would take were nothing else running
+  if (description(*device()).software) {
+    state.counters["busy_ms"] = least_busy / std::thread::hardware_concurrency();
+  }
+  state.counters["median_ms"] = ms.value();
+  state.counters["least_ms"] = least;
+  state.SetLabel(description(*device()).name);
+}
+
+/// 4,096 probes with tiles as large as the published ones, and what their rays met.
+struct ProbeBlend {
+  explicit ProbeBlend(const FieldSettings& settings)
+      : store(still_grid(fit_grid(settings, open_bounds(workload().world)).value()), settings),
+        field(*device(), settings, store),
+        solver(field) {
+    std::vector<int> probes(store.probes());
+    std::iota(probes.begin(), probes.end(), 0);
+    group.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u);
+    group.probes = probes;
+    trace_probe_rays(workload().world.tracer(), store, group);
+    std::vector<ProbeTrace> traces(probes.size());
+    shade_surfels(workload().world, store, group, settings, traces);
+    find_surfel_lookups(store, {}, probes, traces);
+    field.write_surfels(probes, traces);
+    std::vector<HitRecord> records;
+    for (const Hit& hit : group.hits) records.push_back({hit.distance, 0, 0, {}, 1u});
+    hits = vulkan::upload(*device(), records, "hits");
+    shares = vulkan::upload(*device(), std::vector<float>(probes.size(), 0.1f), "shares");
+    received = vulkan::Buffer(*device(), probes.size() * field.tile_texels() * sizeof(vec4),
+                              vulkan::Memory::device, "received");
+    list = field.list(probes);
+    field.reserve_seen(list);
+    solver.reserve(list);
+  }
+
+  static FieldSettings settings() {
+    FieldSettings settings;
+    settings.probe_count = kProbeCount;
+    settings.rays_per_probe = kRays;
+    settings.irradiance_texels = 8;
+    settings.distance_texels = 16;
+    return settings;
+  }
+  static ProbeBlend& published() {
+    static ProbeBlend blend(settings());
+    return blend;
+  }
+  /// The tiles that a field has by default.
+  static ProbeBlend& usual() {
+    static ProbeBlend blend([] {
+      FieldSettings usual = settings();
+      usual.irradiance_texels = FieldSettings{}.irradiance_texels;
+      usual.distance_texels = FieldSettings{}.distance_texels;
+      return usual;
+    }());
+    return blend;
+  }
+
+  DeviceTransport transport() const {
+    return {{field.light().address()}, {field.light().address()}, {}, {received.address()}};
+  }
+
+  ProbeStore store;
+  DeviceField field;
+  DeviceSolver solver;
+  TraceGroup group;
+  vulkan::Buffer hits, shares, received;
+  DeviceProbes list;
+};
+
+/// Irradiance and distances, from rays to encoded tiles: all but gathering light at surfels.
+void vulkan_blend(benchmark::State& state, ProbeBlend& (*blend_of)()) {
+  if (device() == nullptr) return state.SkipWithError("no Vulkan device");
+  ProbeBlend& blend = blend_of();
+  const DeviceGroup all = {0, blend.list.count(), kRays};
+  const IntArray indices = blend.list.index_array();
+  time_on_device(state, [&](vulkan::Recorder& to) {
+    blend.field.record_seen_distances(to, blend.list, all, {blend.hits.address()});
+    blend.field.record_blend_distances(to, blend.list, {blend.shares.address()}, 1u);
+    blend.field.record_receive(to, blend.list, blend.transport());
+    blend.field.record_store_light(to, indices, blend.list.count(), 1u);
+  });
+  state.counters["probes"] = static_cast<double>(blend.list.count());
+}
+
+void vulkan_blend_published_tiles(benchmark::State& state) {
+  vulkan_blend(state, ProbeBlend::published);
+}
+void vulkan_blend_usual_tiles(benchmark::State& state) {
+  vulkan_blend(state, ProbeBlend::usual);
+}
+
+/// Once round: light gathered at surfels, and what probes receive of it.
+void vulkan_relight(benchmark::State& state) {
+  if (device() == nullptr) return state.SkipWithError("no Vulkan device");
+  ProbeBlend& blend = ProbeBlend::usual();
+  time_on_device(state, [&](vulkan::Recorder& to) {
+    blend.field.record_transport(to, blend.list, blend.transport());
+  });
+}
+
+void vulkan_find_lookups(benchmark::State& state) {
+  if (device() == nullptr) return state.SkipWithError("no Vulkan device");
+  ProbeBlend& blend = ProbeBlend::usual();
+  time_on_device(state, [&](vulkan::Recorder& to) { blend.field.record_lookups(to, blend.list); });
+}
+
+void vulkan_lookup(benchmark::State& state) {
+  if (device() == nullptr) return state.SkipWithError("no Vulkan device");
+  const Workload& work = workload();
+  const DeviceField field(*device(), work.field.settings(), work.field.store());
+  const std::vector<FieldQuery> queries = pixel_queries(work);
+  const vulkan::Buffer in = vulkan::upload(*device(), queries, "queries");
+  const vulkan::Buffer out(*device(), queries.size() * sizeof(vec3), vulkan::Memory::device, "E");
+  time_on_device(state, [&](vulkan::Recorder& to) {
+    field.record_lookup(to, {in.address()}, static_cast<std::uint32_t>(queries.size()),
+                        {out.address()});
+  });
+  state.counters["lookups"] = static_cast<double>(queries.size());
+}
+
+void timed(benchmark::internal::Benchmark* bench) {
+  bench->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+}
+
+BENCHMARK(vulkan_blend_published_tiles)->Apply(timed);
+BENCHMARK(vulkan_blend_usual_tiles)->Apply(timed);
+BENCHMARK(vulkan_relight)->Apply(timed);
+BENCHMARK(vulkan_find_lookups)->Apply(timed);
+BENCHMARK(vulkan_lookup)->Apply(timed);
+
+}  // namespace
+}  // namespace lambent::bench
