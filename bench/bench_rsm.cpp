@@ -4,65 +4,15 @@
 // or Sponza's path; the picture has 1920 x 1080 pixels unless LAMBENT_BENCH_RSM_SIZE=WxH says
 // otherwise.
 #include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
 
+#include "bench/rsm_workload.h"
 #include "bench/workload.h"
-#include "core/parallel.h"
-#include "lambent/rsm.h"
-#include "raytracing/camera_rays.h"
-#include "raytracing/surface.h"
 
 namespace lambent::bench {
 namespace {
 
 constexpr int kRepetitions = 7;
-
-glm::ivec2 picture_size() {
-  glm::ivec2 size(1920, 1080);
-  if (const char* asked = std::getenv("LAMBENT_BENCH_RSM_SIZE")) {
-    std::sscanf(asked, "%dx%d", &size.x, &size.y);
-  }
-  return size;
-}
-
-/// What the camera sees, and the maps of all lights.
-struct RsmWorkload {
-  explicit RsmWorkload(const glm::ivec2& picture) : size(picture) {
-    const Workload& work = workload();
-    const std::size_t pixels = static_cast<std::size_t>(size.x) * size.y;
-    positions.resize(pixels);
-    normals.assign(pixels, glm::vec3(0.0f));
-    depths.resize(pixels);
-    parallel_chunks(size.y, 1, [&](std::size_t y, std::size_t) {
-      for (int x = 0; x < size.x; ++x) {
-        const Ray ray = camera_ray(work.camera, size.x, size.y, static_cast<float>(x) + 0.5f,
-                                   static_cast<float>(y) + 0.5f);
-        const Hit hit = work.world.tracer().closest_hit(ray);
-        if (hit.missed()) continue;
-        const Surface surface = surface_at(work.scene, ray, hit);
-        const std::size_t i = y * size.x + x;
-        positions[i] = surface.position_ws;
-        normals[i] = surface.normal_ws;
-        depths[i] = view_depth(work.camera, surface.position_ws);
-      }
-    });
-    maps = render_rsms(work.world, work.camera,
-                       static_cast<float>(size.x) / static_cast<float>(size.y), {});
-  }
-  RsmView view() const { return {size.x, size.y, positions, normals, depths}; }
-
-  glm::ivec2 size;
-  std::vector<glm::vec3> positions, normals;
-  std::vector<float> depths;
-  std::vector<ReflectiveShadowMap> maps;
-};
-
-RsmWorkload& rsm_workload() {
-  static RsmWorkload work(picture_size());
-  return work;
-}
 
 RsmSettings with_layout(RsmLayout layout) {
   RsmSettings settings;

@@ -23,6 +23,7 @@ void add_field(CLI::App& app, Run& run);
 void add_info(CLI::App& app, Run& run);
 void add_make_scene(CLI::App& app, Run& run);
 void add_picture(CLI::App& app, Run& run);
+void add_prepare(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 
 }  // namespace lambent::cli

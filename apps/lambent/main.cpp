@@ -31,6 +31,7 @@ int main(int argc, char** argv) {
   lambent::cli::add_info(app, run);
   lambent::cli::add_make_scene(app, run);
   lambent::cli::add_picture(app, run);
+  lambent::cli::add_prepare(app, run);
   lambent::cli::add_render(app, run);
   try {
     app.parse(argc, argv);

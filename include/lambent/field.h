@@ -16,6 +16,7 @@ namespace lambent {
 
 class World;
 class ProbeStore;
+class FieldDevice;
 struct ProbeRecord;
 struct LoadedField;
 
@@ -231,6 +232,8 @@ class IrradianceField {
   /// The probes' store, and what else is known of each, for tools that look inside.
   const ProbeStore& store() const;
   std::span<const ProbeRecord> records() const;
+  /// What keeps the field in a device's memory, for passes there; null: the processor's holds it.
+  const FieldDevice* on_device() const;
 
  private:
   friend Expected<void> save_field(const std::string& path, const IrradianceField& field,

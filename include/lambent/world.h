@@ -98,9 +98,9 @@ class World {
  private:
   struct History;
   const Scene* scene_;
+  std::unique_ptr<EmissiveTriangles> emissive_;
   std::shared_ptr<DeviceWorld> device_;
   std::shared_ptr<RayTracer> tracer_;  // the device's, where there is one
-  std::unique_ptr<EmissiveTriangles> emissive_;
   std::unique_ptr<History> history_;
 };
 

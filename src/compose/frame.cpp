@@ -13,6 +13,13 @@ namespace {
 // Pixels rendered together: enough to keep all cores busy, few enough to stay small (about 50 MB).
 constexpr int kBandPixels = 1 << 18;
 
+std::unique_ptr<FramePasses> make_frame_passes(const FrameRequest& request) {
+#if LAMBENT_VULKAN
+  if (request.world.on_device() != nullptr) return make_frame_passes_vulkan(request);
+#endif
+  return make_frame_passes_cpu(request);
+}
+
 }  // namespace
 
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
@@ -26,8 +33,7 @@ RenderedFrame render_frame(const World& world, const IndirectSources& sources, c
                            const FrameSettings& settings, const ProgressFn& progress) {
   assert(sources.rsm == nullptr || settings.gather_rays == 0);
   assert(settings.width > 0 && settings.height > 0 && settings.samples > 0);
-  const std::unique_ptr<FramePasses> passes =
-      make_frame_passes_cpu({world, sources, camera, settings});
+  const std::unique_ptr<FramePasses> passes = make_frame_passes({world, sources, camera, settings});
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = std::max(1, kBandPixels / settings.width);
 

@@ -43,5 +43,7 @@ class FramePasses {
 };
 
 std::unique_ptr<FramePasses> make_frame_passes_cpu(const FrameRequest& request);
+/// For worlds on a device.
+std::unique_ptr<FramePasses> make_frame_passes_vulkan(const FrameRequest& request);
 
 }  // namespace lambent

@@ -83,6 +83,19 @@ struct GatherSumArguments {
   uint padding;
 };
 
+/// What pixels show, as passes over views read it.
+struct ViewGeometryArguments {
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  Vec3Array positions_ws;  ///< [m]; 0 where nothing is seen, as normals are.
+  Vec3Array normals_ws;
+  FloatArray depths;  ///< [m]; 0 where nothing is seen in front of the camera.
+  vec3 camera_ws;
+  vec3 camera_back;  ///< Unit; against the direction of view.
+  uint count;
+  uint padding;
+};
+
 /// Takes what another source brings out of the field's light, and adds that source's own.
 struct ReplaceLightArguments {
   Vec3Array irradiance;

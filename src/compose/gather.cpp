@@ -64,8 +64,19 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
     std::vector<ShadedHit> shaded(rays.size());
     ShadeHitsScratch scratch;
     world.tracer().closest_hits(rays, hits);
-    traced += rays.size() + shade_hits(world, rays, hits, shading,
-                                       (first_pixel + begin) * rays_per_pixel, scratch, shaded);
+    // Runs of pixels that all show a surface are shaded together
+    for (std::size_t first = 0, end_of_run; first < pixels.size(); first = end_of_run) {
+      end_of_run = first + 1;
+      while (end_of_run < pixels.size() && pixels[end_of_run] == pixels[end_of_run - 1] + 1) {
+        ++end_of_run;
+      }
+      const std::size_t at = first * rays_per_pixel, count = (end_of_run - first) * rays_per_pixel;
+      traced +=
+          shade_hits(world, std::span(rays).subspan(at, count), std::span(hits).subspan(at, count),
+                     shading, (first_pixel + pixels[first]) * rays_per_pixel, scratch,
+                     std::span(shaded).subspan(at, count));
+    }
+    traced += rays.size();
 
     // Light it by the field
     std::vector<FieldQuery> queries(rays.size());

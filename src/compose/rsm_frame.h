@@ -2,6 +2,7 @@
 // Indirect light from reflective shadow maps, for the pixels of a frame.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "compose/gbuffer.h"
@@ -23,6 +24,10 @@ struct RsmFrame {
 /// rounded up.
 RsmFrame light_by_rsm(const World& world, const Camera& camera, const FrameSettings& settings,
                       const RsmSettings& rsm, bool keep_stages);
+
+/// The first map's flux and the gather's stages as layers of a frame of that size.
+std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,
+                                    const RsmIrradiance& light, int width, int height);
 
 /// Irradiance at the surfaces of a band, from the pixels around them that show the same surface
 /// (cross-bilateral upsampling: Kopf et al., "Joint Bilateral Upsampling", SIGGRAPH 2007). Where

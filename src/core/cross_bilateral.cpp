@@ -4,6 +4,7 @@
 #include "core/simd_levels.h"
 #include "shared/color.h"
 #include "shared/cross_bilateral.h"
+#include "shared/packing.h"
 #include "shared/relight.h"
 
 namespace lambent {

@@ -20,17 +20,17 @@ LAMBENT_FORCE_INLINE void keep(Lanes& lanes, const LaneInts& mask) {
   lanes = mask ? lanes : Lanes{};
 }
 
-// Two values in the place of one float: the upper halves of each (8 bits of mantissa), rounded.
-constexpr int kUpperHalf = static_cast<int>(0xFFFF0000u), kHalfOfLowerHalf = 0x8000;
-constexpr int kHalfBits = 16;
-
+/// pack_upper_halves (shared/packing.h), for lanes.
 LAMBENT_FORCE_INLINE void pack_halves(Lanes& word, const Lanes& upper, const Lanes& lower) {
-  const auto up = ((LaneInts)upper + kHalfOfLowerHalf) & kUpperHalf;
-  const auto low = ((LaneInts)lower + kHalfOfLowerHalf) >> kHalfBits;
-  word = (Lanes)(up | (low & ~kUpperHalf));
+  constexpr int kRounding = static_cast<int>(kHalfOfLowerHalf);
+  constexpr int kUpper = static_cast<int>(kUpperHalf);
+  const auto up = ((LaneInts)upper + kRounding) & kUpper;
+  const auto low = ((LaneInts)lower + kRounding) >> static_cast<int>(kHalfBits);
+  word = (Lanes)(up | (low & ~kUpper));
 }
 
+/// unpack_upper_half and unpack_lower_half, for lanes.
 LAMBENT_FORCE_INLINE void unpack_halves(Lanes& upper, Lanes& lower, const Lanes& word) {
-  upper = (Lanes)((LaneInts)word & kUpperHalf);
-  lower = (Lanes)((LaneInts)word << kHalfBits);
+  upper = (Lanes)((LaneInts)word & static_cast<int>(kUpperHalf));
+  lower = (Lanes)((LaneInts)word << static_cast<int>(kHalfBits));
 }

@@ -67,6 +67,7 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
   std::size_t left() const { return bytes_.size(); }
+  std::uint8_t u8() { return static_cast<std::uint8_t>(get(1)); }
   std::uint32_t u32() { return static_cast<std::uint32_t>(get(sizeof(std::uint32_t))); }
   std::uint64_t u64() { return get(sizeof(std::uint64_t)); }
   float f32() { return std::bit_cast<float>(u32()); }

@@ -4,8 +4,19 @@
 #include <numeric>
 #include <vector>
 
-#ifdef __SANITIZE_THREAD__
+// The thread sanitizer does not see how oneTBB, which is not built for it, hands work from thread
+// to thread, and calls all of it a race; with threads of our own it sees everything. These serve,
+// too, where there is no oneTBB.
+#if defined(__SANITIZE_THREAD__) || !LAMBENT_CPU
+#define LAMBENT_OWN_THREADS 1
+#else
+#define LAMBENT_OWN_THREADS 0
+#endif
+
+#if LAMBENT_OWN_THREADS
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
 #else
 #include <tbb/parallel_for.h>
@@ -14,23 +25,37 @@
 namespace lambent {
 namespace {
 
-#ifdef __SANITIZE_THREAD__
+#if LAMBENT_OWN_THREADS
 
-// The thread sanitizer does not see how oneTBB, which is not built for it, hands work from thread
-// to thread, and calls all of it a race. With these threads it sees everything.
+std::size_t thread_count() {
+#ifdef __SANITIZE_THREAD__
+  return 4;  // races between more are found between these
+#else
+  return std::max(1u, std::thread::hardware_concurrency());
+#endif
+}
+
 void for_each_index(std::size_t count, const std::function<void(std::size_t)>& body) {
-  constexpr int kThreads = 4;
   std::atomic<std::size_t> next = 0;
-  std::vector<std::thread> threads;
-  for (int t = 0; t < kThreads; ++t) {
-    threads.emplace_back([&] {
+  std::mutex failing;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
       for (std::size_t i = next.fetch_add(1, std::memory_order_relaxed); i < count;
            i = next.fetch_add(1, std::memory_order_relaxed)) {
         body(i);
       }
-    });
-  }
+    } catch (...) {
+      const std::lock_guard lock(failing);
+      failure = std::current_exception();
+      next = count;
+    }
+  };
+  std::vector<std::thread> threads;
+  for (std::size_t t = 1; t < std::min(count, thread_count()); ++t) threads.emplace_back(work);
+  work();
   for (std::thread& thread : threads) thread.join();
+  if (failure) std::rethrow_exception(failure);
 }
 
 #else

@@ -71,6 +71,53 @@ struct BlendDistancesArguments {
   uint salt;
 };
 
+/// What probes' surfels tell that rays saw. `seen`: a row of `seen_stride` a probe.
+struct SeeSurfelsArguments {
+  StoreArrays store;
+  ProbeList list;
+  SurfelArray surfels;
+  FloatArray seen;
+  UintArray blocked;
+  int count;
+  int stride;  ///< Surfels a probe.
+  int seen_stride;
+};
+
+/// Moves what tiles hold by as much as what rays saw changed.
+struct MoveDistancesArguments {
+  StoreArrays store;
+  ProbeList list;
+  FloatArray seen_before;
+  UintArray blocked_before;
+  FloatArray seen;
+  UintArray blocked;
+  int count;
+  int stride;
+  uint salt;
+};
+
+/// Sends importance back through surfels. `received` and `sent`: of all probes; the latter in whole
+/// numbers, `scale` to one.
+struct SendBackArguments {
+  ProbeList list;
+  CornerOffsetsArray corners;
+  SurfelArray surfels;
+  LookupArray lookups;
+  FloatArray received;
+  UintArray sent;
+  int count;
+  int stride;
+  float scale;
+};
+
+/// Copies tiles of a list's probes to where those of all probes are.
+struct ScatterTilesArguments {
+  IntArray probes;
+  Vec4Array tiles;
+  Vec4Array field;
+  int count;
+};
+
 /// Fills a ray set's matrix of weights.
 struct BlendWeightsArguments {
   Vec3Array directions;

@@ -53,7 +53,7 @@ DeviceField::DeviceField(const vulkan::Device& device, const FieldSettings& sett
       lookups_(std::min(volumes_, kMaxSurfelLookups)),
       words_per_irradiance_texel_(shape.words_per_irradiance_texel()),
       words_per_distance_texel_(shape.words_per_distance_texel()),
-      kernels_(device, settings, volumes_, lookups_),
+      kernels_(FieldKernels::of(device, settings, volumes_, lookups_)),
       slot_of_(shape.probes(), -1) {
   using vulkan::Memory;
   const auto texels = static_cast<std::size_t>(probes_) * tile_texels();

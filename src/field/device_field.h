@@ -112,6 +112,10 @@ class DeviceField {
                               uint salt);
   /// Makes room for what a list's rays see: before the former are recorded.
   void reserve_seen(const DeviceProbes& list);
+  /// Moves the stored distances of a list's probes by as much as those of their surfels changed
+  /// between the two, as follow_edits does. Makes room before it records.
+  void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
+  void record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint salt);
   /// As find_surfel_lookups, by distances.
   void record_lookups(vulkan::Recorder& to, const DeviceProbes& list) const;
 
@@ -128,6 +132,11 @@ class DeviceField {
 
   /// As ProbeStore::store_irradiance, of the field's light.
   void record_store_light(vulkan::Recorder& to, IntArray probes, int count, uint salt) const;
+  /// As SendBack of importance.h, for a list of those that send; `sent` was 0.
+  void record_send_back(vulkan::Recorder& to, const DeviceProbes& list, FloatArray received,
+                        UintArray sent, float scale) const;
+  /// Remembers what the list's probes' rays told; see State::remember_told.
+  void record_told(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array solution) const;
   /// As relative_square and mean_luminance of tile_light.h: of what the field holds to what the
   /// list's probes held.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
@@ -147,6 +156,8 @@ class DeviceField {
   void fill_weights(RaySlot& slot) const;
   void write_sets();
   void reserve_surfels(int rays);
+  void record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list, FloatArray seen,
+                          UintArray blocked) const;
   void record_gutters(vulkan::Recorder& to, UintArray words, IntArray probes, int count, int texels,
                       int words_per_texel) const;
   ProbeList arrays(const DeviceProbes& list) const;
@@ -156,7 +167,7 @@ class DeviceField {
   FieldSettings settings_;
   int probes_, volumes_, lookups_;
   int words_per_irradiance_texel_, words_per_distance_texel_;
-  FieldKernels kernels_;
+  const FieldKernels& kernels_;
   vulkan::Buffer grids_, offsets_, irradiance_, distance_, corners_, fit_;
   vulkan::Buffer light_, told_;
   vulkan::Buffer surfels_, lookup_records_;  // probes x stride_ (x lookups_)
@@ -166,6 +177,7 @@ class DeviceField {
   vulkan::Buffer sets_;       // RaySetRecords of the slots
   // What passes hand on to each other
   vulkan::Buffer seen_, blocked_, radiance_, at_centres_;
+  vulkan::Buffer seen_before_, blocked_before_;
 };
 
 }  // namespace lambent

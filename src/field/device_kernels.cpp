@@ -2,6 +2,8 @@
 #include "field/device_kernels.h"
 
 #include <array>
+#include <map>
+#include <mutex>
 #include <string>
 
 #include "shaders/blend_distances_comp.h"
@@ -14,12 +16,17 @@
 #include "shaders/gutters_comp.h"
 #include "shaders/lookup_comp.h"
 #include "shaders/make_surfels_comp.h"
+#include "shaders/move_distances_comp.h"
 #include "shaders/probe_rays_comp.h"
 #include "shaders/receive_comp.h"
+#include "shaders/scatter_tiles_comp.h"
 #include "shaders/see_distances_comp.h"
+#include "shaders/see_surfels_comp.h"
+#include "shaders/send_back_comp.h"
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
+#include "vulkan/device.h"
 
 namespace lambent {
 namespace {
@@ -35,7 +42,34 @@ std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, in
            {5, static_cast<std::uint32_t>(lookups)}}};
 }
 
+/// Kernels by their constants.
+class KernelShelf {
+ public:
+  explicit KernelShelf(const vulkan::Device& device) : device_(device) {}
+
+  const FieldKernels& get(const FieldSettings& settings, int volumes, int lookups) {
+    std::array<std::uint32_t, 6> key{};
+    for (const vulkan::Constant& constant : tile_constants(settings, volumes, lookups)) {
+      key[constant.id] = constant.value;
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = kernels_.find(key);
+    if (found != kernels_.end()) return found->second;
+    return kernels_.emplace(key, FieldKernels(device_, settings, volumes, lookups)).first->second;
+  }
+
+ private:
+  const vulkan::Device& device_;
+  std::mutex mutex_;
+  std::map<std::array<std::uint32_t, 6>, FieldKernels> kernels_;
+};
+
 }  // namespace
+
+const FieldKernels& FieldKernels::of(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups) {
+  return device.kept<KernelShelf>().get(settings, volumes, lookups);
+}
 
 FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                            int lookups) {
@@ -59,6 +93,10 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   store_irradiance = make(shaders::store_irradiance_comp(), "store_irradiance");
   compare_light = make(shaders::compare_light_comp(), "compare_light");
   lookup = make(shaders::lookup_comp(), "lookup");
+  scatter_tiles = make(shaders::scatter_tiles_comp(), "scatter_tiles");
+  see_surfels = make(shaders::see_surfels_comp(), "see_surfels");
+  send_back = make(shaders::send_back_comp(), "send_back");
+  move_distances = make(shaders::move_distances_comp(), "move_distances");
 }
 
 }  // namespace lambent

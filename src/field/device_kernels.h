@@ -12,12 +12,17 @@ namespace lambent {
 inline constexpr int kMaxSurfelLookups = 4;
 
 struct FieldKernels {
+  /// Those for these settings, made once and kept by the device.
+  static const FieldKernels& of(const vulkan::Device& device, const FieldSettings& settings,
+                                int volumes, int lookups);
+
   FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                int lookups);
 
   vulkan::Kernel blend_weights, probe_rays, make_surfels, see_distances, blend_distances, gutters;
   vulkan::Kernel find_lookups, gather, receive, fit, blend_in, solve_sums, solve_step;
-  vulkan::Kernel store_irradiance, compare_light, lookup;
+  vulkan::Kernel store_irradiance, compare_light, lookup, scatter_tiles;
+  vulkan::Kernel see_surfels, move_distances, send_back;
 };
 
 }  // namespace lambent

@@ -107,7 +107,7 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
                                  const World* world) const {
   assert(queries.size() == result.size());
   const State& s = *state_;
-  if (s.device) return s.device->irradiance(queries, result, world);
+  if (s.device) return s.device->irradiance(queries, result);
   const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
     lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
@@ -139,6 +139,9 @@ std::size_t IrradianceField::surfel_bytes() const {
 const ProbeStore& IrradianceField::store() const {
   state_->fetch_store();
   return state_->store;
+}
+const FieldDevice* IrradianceField::on_device() const {
+  return state_->device.get();
 }
 std::span<const ProbeRecord> IrradianceField::records() const {
   return state_->records;

@@ -16,6 +16,10 @@
 
 namespace lambent {
 
+namespace vulkan {
+class Recorder;
+}
+
 /// By how much a probe's light changed in an update.
 struct LightChange {
   float relative_square;  ///< As of tile_light.h: of what it holds to what it held.
@@ -87,19 +91,23 @@ class FieldDevice {
   /// What some probes receive of the light that there is.
   virtual void receive(std::span<const int> probes, const WorkingIrradiance& fallback,
                        WorkingIrradiance& received) = 0;
-  /// Luminance that each probe's rays bring back of direct light and the sky, added up.
+  /// Luminance of what each probe receives of direct light and the sky, added up over its texels.
   virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
 
-  /// As probe_importance.
-  virtual std::vector<float> importance(std::span<const FieldQuery> points) = 0;
-  /// As IrradianceField::irradiance. `world`: for visibility by rays; null: by distances.
-  virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result,
-                          const World* world) const = 0;
+  /// As SendBack of importance.h.
+  virtual std::vector<float> send_back(std::span<const float> received, float least) = 0;
+  /// Irradiance for each query [W/m^2], by the probes' distances.
+  virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const = 0;
+  /// Records lookups: `count` queries to as many irradiances [W/m^2], at
+  /// these addresses (QueryRecord and vec3).
+  virtual void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries,
+                              std::uint32_t count, std::uint64_t irradiance) const = 0;
 
   virtual std::size_t surfel_bytes() const = 0;
 };
 
-/// An empty field of the store's shape on the device that the world is on.
+/// An empty field of the store's shape on the device that the world is on; null where passes there
+/// cannot do what the settings ask for.
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store);
 

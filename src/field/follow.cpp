@@ -9,6 +9,7 @@
 
 #include "core/parallel.h"
 #include "field/distances.h"
+#include "field/moments_encoding.h"
 #include "raytracing/boxes.h"
 #include "scene/light_sampling.h"
 
@@ -190,9 +191,7 @@ void move_moments(int probe, std::span<const vec2> before, std::span<const vec2>
     for (std::size_t t = 0; t < moments.size(); ++t) {
       const ivec2 texel(static_cast<int>(t) % edge, static_cast<int>(t) / edge);
       const vec2 held = store.moments_texel(probe, texel + 1);
-      const vec2 moved = held + after[t] - before[t];
-      // Where rounding or noise leaves no such distances, those of the rays stand
-      moments[t] = moved.x > 0.0f && moved.y >= moved.x * moved.x ? moved : after[t];
+      moments[t] = moved_moments(held, before[t], after[t]);
       if (before[t] == after[t]) moments[t] = held;
     }
   }

@@ -3,6 +3,7 @@
 // the probes that these read receive through it.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,5 +20,13 @@ namespace lambent {
 /// for Illumination Computation", ACM TOG 14(1), 1995.
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces);
+
+/// What surfels that probes see take of the probes' importance, where that is more than `least`:
+/// what they receive of light that those reflect. One number a probe in and out.
+using SendBack = std::function<std::vector<float>(std::span<const float> received, float least)>;
+
+/// The same by another way of sending importance back.
+std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
+                                    const SendBack& send_back);
 
 }  // namespace lambent

@@ -26,5 +26,12 @@ LAMBENT_FN uint blended_halves(uint word, vec2 now, float share, float scale, ui
   return encode_small_float(moments.x, 10, u) | (encode_small_float(moments.y, 10, v) << 16u);
 }
 
+/// Moments that are held, moved by as much as those of a probe's rays changed. Where rounding or
+/// noise leaves no such distances, those of the rays stand.
+LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after) {
+  vec2 moved = held + after - before;
+  return moved.x > 0.0f && moved.y >= moved.x * moved.x ? moved : after;
+}
+
 LAMBENT_END
 #endif

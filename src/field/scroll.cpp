@@ -35,7 +35,7 @@ void IrradianceField::State::inherit(std::span<const int> probes, std::span<cons
         queries[t] = {places_ws[k], direction, direction};
       }
       if (device) {
-        device->irradiance(queries, irradiance, nullptr);
+        device->irradiance(queries, irradiance);
       } else {
         lookup_irradiance(store, {}, queries, irradiance);
       }

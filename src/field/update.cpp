@@ -243,7 +243,11 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
 
   s.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
-    s.importance = s.device ? s.device->importance(request.seen)
+    s.fetch_store();
+    s.importance = s.device ? probe_importance(s.store, request.seen,
+                                               [&](std::span<const float> received, float least) {
+                                                 return s.device->send_back(received, least);
+                                               })
                             : probe_importance(s.store, request.seen, s.traces);
   }
   const Followed followed = s.follow(world, budget, viewer_ws, statistics);

@@ -4,6 +4,7 @@
 #define LAMBENT_RAYTRACING_TRACE_ARGUMENTS_H
 
 #include "raytracing/ray_records.h"
+#include "raytracing/vulkan/scene_records.h"
 
 LAMBENT_BEGIN
 
@@ -12,6 +13,7 @@ struct TraceArguments {
   RayArray rays;       ///< `count` of them.
   HitArray hits;       ///< Of closest hits: one a ray.
   UintArray occluded;  ///< Of occlusion: a word a ray, 1 or 0.
+  SceneArray scene;    ///< Of what is see-through.
   uint count;
 };
 

@@ -18,17 +18,20 @@ namespace {
 #if LAMBENT_VULKAN
 
 std::shared_ptr<DeviceWorld> make_device_world(const Scene& scene,
+                                               const EmissiveTriangles& emissive,
                                                std::shared_ptr<vulkan::Device> device) {
-  return device == nullptr ? nullptr : std::make_shared<DeviceWorld>(scene, std::move(device));
+  if (device == nullptr) return nullptr;
+  return std::make_shared<DeviceWorld>(scene, emissive, std::move(device));
 }
 
 std::shared_ptr<RayTracer> tracer_of(const std::shared_ptr<DeviceWorld>& world) {
   return {world, &world->tracer()};
 }
 
-void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& edits) {
+void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& edits,
+                   const EmissiveTriangles& emissive) {
   if (on_device != nullptr) {
-    on_device->update(edits);
+    on_device->update(edits, emissive);
   } else if (edits.geometry_differs) {
     tracer.update(edits.geometry);
   }
@@ -37,13 +40,15 @@ void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& 
 #else
 
 // No device can be opened then
-std::shared_ptr<DeviceWorld> make_device_world(const Scene&, std::shared_ptr<vulkan::Device>) {
+std::shared_ptr<DeviceWorld> make_device_world(const Scene&, const EmissiveTriangles&,
+                                               std::shared_ptr<vulkan::Device>) {
   return nullptr;
 }
 std::shared_ptr<RayTracer> tracer_of(const std::shared_ptr<DeviceWorld>&) {
   return nullptr;
 }
-void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits) {
+void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits,
+                   const EmissiveTriangles&) {
   if (edits.geometry_differs) tracer.update(edits.geometry);
 }
 
@@ -59,9 +64,9 @@ struct World::History {
 
 World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device)
     : scene_(&scene),
-      device_(make_device_world(scene, std::move(device))),
-      tracer_(device_ != nullptr ? tracer_of(device_) : make_embree_raytracer(scene)),
       emissive_(std::make_unique<EmissiveTriangles>(scene)),
+      device_(make_device_world(scene, *emissive_, std::move(device))),
+      tracer_(device_ != nullptr ? tracer_of(device_) : make_embree_raytracer(scene)),
       history_(std::make_unique<History>()) {
   history_->snapshot = take_snapshot(scene, nullptr);
 }
@@ -78,8 +83,8 @@ Expected<WorldChanges> World::update() {
   }
   SceneSnapshot now = take_snapshot(*scene_, &history.snapshot);
   SceneEdits edits = compare(history.snapshot, now);
-  update_tracer(device_.get(), *tracer_, edits);
   if (edits.emitters_differ) emissive_ = std::make_unique<EmissiveTriangles>(*scene_);
+  update_tracer(device_.get(), *tracer_, edits, *emissive_);
   history.snapshot = std::move(now);
 
   edits.changes.revision = history.revision;

@@ -8,87 +8,40 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "rsm/geometry.h"
+#include "rsm/choice.h"
+#include "rsm/to_records.h"
 
 namespace lambent {
 namespace {
 
-// Texels along an edge of a block.
-constexpr int kBlock = 4;
-// Surfaces that a block tells apart; what shows more is rare and small.
-constexpr int kSurfaces = 3;
-// Texels are of one surface where their normals are within 37 degrees, and where they are off its
-// plane by less than this share of the block's edge.
-constexpr float kSameNormal = 0.8f, kSamePlane = 0.25f;
 // A right angle between normals parts clusters as much as this share of the scene's size does.
 constexpr float kNormalScale = 0.3f;
 // A map is merged by several threads once that many clusters are left to each.
 constexpr std::size_t kParallelClusters = 2048;
 
-float power_of(const vec3& flux) {
-  return std::max({flux.x, flux.y, flux.z});
-}
+/// A block of a map, for cluster_block.inl.h.
+struct Block {
+  Block(const ReflectiveShadowMap& of, int x, int y) : map(of), first_x(x), first_y(y) {}
 
-/// Whether two texels show one surface, on the scale of `edge` [m].
-bool same_surface(const RsmTexel& a, const RsmTexel& b, float edge) {
-  return dot(a.normal_ws, b.normal_ws) > kSameNormal &&
-         std::abs(dot(a.position_ws - b.position_ws, b.normal_ws)) <= kSamePlane * edge;
-}
-
-/// Sums up texels, or clusters, around one that tells which surface they stand for: others' light
-/// counts, but not where they are, or the sum would hang in mid-air.
-class Sum {
- public:
-  Sum(const RsmTexel& seed, float edge) : seed_(seed), edge_(edge) {}
-  void add(const RsmTexel& texel) {
-    flux_ += texel.flux;
-    area_ += texel.area;
-    if (!same_surface(texel, seed_, edge_)) return;
-    const float power = power_of(texel.flux);
-    power_ += power;
-    position_ += power * texel.position_ws;
-    normal_ += power * texel.normal_ws;
+  std::uint32_t place(int k) const {
+    return static_cast<std::uint32_t>((first_y + k / kBlockEdge) * map.resolution + first_x +
+                                      k % kBlockEdge);
   }
-  RsmTexel texel() const {
-    RsmTexel result = seed_;
-    if (power_ > 0.0f) {
-      result.position_ws = position_ / power_;
-      result.normal_ws = normalize(normal_);
-    }
-    result.flux = flux_;
-    result.area = area_;
-    result.softening = kSofteningPerArea * area_;
-    return result;
+  RsmTexelRecord fetch_block_texel(int k) {
+    const bool inside =
+        first_x + k % kBlockEdge < map.resolution && first_y + k / kBlockEdge < map.resolution;
+    return to_record(inside ? map.texels[place(k)] : RsmTexel());
+  }
+  void put_cluster(int, const RsmTexelRecord& texel, int seed) {
+    clusters->push_back({to_texel(texel), place(seed), 0.0f, 0.0f});
   }
 
- private:
-  const RsmTexel& seed_;
-  float edge_;
-  vec3 position_{0.0f}, normal_{0.0f}, flux_{0.0f};
-  float power_ = 0.0f, area_ = 0.0f;
+#include "rsm/cluster_block.inl.h"
+
+  const ReflectiveShadowMap& map;
+  int first_x, first_y;
+  std::vector<Cluster>* clusters = nullptr;
 };
-
-/// Parts the texels of a block by surface, brightest first.
-void cluster_block(const ReflectiveShadowMap& map, std::vector<std::uint32_t>& left,
-                   std::vector<Cluster>& result) {
-  for (int s = 0; s < kSurfaces && !left.empty(); ++s) {
-    const std::uint32_t seed = *std::max_element(left.begin(), left.end(), [&](auto a, auto b) {
-      return power_of(map.texels[a].flux) < power_of(map.texels[b].flux);
-    });
-    const RsmTexel& first = map.texels[seed];
-    const float edge = kBlock * std::sqrt(first.area);
-    Sum sum(first, edge);
-    const auto others = std::partition(left.begin(), left.end(), [&](std::uint32_t i) {
-      return s + 1 == kSurfaces || same_surface(map.texels[i], first, edge);
-    });
-    // In the order of the map, so that sums do not depend on how the library partitions
-    std::sort(left.begin(), others);
-    for (auto i = left.begin(); i != others; ++i) sum.add(map.texels[*i]);
-    result.push_back({sum.texel(), seed, 0.0f, 0.0f});
-    left.erase(left.begin(), others);
-    std::sort(left.begin(), left.end());
-  }
-}
 
 using Key = std::array<float, 6>;
 
@@ -139,13 +92,14 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
       area += cluster.texel.area;
       if (power_of(cluster.texel.flux) > power_of(brightest->texel.flux)) brightest = &cluster;
     }
-    Sum sum(brightest->texel, std::sqrt(area));
+    const RsmTexelRecord seed = to_record(brightest->texel);
+    ClusterSum sum = empty_cluster();
     float brought = 0.0f;
     for (const Cluster& cluster : clusters) {
-      sum.add(cluster.texel);
+      add_to_cluster(sum, to_record(cluster.texel), seed, std::sqrt(area));
       brought += cluster.brought;
     }
-    result.front() = {sum.texel(), brightest->place, 0.0f, brought};
+    result.front() = {to_texel(cluster_texel(sum, seed)), brightest->place, 0.0f, brought};
     return;
   }
 
@@ -183,20 +137,13 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
 }  // namespace
 
 std::vector<Cluster> cluster_blocks(const ReflectiveShadowMap& map) {
-  const int blocks = (map.resolution + kBlock - 1) / kBlock;
+  const int blocks = (map.resolution + kBlockEdge - 1) / kBlockEdge;
   std::vector<std::vector<Cluster>> rows(blocks);
   parallel_chunks(blocks, 1, [&](std::size_t row, std::size_t) {
-    std::vector<std::uint32_t> lit;
-    for (int block = 0; block < blocks; ++block) {
-      lit.clear();
-      const int top = static_cast<int>(row) * kBlock, left = block * kBlock;
-      for (int y = top; y < std::min(top + kBlock, map.resolution); ++y) {
-        for (int x = left; x < std::min(left + kBlock, map.resolution); ++x) {
-          const auto i = static_cast<std::uint32_t>(y * map.resolution + x);
-          if (power_of(map.texels[i].flux) > 0.0f) lit.push_back(i);
-        }
-      }
-      cluster_block(map, lit, rows[row]);
+    for (int column = 0; column < blocks; ++column) {
+      Block block(map, column * kBlockEdge, static_cast<int>(row) * kBlockEdge);
+      block.clusters = &rows[row];
+      block.cluster_block();
     }
   });
   std::vector<Cluster> clusters;

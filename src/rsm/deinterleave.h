@@ -42,5 +42,42 @@ LAMBENT_FN int sub_map_of(ivec2 sub_image, int sub_maps) {
   return (sub_image.y % sub_maps) * sub_maps + sub_image.x % sub_maps;
 }
 
+/// First texel of a sub-map among a map's, sub-map after sub-map; `size` texels along an edge.
+LAMBENT_FN int sub_map_start(int size, int sub_maps, int column, int row) {
+  return sub_image_start(size, row, sub_maps) * size +
+         sub_image_start(size, column, sub_maps) * sub_image_size(size, row, sub_maps);
+}
+
+/// Where a texel of a map lies among them.
+LAMBENT_FN int sub_map_texel(ivec2 texel, int size, int sub_maps) {
+  ivec2 sub = sub_image_of(texel, sub_maps);
+  ivec2 place = place_in_sub_image(texel, sub_maps);
+  return sub_map_start(size, sub_maps, sub.x, sub.y) +
+         place.y * sub_image_size(size, sub.x, sub_maps) + place.x;
+}
+
+// A mosaic on a device: sub-image after sub-image, all with the rows of the largest, each row
+// rounded up to whole sectors of the cache.
+const int kMosaicSector = 8;  // pixels of 4 bytes
+
+LAMBENT_FN int mosaic_stride(int width, int sub_images) {
+  int largest = sub_image_size(width, 0, sub_images);
+  return (largest + kMosaicSector - 1) / kMosaicSector * kMosaicSector;
+}
+
+/// Where a pixel of the picture lies in it.
+LAMBENT_FN int mosaic_index(ivec2 pixel, ivec2 size, int sub_images) {
+  ivec2 sub = sub_image_of(pixel, sub_images);
+  ivec2 place = place_in_sub_image(pixel, sub_images);
+  int row = (sub.y * sub_images + sub.x) * sub_image_size(size.y, 0, sub_images) + place.y;
+  return row * mosaic_stride(size.x, sub_images) + place.x;
+}
+
+/// Places in it.
+LAMBENT_FN int mosaic_places(ivec2 size, int sub_images) {
+  return sub_images * sub_images * sub_image_size(size.y, 0, sub_images) *
+         mosaic_stride(size.x, sub_images);
+}
+
 LAMBENT_END
 #endif

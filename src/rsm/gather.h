@@ -9,6 +9,8 @@
 #include "core/cross_bilateral.h"
 #include "core/simd_levels.h"
 #include "lambent/rsm.h"
+#include "rsm/choice.h"
+#include "rsm/gather_texel.h"
 #include "rsm/pattern.h"
 
 namespace lambent {
@@ -23,8 +25,6 @@ struct GatherRow {
   int count = 0;  ///< Pixels; more are touched, up to a multiple of kLanes.
 };
 
-/// Raising it saves up to a twentieth of a gather: a way costs as much again as a third of a texel.
-inline constexpr int kTexelsPerWay = 8;
 /// x, y, z, summed over texels by the luminance that they bring.
 inline constexpr int kWayPlanes = 3;
 
@@ -45,11 +45,6 @@ void gather_scattered(const GatherRow& row, const RsmTexel* rendered,
 /// tables of their own.
 void gather_per_pixel(const GatherRow& row, const RsmTexel* texels, const std::uint32_t* places,
                       std::size_t count);
-
-/// Sums over points of a texel's bounded_geometry_term, and of its square.
-struct TermSums {
-  float terms, squares;
-};
 
 /// One for each texel. `count` is a multiple of kLanes; a point without a normal adds nothing.
 void sum_terms(const ConstPlanes& points, int count, std::span<const RsmTexel> texels,
@@ -78,10 +73,7 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
                  int sub_row);
 
 /// A map's texels, sub-map after sub-map: texel (x, y) is texel (x / n, y / n) of sub-map
-/// (x mod n, y mod n). Every texel lands in exactly one.
+/// (x mod n, y mod n). Every texel lands in exactly one, where sub_map_texel tells.
 std::vector<RsmTexel> restructure_map(const ReflectiveShadowMap& map, int sub_maps);
-
-/// Where the texels of a sub-map start in restructure_map's result.
-std::size_t sub_map_start(int resolution, int sub_maps, int column, int row);
 
 }  // namespace lambent

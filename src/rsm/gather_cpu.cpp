@@ -6,6 +6,7 @@
 
 #include "rsm/geometry.h"
 #include "shared/color.h"
+#include "shared/packing.h"
 #include "shared/relight.h"
 
 namespace lambent {

@@ -5,27 +5,10 @@
 #include "rsm/deinterleave.h"
 #include "rsm/gather.h"
 #include "rsm/projection.h"
+#include "rsm/to_records.h"
 
 namespace lambent {
 namespace {
-
-/// Where a point lies in the map [texels]; points that the map does not show, at its edge.
-vec2 project(const RsmProjection& p, const vec3& position_ws, int resolution) {
-  const vec3 local = (position_ws - p.origin_ws) * p.world_from_light;
-  vec2 square(0.0f);
-  switch (p.kind) {
-    case RsmProjection::Kind::orthographic:
-      square = clamp(vec2(local.x, local.y) / p.half_extent, vec2(-1.0f), vec2(1.0f));
-      break;
-    case RsmProjection::Kind::perspective:
-      square = perspective_square(local, p.half_extent);
-      break;
-    case RsmProjection::Kind::octahedral:
-      if (local != vec3(0.0f)) square = octahedral_encode(local);
-      break;
-  }
-  return texel_place(square, resolution);
-}
 
 /// Which sub-map a lane gathers from, and where in the texels its own lie.
 struct LaneMaps {
@@ -56,34 +39,24 @@ void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub
                  const vec2& place, float weight, float (*fields)[kLanes]) {
   const int n = disk.sub_maps;
   const int height = sub_image_size(disk.map->resolution, sub_row, n);
-  // The sub-map's texel that is nearest to the sample
-  const int x = static_cast<int>(floor(
-      (place.x - 0.5f - static_cast<float>(maps.column[lane])) / static_cast<float>(n) + 0.5f));
-  const int y = static_cast<int>(
-      floor((place.y - 0.5f - static_cast<float>(sub_row)) / static_cast<float>(n) + 0.5f));
-  if (x < 0 || y < 0 || x >= maps.width[lane] || y >= height) {
+  const ivec2 at = nearest_in_sub_map(place, {maps.column[lane], sub_row}, n);
+  if (at.x < 0 || at.y < 0 || at.x >= maps.width[lane] || at.y >= height) {
     for (int k = 0; k < kTexelFields; ++k) fields[k][lane] = 0.0f;
     fields[6][lane] = 1.0f;  // any softening, so that nothing is divided by 0
     return;
   }
-  const RsmTexel& t = disk.texels[maps.first[lane] + static_cast<std::size_t>(x) * maps.step_x +
-                                  static_cast<std::size_t>(y) * maps.step_y[lane]];
+  const RsmTexelRecord t = weigh_disk_texel(
+      to_record(disk.texels[maps.first[lane] + at.x * maps.step_x + at.y * maps.step_y[lane]]),
+      weight, n, disk.softening);
   for (int c = 0; c < 3; ++c) {
     fields[c][lane] = t.position_ws[c];
     fields[3 + c][lane] = t.normal_ws[c];
-    fields[7 + c][lane] = t.flux[c] * (weight * kInvPi);
+    fields[7 + c][lane] = t.flux[c];
   }
-  const float share = std::max(1.0f, weight / static_cast<float>(n * n));
-  fields[6][lane] = t.area > 0.0f ? t.softening * share * disk.softening : 1.0f;
+  fields[6][lane] = t.softening;
 }
 
 }  // namespace
-
-std::size_t sub_map_start(int resolution, int sub_maps, int column, int row) {
-  const auto height = static_cast<std::size_t>(sub_image_size(resolution, row, sub_maps));
-  return static_cast<std::size_t>(sub_image_start(resolution, row, sub_maps)) * resolution +
-         static_cast<std::size_t>(sub_image_start(resolution, column, sub_maps)) * height;
-}
 
 std::vector<RsmTexel> restructure_map(const ReflectiveShadowMap& map, int sub_maps) {
   std::vector<RsmTexel> texels;
@@ -103,14 +76,15 @@ std::vector<RsmTexel> restructure_map(const ReflectiveShadowMap& map, int sub_ma
 void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column, int column_step,
                  int sub_row) {
   const int n = disk.sub_maps, subs = n * n;
+  const MapProjection projection = to_record(disk.map->projection);
   for (int i = 0; i < row.count; i += kLanes) {
     const LaneMaps maps = lane_maps(disk, first_column + i * column_step, column_step, sub_row);
     vec2 middle[kLanes];
     for (int l = 0; l < kLanes; ++l) {
       const float* position = row.guide.at(kPositionPlane) + i + l;
       const std::ptrdiff_t y = row.guide.stride, z = 2 * y;
-      middle[l] = project(disk.map->projection, {position[0], position[y], position[z]},
-                          disk.map->resolution);
+      middle[l] =
+          project_to_map(projection, {position[0], position[y], position[z]}, disk.map->resolution);
     }
     for (int k = 0; k < static_cast<int>(disk.samples.size()) / subs; ++k) {
       float fields[kTexelFields][kLanes];

@@ -10,7 +10,6 @@
 #include <numeric>
 
 #include "core/parallel.h"
-#include "rsm/clusters.h"
 #include "rsm/gather.h"
 #include "shared/color.h"
 #include "shared/random.h"
@@ -19,10 +18,6 @@
 namespace lambent {
 namespace {
 
-// Points of the view that are asked what a block brings to them, and draws of a pixel that may be
-// made until so many see something.
-constexpr int kViewPoints = 1024;
-constexpr uint kViewPointDraws = 8192;
 constexpr std::size_t kClustersPerTask = 256;
 // Clusters matter by their power times this power of the sum of squares of what a watt brings to
 // the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
@@ -33,37 +28,8 @@ constexpr float kMostScale = 2.0f;
 // Weight that power alone has beside what is brought to the points: light that none of them sees is
 // not left to a few huge clusters.
 constexpr float kPowerShare = 0.1f;
-// Keeps the random numbers of different uses apart.
-constexpr uint kViewSalt = 0x56494557u, kDealSalt = 0x4445414cu;
-
-/// Points of the view, as planes; those beyond the last see nothing.
-struct ViewPoints {
-  explicit ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
-  ConstPlanes planes() const { return {floats.data(), capacity}; }
-  std::vector<float> floats;
-  int capacity, count = 0;
-};
-
-ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
-  ViewPoints points(kViewPoints);
-  RandomStream random = make_random_stream(0u, kViewSalt, seed);
-  const vec2 shift = next_uniform2(random);
-  const ivec2 last(view.width - 1, view.height - 1);
-  for (uint i = 0; i < kViewPointDraws && points.count < points.capacity; ++i) {
-    const vec2 place = fract(shift + plastic_sequence(i)) * vec2(view.width, view.height);
-    const ivec2 at = min(ivec2(place), last);
-    const std::size_t pixel = static_cast<std::size_t>(at.y) * view.width + at.x;
-    if (view.normals_ws[pixel] == vec3(0.0f)) continue;
-    for (int c = 0; c < 3; ++c) {
-      points.floats[(kPositionPlane + c) * points.capacity + points.count] =
-          view.positions_ws[pixel][c];
-      points.floats[(kNormalPlane + c) * points.capacity + points.count] =
-          view.normals_ws[pixel][c];
-    }
-    ++points.count;
-  }
-  return points;
-}
+// Keeps these random numbers apart from others.
+constexpr uint kDealSalt = 0x4445414cu;
 
 /// What each cluster brings to the points; all 1 where there are none.
 std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Cluster>& clusters) {
@@ -78,8 +44,7 @@ std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Clu
 }
 
 /// Tells each cluster how much it matters, and what it brings.
-void weigh(const ViewPoints& points, std::vector<Cluster>& clusters) {
-  const std::vector<TermSums> sums = brought_to(points, clusters);
+void weigh(std::span<const TermSums> sums, std::vector<Cluster>& clusters) {
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     Cluster& cluster = clusters[i];
     const vec3& flux = cluster.texel.flux;
@@ -103,33 +68,49 @@ void weigh(const ViewPoints& points, std::vector<Cluster>& clusters) {
   }
 }
 
-std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
-  std::vector<Cluster> chosen;
-  for (const std::uint32_t i : morton_order(map.resolution)) {
-    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
+}  // namespace
+
+ViewPoints::ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
+
+void ViewPoints::add(const vec3& position_ws, const vec3& normal_ws) {
+  for (int c = 0; c < 3; ++c) {
+    floats[(kPositionPlane + c) * capacity + count] = position_ws[c];
+    floats[(kNormalPlane + c) * capacity + count] = normal_ws[c];
   }
-  return chosen;
+  ++count;
 }
 
-std::vector<Cluster> choose(const ReflectiveShadowMap& map, const ViewPoints& points,
-                            std::uint32_t count) {
-  std::vector<Cluster> clusters = cluster_blocks(map);
-  weigh(points, clusters);
-  clusters = merge_clusters(std::move(clusters), count);
+ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
+  ViewPoints points(kViewPoints);
+  RandomStream random = make_random_stream(0u, kViewSalt, seed);
+  const vec2 shift = next_uniform2(random);
+  for (uint i = 0; i < kViewPointDraws && points.count < points.capacity; ++i) {
+    const ivec2 at = view_point_pixel(i, shift, {view.width, view.height});
+    const std::size_t pixel = static_cast<std::size_t>(at.y) * view.width + at.x;
+    if (view.normals_ws[pixel] == vec3(0.0f)) continue;
+    points.add(view.positions_ws[pixel], view.normals_ws[pixel]);
+  }
+  return points;
+}
+
+std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<const TermSums> sums,
+                                     const ViewPoints& points, const RsmSettings& settings) {
+  weigh(sums, clusters);
+  const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
+  clusters = merge_clusters(std::move(clusters),
+                            (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs);
 
   // One normal and one place do not bring quite what many did: scale each cluster to do so
-  const std::vector<TermSums> sums = brought_to(points, clusters);
+  const std::vector<TermSums> now = brought_to(points, clusters);
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     RsmTexel& texel = clusters[i].texel;
-    const float brings = luminance(texel.flux) * sums[i].terms;
+    const float brings = luminance(texel.flux) * now[i].terms;
     if (!(brings > 0.0f) || points.count == 0) continue;
     const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMostScale, kMostScale);
     texel.flux *= scale;
   }
   return clusters;
 }
-
-}  // namespace
 
 std::vector<std::uint32_t> morton_order(int resolution) {
   const auto size = static_cast<std::uint32_t>(resolution);
@@ -150,74 +131,110 @@ std::vector<std::uint32_t> morton_order(int resolution) {
   return order;
 }
 
-RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
-                        const RsmSettings& settings) {
+namespace {
+
+void shuffle(std::vector<std::uint32_t>& deal, RandomStream& random) {
+  for (auto left = static_cast<std::uint32_t>(deal.size()); left > 1; --left) {
+    const auto other = static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
+    std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
+  }
+}
+
+}  // namespace
+
+RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings) {
   const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
-  const std::uint32_t count =
-      (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs;
-  const ViewPoints points =
-      settings.view_importance ? view_points(view, settings.seed) : ViewPoints(0);
-
-  RsmLights lights;
-  std::vector<std::vector<std::uint32_t>> dealt(subs);
+  struct Dealt {
+    RsmTexel texel;
+    std::uint32_t place;
+  };
+  std::vector<std::vector<Dealt>> dealt(subs);
+  std::uint32_t first = 0;
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    const ReflectiveShadowMap& map = maps[m];
-    const auto first = static_cast<std::uint32_t>(lights.rendered.size());
-    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
-    const std::vector<Cluster> chosen =
-        settings.texels == 0 ? all_texels(map) : choose(map, points, count);
-
     // Deal each run of neighbours to all sub-maps: in order, or in one of its own
+    const std::vector<Cluster>& chosen = maps[m].chosen;
     std::vector<std::uint32_t> deal(subs);
     std::iota(deal.begin(), deal.end(), 0u);
     RandomStream random = make_random_stream(static_cast<uint>(m), kDealSalt, settings.seed);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-      if (settings.shuffle && k % subs == 0) {
-        for (std::uint32_t left = subs; left > 1; --left) {
-          const auto other =
-              static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
-          std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
-        }
-      }
+      if (settings.shuffle && k % subs == 0) shuffle(deal, random);
       // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
       // is spread no wider for that, as the blurs bring all sub-maps together
-      const std::uint32_t place = first + chosen[k].place;
-      RsmTexel& texel = lights.rendered[place];
-      texel = chosen[k].texel;
-      texel.flux *= static_cast<float>(subs);
-      texel.softening *= settings.softening;
-      dealt[deal[k % subs]].push_back(place);
+      Dealt light = {chosen[k].texel, first + chosen[k].place};
+      light.texel.flux *= static_cast<float>(subs);
+      light.texel.softening *= settings.softening;
+      dealt[deal[k % subs]].push_back(light);
     }
+    first += maps[m].texels;
   }
 
   // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
   std::size_t longest = 0;
-  for (const std::vector<std::uint32_t>& sub_map : dealt) {
-    longest = std::max(longest, sub_map.size());
-  }
-  const auto dark = static_cast<std::uint32_t>(lights.rendered.size());
-  lights.rendered.push_back({});
-  lights.rendered.back().softening = 1.0f;
-  for (std::vector<std::uint32_t>& sub_map : dealt) sub_map.resize(longest, dark);
+  for (const std::vector<Dealt>& sub_map : dealt) longest = std::max(longest, sub_map.size());
+  Dealt dark = {{}, first};
+  dark.texel.softening = 1.0f;
+  for (std::vector<Dealt>& sub_map : dealt) sub_map.resize(longest, dark);
 
   // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
   // together the ways to all
   for (std::size_t s = 0; s < dealt.size(); ++s) {
     for (std::size_t k = 0; k + kTexelsPerWay <= longest; k += kTexelsPerWay) {
-      const auto first = dealt[s].begin() + static_cast<std::ptrdiff_t>(k);
-      std::rotate(first, first + static_cast<std::ptrdiff_t>(s % kTexelsPerWay),
-                  first + kTexelsPerWay);
+      const auto begin = dealt[s].begin() + static_cast<std::ptrdiff_t>(k);
+      std::rotate(begin, begin + static_cast<std::ptrdiff_t>(s % kTexelsPerWay),
+                  begin + kTexelsPerWay);
     }
   }
 
+  RsmLights lights;
   lights.starts.push_back(0);
-  for (const std::vector<std::uint32_t>& sub_map : dealt) {
-    lights.places.insert(lights.places.end(), sub_map.begin(), sub_map.end());
+  for (const std::vector<Dealt>& sub_map : dealt) {
+    for (const Dealt& light : sub_map) {
+      lights.places.push_back(light.place);
+      lights.restructured.push_back(light.texel);
+    }
     lights.starts.push_back(static_cast<std::uint32_t>(lights.places.size()));
   }
-  for (const std::uint32_t place : lights.places) {
-    lights.restructured.push_back(lights.rendered[place]);
+  return lights;
+}
+
+std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
+  std::vector<Cluster> chosen;
+  for (const std::uint32_t i : morton_order(map.resolution)) {
+    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
   }
+  return chosen;
+}
+
+void place_rendered(std::span<const ReflectiveShadowMap> maps, RsmLights& lights) {
+  lights.rendered.clear();
+  for (const ReflectiveShadowMap& map : maps) {
+    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
+  }
+  lights.rendered.emplace_back().softening = 1.0f;
+  for (std::size_t k = 0; k < lights.places.size(); ++k) {
+    lights.rendered[lights.places[k]] = lights.restructured[k];
+  }
+}
+
+RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+                        const RsmSettings& settings) {
+  const ViewPoints points =
+      settings.view_importance ? view_points(view, settings.seed) : ViewPoints(0);
+  std::vector<ChosenOfMap> chosen;
+  for (const ReflectiveShadowMap& map : maps) {
+    ChosenOfMap of_map;
+    of_map.texels = static_cast<std::uint32_t>(map.texels.size());
+    if (settings.texels == 0) {
+      of_map.chosen = all_texels(map);
+    } else {
+      std::vector<Cluster> clusters = cluster_blocks(map);
+      const std::vector<TermSums> sums = brought_to(points, clusters);
+      of_map.chosen = choose_clusters(std::move(clusters), sums, points, settings);
+    }
+    chosen.push_back(std::move(of_map));
+  }
+  RsmLights lights = deal_lights(chosen, settings);
+  place_rendered(maps, lights);
   return lights;
 }
 

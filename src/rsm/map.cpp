@@ -11,10 +11,11 @@
 #include "lambent/rsm.h"
 #include "lambent/world.h"
 #include "raytracing/camera_rays.h"
-#include "raytracing/shade_hits.h"
 #include "raytracing/surface.h"
-#include "rsm/geometry.h"
+#include "rsm/map.h"
+#include "rsm/map_texel.h"
 #include "rsm/projection.h"
+#include "rsm/to_records.h"
 #include "scene/light_sampling.h"
 #include "shared/color.h"
 
@@ -32,11 +33,6 @@ constexpr float kNarrowestPerspective = 1e-3f;  // from the axis [rad]
 constexpr int kOrientations = 16;
 // Its sides are moved out by this share of the scene's size, so that walls seen edge-on lie within.
 constexpr float kFrustumMargin = 1e-3f;
-
-// A shading normal tilted away from its triangle changes the light on it by at most this factor:
-// beyond, the light grazes the triangle, and few texels would bring enormous light.
-constexpr float kMaxTilt = 4.0f;
-constexpr float kMinGrazingCosine = 1e-3f;  // bounds a texel's area likewise
 
 mat3 axes_along(const vec3& direction) {
   const Frame frame = make_frame(-direction);
@@ -74,78 +70,20 @@ RsmProjection fit_orthographic(const Scene& scene, const vec3& direction) {
   return best;
 }
 
-RsmProjection fit_projection(const Scene& scene, const Light& light) {
-  if (light.type == Light::Type::directional) return fit_orthographic(scene, light.direction_ws);
-  RsmProjection projection;
-  projection.origin_ws = light.position_ws;
-  if (light.type == Light::Type::spot && light.outer_cone_angle <= kWidestPerspective) {
-    projection.kind = Kind::perspective;
-    projection.world_from_light = axes_along(light.direction_ws);
-    projection.half_extent =
-        vec2(std::tan(std::max(light.outer_cone_angle, kNarrowestPerspective)));
-  }
-  return projection;
-}
-
-Ray texel_ray(const RsmProjection& p, const vec2& square) {
+Ray texel_ray(const MapProjection& p, const vec2& square) {
+  const MapRay through = map_ray(p, square);
   Ray ray;
-  ray.origin = p.origin_ws;
-  switch (p.kind) {
-    case Kind::orthographic:
-      ray.origin +=
-          p.world_from_light * vec3(square.x * p.half_extent.x, square.y * p.half_extent.y, 0.0f);
-      ray.direction = -p.world_from_light[2];
-      break;
-    case Kind::perspective:
-      ray.direction = normalize(p.world_from_light * perspective_direction(square, p.half_extent));
-      break;
-    case Kind::octahedral:
-      ray.direction = p.world_from_light * octahedral_decode(square);
-      break;
-  }
+  ray.origin = through.origin_ws;
+  ray.direction = through.direction_ws;
   return ray;
 }
 
-/// Area perpendicular to its ray that a texel covers at a distance [m^2].
-float perpendicular_area(const RsmProjection& p, const vec2& square, int resolution,
-                         float distance) {
-  const float share = 4.0f / (static_cast<float>(resolution) * static_cast<float>(resolution));
-  const float square_distance = distance * distance;
-  switch (p.kind) {
-    case Kind::orthographic:
-      return share * p.half_extent.x * p.half_extent.y;
-    case Kind::perspective:
-      return share * perspective_solid_angle(square, p.half_extent) * square_distance;
-    case Kind::octahedral:
-      return share * octahedral_solid_angle(square) * square_distance;
-  }
-  return 0.0f;
-}
-
-/// A texel that stands for a piece of a surface and reflects so much.
-RsmTexel make_texel(const vec3& position_ws, const vec3& normal_ws, float area, const vec3& flux) {
-  RsmTexel texel;
-  texel.position_ws = position_ws + normal_ws * (kTexelOffset * std::sqrt(area));
-  texel.normal_ws = normal_ws;
-  texel.area = area;
-  texel.softening = kSofteningPerArea * area;
-  texel.flux = flux;
-  return texel;
-}
-
-RsmTexel lit_texel(const World& world, const Light& light, const Ray& ray, const Hit& hit,
-                   float perpendicular_area) {
+RsmTexel texel_of_light(const World& world, const Light& light, const Ray& ray, const Hit& hit,
+                        float cross_section) {
   const Surface surface = surface_at(world.scene(), ray, hit);
   const PunctualSample sample = sample_punctual(light, surface.position_ws);
-  // Reflect light as the shading normal receives it, but send it out from the triangle: texels of
-  // one bumpy wall must not light each other
-  const float grazing =
-      std::max(kMinGrazingCosine, -dot(surface.geometric_normal_ws, ray.direction));
-  const float received = std::max(0.0f, -dot(surface.normal_ws, ray.direction));
-  const vec3 albedo = effective_albedo(surface.reflectance, received);
-  const float tilt = std::min(kMaxTilt, received / grazing);
-  return make_texel(surface.position_ws, surface.geometric_normal_ws, perpendicular_area / grazing,
-                    albedo * sample.irradiance * (perpendicular_area * tilt));
+  return to_texel(lit_texel(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
+                            surface.reflectance, ray.direction, sample.irradiance, cross_section));
 }
 
 /// Traces one ray a texel and calls make(texel, ray, hit) for those that meet a surface.
@@ -170,22 +108,56 @@ void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, S
 
 }  // namespace
 
+RsmProjection fit_projection(const Scene& scene, const Light& light) {
+  if (light.type == Light::Type::directional) return fit_orthographic(scene, light.direction_ws);
+  RsmProjection projection;
+  projection.origin_ws = light.position_ws;
+  if (light.type == Light::Type::spot && light.outer_cone_angle <= kWidestPerspective) {
+    projection.kind = Kind::perspective;
+    projection.world_from_light = axes_along(light.direction_ws);
+    projection.half_extent =
+        vec2(std::tan(std::max(light.outer_cone_angle, kNarrowestPerspective)));
+  }
+  return projection;
+}
+
+RsmProjection camera_projection(const Camera& camera, float aspect) {
+  RsmProjection p;
+  p.kind = camera.orthographic ? Kind::orthographic : Kind::perspective;
+  p.origin_ws = vec3(camera.world_from_view[3]);
+  for (int i = 0; i < 3; ++i) p.world_from_light[i] = normalize(vec3(camera.world_from_view[i]));
+  const float half_height =
+      camera.orthographic ? 0.5f * camera.vertical_extent : std::tan(0.5f * camera.vertical_fov);
+  p.half_extent = vec2(aspect * half_height, half_height);
+  return p;
+}
+
+ShadeHitsSettings camera_shading(const RsmSettings& settings) {
+  ShadeHitsSettings shading;
+  shading.back_faces_count = true;
+  shading.seed = settings.seed;
+  return shading;
+}
+
 ReflectiveShadowMap render_rsm(const World& world, const Light& light,
                                const RsmSettings& settings) {
   assert(check(settings));
   ReflectiveShadowMap map;
   map.resolution = settings.resolution;
   map.projection = fit_projection(world.scene(), light);
+  const MapProjection projection = to_record(map.projection);
   trace_map(
-      world, map, [&](const vec2& square) { return texel_ray(map.projection, square); },
+      world, map, [&](const vec2& square) { return texel_ray(projection, square); },
       [&](std::size_t first, const std::vector<Ray>& rays, const std::vector<Hit>& hits) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
           if (hits[i].missed()) continue;
           const int x = static_cast<int>(i);
           const int y = static_cast<int>(first / rays.size());
-          const float area = perpendicular_area(map.projection, texel_middle(x, y, map.resolution),
+          const float area = perpendicular_area(projection, texel_middle(x, y, map.resolution),
                                                 map.resolution, hits[i].distance);
-          if (area > 0.0f) map.texels[first + i] = lit_texel(world, light, rays[i], hits[i], area);
+          if (area > 0.0f) {
+            map.texels[first + i] = texel_of_light(world, light, rays[i], hits[i], area);
+          }
         }
       });
   return map;
@@ -196,19 +168,11 @@ ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float a
   assert(check(settings) && aspect > 0.0f);
   ReflectiveShadowMap map;
   map.resolution = settings.resolution;
-  RsmProjection& p = map.projection;
-  p.kind = camera.orthographic ? Kind::orthographic : Kind::perspective;
-  p.origin_ws = vec3(camera.world_from_view[3]);
-  for (int i = 0; i < 3; ++i) p.world_from_light[i] = normalize(vec3(camera.world_from_view[i]));
-  const float half_height =
-      camera.orthographic ? 0.5f * camera.vertical_extent : std::tan(0.5f * camera.vertical_fov);
-  p.half_extent = vec2(aspect * half_height, half_height);
-
-  ShadeHitsSettings shading;
-  shading.back_faces_count = true;
-  shading.seed = settings.seed;
+  map.projection = camera_projection(camera, aspect);
+  const MapProjection projection = to_record(map.projection);
+  const ShadeHitsSettings shading = camera_shading(settings);
   trace_map(
-      world, map, [&](const vec2& square) { return texel_ray(p, square); },
+      world, map, [&](const vec2& square) { return texel_ray(projection, square); },
       [&](std::size_t first, const std::vector<Ray>& rays, const std::vector<Hit>& hits) {
         std::vector<ShadedHit> shaded(rays.size());
         ShadeHitsScratch scratch;
@@ -216,16 +180,12 @@ ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float a
         for (std::size_t i = 0; i < rays.size(); ++i) {
           if (hits[i].missed()) continue;
           const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
-          const vec3 normal = surface.geometric_normal_ws;
-          const float grazing = std::max(kMinGrazingCosine, -dot(normal, rays[i].direction));
           const vec2 square = texel_middle(static_cast<int>(i),
                                            static_cast<int>(first / rays.size()), map.resolution);
-          const float area =
-              perpendicular_area(p, square, map.resolution, hits[i].distance) / grazing;
-          const vec3 flux = shaded[i].albedo_over_pi * shaded[i].direct_irradiance * (kPi * area);
-          if (area > 0.0f) {
-            map.texels[first + i] = make_texel(surface.position_ws, normal, area, flux);
-          }
+          map.texels[first + i] = to_texel(
+              seen_texel(surface.position_ws, surface.geometric_normal_ws, rays[i].direction,
+                         shaded[i].albedo_over_pi * shaded[i].direct_irradiance,
+                         perpendicular_area(projection, square, map.resolution, hits[i].distance)));
         }
       });
   return map;

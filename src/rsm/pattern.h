@@ -4,6 +4,7 @@
 #ifndef LAMBENT_RSM_PATTERN_H
 #define LAMBENT_RSM_PATTERN_H
 
+#include "rsm/records.h"
 #include "shared/constants.h"
 
 LAMBENT_BEGIN
@@ -24,6 +25,26 @@ LAMBENT_FN DiskSample disk_sample(uint index, uint count, float radius) {
   DiskSample result = {vec2(cos(angle), sin(angle)) * (share * radius),
                        kTwoPi * radius * radius * share / float(count)};
   return result;
+}
+
+LAMBENT_DEVICE_ARRAY(DiskSampleArray, DiskSample, 4)
+
+/// The texel of a sub-map (column, row of n x n) that is nearest to a place of the map [texels];
+/// it may lie outside.
+LAMBENT_FN ivec2 nearest_in_sub_map(vec2 place, ivec2 sub_map, int n) {
+  float x = (place.x - 0.5f - float(sub_map.x)) / float(n) + 0.5f;
+  float y = (place.y - 0.5f - float(sub_map.y)) / float(n) + 0.5f;
+  return ivec2(int(floor(x)), int(floor(y)));
+}
+
+/// A texel as a sample of so many texels' weight brings its light: flux over pi, spread over what
+/// it stands for of one of n x n sub-maps.
+LAMBENT_FN RsmTexelRecord weigh_disk_texel(RsmTexelRecord texel, float weight, int n,
+                                           float softening) {
+  float share = max(1.0f, weight / float(n * n));
+  texel.flux = texel.flux * (weight * kInvPi);
+  texel.softening = texel.area > 0.0f ? texel.softening * share * softening : 1.0f;
+  return texel;
 }
 
 LAMBENT_END

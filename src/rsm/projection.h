@@ -4,6 +4,7 @@
 #ifndef LAMBENT_RSM_PROJECTION_H
 #define LAMBENT_RSM_PROJECTION_H
 
+#include "rsm/records.h"
 #include "shared/octahedral.h"
 
 LAMBENT_BEGIN
@@ -55,6 +56,49 @@ LAMBENT_FN float octahedral_solid_angle(vec2 square) {
   }
   float square_length = x * x + y * y + z * z;
   return 1.0f / (square_length * sqrt(square_length));
+}
+
+/// A ray through a point of a map's square.
+struct MapRay {
+  vec3 origin_ws;     ///< [m]
+  vec3 direction_ws;  ///< Unit.
+};
+
+LAMBENT_FN MapRay map_ray(MapProjection p, vec2 square) {
+  MapRay ray = {p.origin_ws, vec3(0.0f)};
+  if (p.kind == kOrthographicMap) {
+    vec3 place = vec3(square.x * p.half_extent.x, square.y * p.half_extent.y, 0.0f);
+    ray.origin_ws += p.world_from_light * place;
+    ray.direction_ws = -p.world_from_light[2];
+  } else if (p.kind == kPerspectiveMap) {
+    ray.direction_ws = normalize(p.world_from_light * perspective_direction(square, p.half_extent));
+  } else {
+    ray.direction_ws = p.world_from_light * octahedral_decode(square);
+  }
+  return ray;
+}
+
+/// Area perpendicular to its ray that a texel covers at a distance [m^2].
+LAMBENT_FN float perpendicular_area(MapProjection p, vec2 square, int resolution, float dist) {
+  float share = 4.0f / (float(resolution) * float(resolution));
+  if (p.kind == kOrthographicMap) return share * p.half_extent.x * p.half_extent.y;
+  float solid_angle = p.kind == kPerspectiveMap ? perspective_solid_angle(square, p.half_extent)
+                                                : octahedral_solid_angle(square);
+  return share * solid_angle * (dist * dist);
+}
+
+/// Where a point lies in the map [texels]; points that the map does not show, at its edge.
+LAMBENT_FN vec2 project_to_map(MapProjection p, vec3 position_ws, int resolution) {
+  vec3 local = (position_ws - p.origin_ws) * p.world_from_light;
+  vec2 square = vec2(0.0f);
+  if (p.kind == kOrthographicMap) {
+    square = clamp(vec2(local.x, local.y) / p.half_extent, vec2(-1.0f), vec2(1.0f));
+  } else if (p.kind == kPerspectiveMap) {
+    square = perspective_square(local, p.half_extent);
+  } else if (local != vec3(0.0f)) {
+    square = octahedral_encode(local);
+  }
+  return texel_place(square, resolution);
 }
 
 LAMBENT_END

@@ -11,6 +11,7 @@
 #include "rsm/deinterleave.h"
 #include "rsm/lights.h"
 #include "rsm/mosaic.h"
+#include "rsm/order.h"
 #include "rsm/passes.h"
 
 namespace lambent {
@@ -43,14 +44,7 @@ bool blurs_picture(const RsmSettings& settings) {
   return settings.final_blur && settings.sub_images > 1;
 }
 
-/// How far the blurs look [pixels of the picture].
-int blur_reach(const RsmSettings& settings) {
-  const int irregular = settings.irregular_blur ? kIrregularDistances[2] : 0;
-  const int sub_reach = settings.sub_images * std::max(settings.sub_blur_radius, irregular);
-  return std::max(sub_reach, settings.final_blur ? settings.sub_images / 2 : 0);
-}
-
-Layer layer_of(const char* name, const std::vector<glm::vec3>& pixels, int width, int height) {
+Layer layer_of(const char* name, std::span<const glm::vec3> pixels, int width, int height) {
   Layer layer{name, Image(width, height, 3)};
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     for (int c = 0; c < 3; ++c) layer.image.pixels[3 * i + c] = pixels[i][c];
@@ -59,8 +53,7 @@ Layer layer_of(const char* name, const std::vector<glm::vec3>& pixels, int width
 }
 
 /// The sub-images side by side.
-Layer mosaic_layer(const std::vector<glm::vec3>& interleaved, int width, int height,
-                   int sub_images) {
+Layer mosaic_layer(std::span<const glm::vec3> interleaved, int width, int height, int sub_images) {
   Layer layer{"rsm.mosaic", Image(width, height, 3)};
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -75,7 +68,90 @@ Layer mosaic_layer(const std::vector<glm::vec3>& interleaved, int width, int hei
   return layer;
 }
 
+/// The passes on the processor.
+class PassesOnHost final : public RsmPasses {
+ public:
+  PassesOnHost(const World& world, const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+               const RsmLights& lights, const RsmSettings& settings, Mosaic& mosaic,
+               RsmIrradiance& result)
+      : world_(world),
+        view_(view),
+        maps_(maps),
+        lights_(lights),
+        settings_(settings),
+        mosaic_(mosaic),
+        result_(result) {}
+
+  void begin(const char* name) override {
+    name_ = name;
+    watch_.lap();
+  }
+  void end() override { result_.passes.push_back({name_, watch_.lap()}); }
+  void gather() override {
+    if (settings_.pattern == RsmPattern::whole) {
+      result_.rays = gather_whole(world_, view_, lights_, settings_, mosaic_);
+    } else {
+      gather_disks(view_, maps_, settings_, mosaic_);
+    }
+  }
+  void blur_sub_images(std::span<const BlurTap> taps) override {
+    lambent::blur_sub_images(taps, settings_, mosaic_);
+  }
+  void interleave(std::span<const BlurTap> taps) override {
+    lambent::interleave(taps, settings_, mosaic_, result_.irradiance);
+  }
+  void keep(RsmStage stage) override {
+    if (stage != RsmStage::blurred) interleave({});
+    add_stage_layers(stage, result_.irradiance, settings_, result_);
+  }
+
+ private:
+  const World& world_;
+  const RsmView& view_;
+  std::span<const ReflectiveShadowMap> maps_;
+  const RsmLights& lights_;
+  const RsmSettings& settings_;
+  Mosaic& mosaic_;
+  RsmIrradiance& result_;
+  Stopwatch watch_;
+  const char* name_ = "";
+};
+
 }  // namespace
+
+int blur_reach(const RsmSettings& settings) {
+  const int irregular = settings.irregular_blur ? kIrregularDistances[2] : 0;
+  const int sub_reach = settings.sub_images * std::max(settings.sub_blur_radius, irregular);
+  return std::max(sub_reach, settings.final_blur ? settings.sub_images / 2 : 0);
+}
+
+void add_stage_layers(RsmStage stage, std::span<const glm::vec3> picture,
+                      const RsmSettings& settings, RsmIrradiance& result) {
+  constexpr const char* kNames[kRsmStages] = {"rsm.gathered", "rsm.interleaved", "rsm.blurred"};
+  const int width = result.width, height = result.height;
+  result.stages.push_back(layer_of(kNames[static_cast<int>(stage)], picture, width, height));
+  if (stage != RsmStage::gathered) return;
+  result.stages.push_back(mosaic_layer(picture, width, height, settings.sub_images));
+}
+
+void run_rsm_passes(const RsmSettings& settings, bool keep_stages, RsmPasses& passes) {
+  passes.begin("rsm.gather");
+  passes.gather();
+  passes.end();
+  if (keep_stages) passes.keep(RsmStage::gathered);
+
+  passes.begin("rsm.sub_blur");
+  if (settings.sub_blur_radius > 0) passes.blur_sub_images(box_taps(settings.sub_blur_radius));
+  if (settings.irregular_blur) passes.blur_sub_images(irregular_taps());
+  passes.end();
+  if (keep_stages) passes.keep(RsmStage::interleaved);
+
+  passes.begin("rsm.interleave");
+  const bool blur = blurs_picture(settings);
+  passes.interleave(blur ? period_taps(settings.sub_images) : std::vector<BlurTap>());
+  passes.end();
+  if (keep_stages) passes.keep(RsmStage::blurred);
+}
 
 struct RsmGatherer::Buffers {
   Mosaic mosaic;
@@ -133,52 +209,16 @@ void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap
   result.stages.clear();
   result.rays = 0;
 
-  Stopwatch watch;
-  const auto finish = [&](const char* name) { result.passes.push_back({name, watch.lap()}); };
-  const auto keep = [&](const char* name) {
-    if (!keep_stages) return;
-    result.stages.push_back(layer_of(name, result.irradiance, view.width, view.height));
-    watch.lap();
-  };
-  const auto keep_current = [&](const char* name) {
-    if (!keep_stages) return;
-    interleave({}, settings, buffers_->mosaic, result.irradiance);
-    keep(name);
-  };
-
   // Choose the lights and lay them out as they will be read
-  Mosaic& mosaic = buffers_->mosaic;
+  Stopwatch watch;
   const bool whole = settings.pattern == RsmPattern::whole;
   const RsmLights lights = whole ? choose_lights(maps, view, settings) : RsmLights();
-  finish("rsm.choose");
+  result.passes.push_back({"rsm.choose", watch.lap()});
   const bool restructured = settings.layout == RsmLayout::restructured;
-  mosaic.reshape(view.width, view.height, restructured ? settings.sub_images : 1,
-                 blur_reach(settings));
-
-  if (whole) {
-    result.rays = gather_whole(world, view, lights, settings, mosaic);
-  } else {
-    gather_disks(view, maps, settings, mosaic);
-  }
-  finish("rsm.gather");
-  keep_current("rsm.gathered");
-  if (keep_stages) {
-    result.stages.push_back(
-        mosaic_layer(result.irradiance, view.width, view.height, settings.sub_images));
-  }
-
-  if (settings.sub_blur_radius > 0) {
-    blur_sub_images(box_taps(settings.sub_blur_radius), settings, mosaic);
-  }
-  if (settings.irregular_blur) blur_sub_images(irregular_taps(), settings, mosaic);
-  finish("rsm.sub_blur");
-  keep_current("rsm.interleaved");
-
-  const bool blur = blurs_picture(settings);
-  interleave(blur ? period_taps(settings.sub_images) : std::vector<BlurTap>(), settings, mosaic,
-             result.irradiance);
-  finish("rsm.interleave");
-  keep("rsm.blurred");
+  buffers_->mosaic.reshape(view.width, view.height, restructured ? settings.sub_images : 1,
+                           blur_reach(settings));
+  PassesOnHost passes(world, view, maps, lights, settings, buffers_->mosaic, result);
+  run_rsm_passes(settings, keep_stages, passes);
 }
 
 }  // namespace lambent

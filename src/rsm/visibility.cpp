@@ -4,25 +4,16 @@
 #include <vector>
 
 #include "raytracing/raytracer.h"
-#include "rsm/geometry.h"
-#include "shared/color.h"
+#include "rsm/to_records.h"
+#include "rsm/visibility_rays.h"
 #include "shared/random.h"
-#include "shared/rays.h"
 
 namespace lambent {
 namespace {
 
-// Keeps these random numbers apart from those of other passes.
-constexpr uint kVisibilitySalt = 0x56495349u;
-
 Ray ray_between(const vec3& position_ws, const vec3& normal_ws, const vec3& texel_ws) {
-  Ray ray;
-  ray.origin = offset_ray_origin(position_ws, normal_ws);
-  const vec3 way = texel_ws - ray.origin;
-  const float distance = length(way);
-  if (distance > 0.0f) ray.direction = way / distance;
-  ray.t_max = distance * (1.0f - kShadowRayShortening);
-  return ray;
+  const RayRecord r = ray_to_texel(position_ws, normal_ws, texel_ws, kRayMeetsAll);
+  return {r.origin_ws, r.t_min, r.direction_ws, r.t_max, r.mask};
 }
 
 /// Draws texels for a point, stratified over what they bring, and appends the rays to them.
@@ -32,16 +23,14 @@ void draw_rays(const vec3& position_ws, const vec3& normal_ws, std::span<const R
   brought.resize(texels.size());
   float total = 0.0f;
   for (std::size_t k = 0; k < texels.size(); ++k) {
-    const RsmTexel& t = texels[k];
-    total += luminance(t.flux) *
-             bounded_geometry_term(position_ws, normal_ws, t.position_ws, t.normal_ws, t.softening);
+    total += texel_worth(position_ws, normal_ws, to_record(texels[k]));
     brought[k] = total;
   }
   if (!(total > 0.0f)) return;
   const float shift = next_uniform(random);
   std::size_t k = 0;
   for (int i = 0; i < count; ++i) {
-    const float wanted = total * (static_cast<float>(i) + shift) / static_cast<float>(count);
+    const float wanted = drawn_worth(total, i, shift, count);
     while (k + 1 < texels.size() && brought[k] <= wanted) ++k;
     rays.push_back(ray_between(position_ws, normal_ws, texels[k].position_ws));
   }

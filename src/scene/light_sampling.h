@@ -34,6 +34,16 @@ class EmissiveTriangles {
   /// emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
 
+  struct Entry {
+    std::uint32_t instance, triangle;
+    float area;         ///< [m^2], world space.
+    float probability;  ///< Of being drawn.
+  };
+  /// The triangles, by instance and triangle.
+  const std::vector<Entry>& entries() const { return entries_; }
+  /// Upper end of each entry's interval of [0, 1).
+  const std::vector<float>& cumulative() const { return cumulative_; }
+
   /// World-space boxes of the emissive triangles, one an instance [m].
   const std::vector<Bounds>& bounds() const { return bounds_; }
 
@@ -41,15 +51,10 @@ class EmissiveTriangles {
   float total_power() const { return total_power_; }
 
  private:
-  struct Entry {
-    std::uint32_t instance, triangle;
-    float area;         // [m^2], world space
-    float probability;  // of being drawn
-  };
   const Scene* scene_;
   std::vector<Entry> entries_;
   std::vector<Bounds> bounds_;
-  std::vector<float> cumulative_;  // upper end of each entry's interval of [0, 1)
+  std::vector<float> cumulative_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_of_;
   float total_power_ = 0.0f;
 };

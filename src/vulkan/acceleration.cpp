@@ -11,11 +11,6 @@
 namespace lambent::vulkan {
 namespace {
 
-// Structures are built in groups that need about so much memory to work in, and hold about so much
-// before they are compacted.
-constexpr std::size_t kGroupScratchBytes = std::size_t{64} << 20;
-constexpr std::size_t kGroupStructureBytes = std::size_t{256} << 20;
-
 std::size_t align_up(std::size_t bytes, std::size_t alignment) {
   return (bytes + alignment - 1) / alignment * alignment;
 }
@@ -227,22 +222,19 @@ std::vector<AccelerationStructure> TriangleBuilder::build(
   return built;
 }
 
-/// Builds as many as go together well. Returns how many.
-std::size_t TriangleBuilder::build_group(std::span<const TriangleGeometry> geometries,
-                                         std::vector<AccelerationStructure>& built) {
+/// Builds as many as go together well.
+void TriangleBuilder::build_group(std::span<const TriangleGeometry> geometries,
+                                  std::vector<AccelerationStructure>& built) {
   const std::size_t alignment = device_->limits().acceleration_scratch_alignment;
   std::vector<Build> builds;
   std::vector<VkDeviceSize> passing, lasting;
-  std::size_t scratch_bytes = 0, structure_bytes = 0;
+  std::size_t scratch_bytes = 0, group_bytes = 0;
   for (const TriangleGeometry& geometry : geometries) {
     const Build build = build_of_triangles(*device_, geometry);
     const std::size_t working = align_up(build.sizes.buildScratchSize, alignment);
-    const bool full =
-        scratch_bytes + working > kGroupScratchBytes ||
-        structure_bytes + build.sizes.accelerationStructureSize > kGroupStructureBytes;
-    if (full && !builds.empty()) break;
+    group_bytes += working + build.sizes.accelerationStructureSize;
+    if (group_bytes > group_bytes_ && !builds.empty()) break;
     scratch_bytes += working;
-    structure_bytes += build.sizes.accelerationStructureSize;
     (geometry.deforms ? lasting : passing).push_back(build.sizes.accelerationStructureSize);
     builds.push_back(build);
   }
@@ -264,7 +256,6 @@ std::size_t TriangleBuilder::build_group(std::span<const TriangleGeometry> geome
   device_->run([&](Recorder& recorder) { record_builds(recorder, builds); });
   compact(*device_, which, structures);
   std::move(structures.begin(), structures.end(), std::back_inserter(built));
-  return builds.size();
 }
 
 void TriangleBuilder::fit(Recorder& recorder, std::span<const Deformed> deformed) {

@@ -62,7 +62,12 @@ inline constexpr std::size_t kStructureAlignment = 256;
 /// must outlive it.
 class TriangleBuilder {
  public:
-  explicit TriangleBuilder(const Device& device) : device_(&device) {}
+  /// Structures are built in groups that need about so much memory, to work in and before they are
+  /// compacted [bytes].
+  static constexpr std::size_t kGroupBytes = std::size_t{256} << 20;
+
+  explicit TriangleBuilder(const Device& device, std::size_t group_bytes = kGroupBytes)
+      : device_(&device), group_bytes_(group_bytes) {}
 
   /// One structure for each geometry; compacted unless it deforms. Waits. Throws std::runtime_error
   /// where memory runs out.
@@ -79,10 +84,11 @@ class TriangleBuilder {
 
  private:
   VkDeviceAddress scratch(std::size_t bytes);
-  std::size_t build_group(std::span<const TriangleGeometry> geometries,
-                          std::vector<AccelerationStructure>& built);
+  void build_group(std::span<const TriangleGeometry> geometries,
+                   std::vector<AccelerationStructure>& built);
 
   const Device* device_;
+  std::size_t group_bytes_;
   Buffer scratch_;
 };
 

@@ -171,6 +171,7 @@ void Device::finish(std::uint32_t queue_family) {
   limits_.acceleration_scratch_alignment =
       structures.minAccelerationStructureScratchOffsetAlignment;
   limits_.max_sampled_images = std::min(core.maxPerStageDescriptorSampledImages, kMaxTextures);
+  limits_.max_image_extent = core.maxImageDimension2D;
   limits_.max_groups = core.maxComputeWorkGroupCount[0];
   limits_.timestamp_period_ns = core.timestampComputeAndGraphics ? core.timestampPeriod : 0.0f;
 
@@ -216,7 +217,20 @@ void Device::make_pipeline_layout() {
         "vkCreatePipelineLayout");
 }
 
+void* Device::keep(std::type_index type, const std::function<std::shared_ptr<void>()>& make) const {
+  {
+    const std::lock_guard lock(keeping_);
+    const auto found = kept_.find(type);
+    if (found != kept_.end()) return found->second.get();
+  }
+  // Making one may ask for another; of two made at once the first stays
+  std::shared_ptr<void> made = make();
+  const std::lock_guard lock(keeping_);
+  return kept_.try_emplace(type, std::move(made)).first->second.get();
+}
+
 Device::~Device() {
+  kept_.clear();
   const Functions& f = functions_;
   if (device_ != VK_NULL_HANDLE && f.vkDestroyFence != nullptr) {
     f.vkDestroyPipelineLayout(device_, pipeline_layout_, nullptr);

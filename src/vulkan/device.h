@@ -7,6 +7,8 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <typeindex>
+#include <unordered_map>
 #include <vector>
 
 #include "lambent/vulkan.h"
@@ -60,6 +62,7 @@ struct DeviceLimits {
   std::uint32_t shader_group_base_alignment = 0;
   std::uint32_t acceleration_scratch_alignment = 0;
   std::uint32_t max_sampled_images = 0;  ///< In one descriptor array.
+  std::uint32_t max_image_extent = 0;    ///< Texels an image is wide or high.
   std::uint32_t max_groups = 0;          ///< Of a dispatch, along its first axis.
   float timestamp_period_ns = 0.0f;      ///< 0: the queue has no timestamps.
 };
@@ -89,6 +92,14 @@ class Device : public std::enable_shared_from_this<Device> {
   /// Has `record` fill a command buffer, submits it and waits. One at a time; others wait.
   void run(const std::function<void(Recorder&)>& record) const;
 
+  /// The one object of this class that lives with the device, made at the first call as T(device):
+  /// for kernels, which take long to compile, and memory that passes use again.
+  template <class T>
+  T& kept() const {
+    return *static_cast<T*>(
+        keep(typeid(T), [this] { return std::shared_ptr<void>(std::make_shared<T>(*this)); }));
+  }
+
   /// Gives an object its name for debuggers, where they listen.
   void name(VkObjectType type, std::uint64_t object, const std::string& name) const;
 
@@ -98,6 +109,7 @@ class Device : public std::enable_shared_from_this<Device> {
   friend Expected<std::shared_ptr<Device>> open_device(const DeviceRequest&);
   struct Messages;
   Device();
+  void* keep(std::type_index type, const std::function<std::shared_ptr<void>()>& make) const;
   void listen(VkInstance instance);
   void finish(std::uint32_t queue_family);
   void make_pipeline_layout();
@@ -119,6 +131,8 @@ class Device : public std::enable_shared_from_this<Device> {
   VkDescriptorSetLayout texture_set_layout_ = VK_NULL_HANDLE;
   VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
   mutable std::mutex running_;
+  mutable std::mutex keeping_;
+  mutable std::unordered_map<std::type_index, std::shared_ptr<void>> kept_;
 };
 
 /// Push constants a pipeline can take: what every device has.

@@ -17,8 +17,8 @@ using testing::run_program;
 
 // No more than a few seconds on a processor that plays a device.
 const std::string kSmall = " --size 32x24 --samples 1 --updates 1 --probes 3x3x3 --rays 32";
-// Hits differ by rounding alone.
-constexpr double kMostRelativeRmse = 1e-3;
+// Where a ray grazes an edge, or a random decision is as close as rounding, single pixels differ.
+constexpr double kMostRelativeRmse = 0.01;
 
 /// Keeps Vulkan from finding any driver while it lives.
 class NoDriver {

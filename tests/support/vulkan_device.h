@@ -21,7 +21,7 @@ inline const Expected<std::shared_ptr<vulkan::Device>>& opened_device() {
 
 /// A test that runs on the device. It is skipped where there is none, and fails where the
 /// validation layer has something to say.
-class OnDevice : public testing::Test {
+class OnDevice : public ::testing::Test {
  protected:
   void SetUp() override {
     if (!opened_device()) GTEST_SKIP() << opened_device().error().message();

@@ -6,8 +6,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 
+#include "field/visibility.h"
 #include "field/volumes.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
@@ -127,6 +129,54 @@ TEST(Relocation, ComesToRestWithinItsCellTheSameOnAnyNumberOfThreads) {
     moved += offset != vec3(0.0f) ? 1 : 0;
   }
   EXPECT_GT(moved, 20);
+}
+
+/// A ray tracer that likes large batches, as devices do, and counts how many it is given.
+class FarTracer final : public RayTracer {
+ public:
+  explicit FarTracer(const RayTracer& near) : near_(near) {}
+  void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override {
+    near_.closest_hits(rays, hits);
+    ++batches;
+  }
+  void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override {
+    near_.occlusions(rays, occluded);
+    ++batches;
+  }
+  std::size_t batch_rays() const override { return 1u << 18; }
+  AccelerationStatistics statistics() const override { return near_.statistics(); }
+  void update(const GeometryEdits&) override {}
+
+  mutable std::atomic<int> batches = 0;
+
+ private:
+  const RayTracer& near_;
+};
+
+TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
+  const Stage stage(clutter());
+  std::vector<std::uint8_t> moving(stage.scene.instances.size(), 0);
+  for (std::size_t i = 0; i < moving.size(); i += 3) moving[i] = 1;
+  const FarTracer far(stage.world.tracer());
+  const auto offsets = [&](const RayTracer& tracer) {
+    ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
+    relocate_probes(stage.scene, tracer, all_probes(store), moving, store);
+    return std::vector<uint>(store.offset_words().begin(), store.offset_words().end());
+  };
+  EXPECT_EQ(offsets(far), offsets(stage.world.tracer()));
+  // As many as the steps of the probe that takes most, and a few more each for what moves in the way
+  EXPECT_LT(far.batches, 300);
+  EXPECT_GT(far.batches, 1);
+
+  ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
+  ProbeSights near_sights(store.probes()), far_sights(store.probes());
+  far.batches = 0;
+  EXPECT_EQ(near_sights.look(stage.world.tracer(), store, all_probes(store)),
+            far_sights.look(far, store, all_probes(store)));
+  EXPECT_EQ(far.batches, 1);
+  for (const int probe : all_probes(store)) {
+    EXPECT_EQ(near_sights.of_cell(probe), far_sights.of_cell(probe));
+  }
 }
 
 TEST(Relocation, TellsWhichProbesMoved) {

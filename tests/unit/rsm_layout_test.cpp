@@ -134,9 +134,9 @@ TEST(RsmSubMaps, HoldEveryTexelOfTheMapOnce) {
       ASSERT_EQ(restructured.size(), map.texels.size());
       for (int y = 0; y < resolution; ++y) {
         for (int x = 0; x < resolution; ++x) {
-          const std::size_t at =
-              sub_map_start(resolution, n, x % n, y % n) +
-              static_cast<std::size_t>(y / n) * sub_image_size(resolution, x % n, n) + x / n;
+          const int at = sub_map_texel({x, y}, resolution, n);
+          EXPECT_EQ(at, sub_map_start(resolution, n, x % n, y % n) +
+                            y / n * sub_image_size(resolution, x % n, n) + x / n);
           EXPECT_EQ(restructured[at].flux,
                     map.texels[static_cast<std::size_t>(y) * resolution + x].flux);
         }

@@ -16,6 +16,7 @@ void main() {
   bool asks = point.random_index != kAsksForNoLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
+  uint rays = 0u;
   for (uint slot = 0u; slot < slots; ++slot) {
     RayRecord ray = no_ray();
     vec3 stake = vec3(0.0f);
@@ -30,5 +31,7 @@ void main() {
     }
     args.stakes.at[slot * args.count + i] = stake;
     args.shadow_rays.at[slot * args.count + i] = ray;
+    rays += ray.mask != 0u ? 1u : 0u;
   }
+  if (rays > 0u) atomicAdd(args.ray_count.at[0], rays);
 }

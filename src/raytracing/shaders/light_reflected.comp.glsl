@@ -20,6 +20,7 @@ void main() {
   bool asks = point.random_index != kAsksForNoLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
+  uint rays = 0u;
   for (uint slot = 0u; slot < slots; ++slot) {
     RayRecord ray = no_ray();
     ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
@@ -37,5 +38,7 @@ void main() {
     }
     args.pairs.at[slot * args.count + i] = pair;
     args.shadow_rays.at[slot * args.count + i] = ray;
+    rays += ray.mask != 0u ? 1u : 0u;
   }
+  if (rays > 0u) atomicAdd(args.ray_count.at[0], rays);
 }

@@ -27,7 +27,7 @@ struct RayBatch {
 
 /// Finds on a device what rays meet, as RayTracer does on the host: what is see-through stops the
 /// same rays. Queries are recorded: barriers before (for rays) and after (for results) are the
-/// caller's, and the scene's textures must be bound (Recorder::bind_textures).
+/// caller's. The scene's textures are bound afterwards (Recorder::bind_textures).
 class DeviceTracer {
  public:
   virtual ~DeviceTracer() = default;

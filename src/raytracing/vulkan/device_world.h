@@ -3,40 +3,39 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "lambent/scene.h"
 #include "raytracing/scene_snapshot.h"
+#include "raytracing/vulkan/device_scene.h"
 #include "raytracing/vulkan/vulkan_raytracer.h"
-#include "vulkan/buffer.h"
 #include "vulkan/device.h"
 
 namespace lambent {
 
+class EmissiveTriangles;
+
 class DeviceWorld {
  public:
-  /// Brings the scene, which must outlive it, to the device. Throws std::runtime_error where the
-  /// device's memory runs out.
-  DeviceWorld(const Scene& scene, std::shared_ptr<vulkan::Device> device);
+  /// Brings a scene, which must outlive it, and its emitters to the device. Throws
+  /// std::runtime_error where the device's memory runs out.
+  DeviceWorld(const Scene& scene, const EmissiveTriangles& emissive,
+              std::shared_ptr<vulkan::Device> device);
 
-  /// Follows edits of the scene. Not to be called while the device works on the world.
-  void update(const SceneEdits& edits);
+  /// Follows edits of the scene and of its table of emitters. Not to be called while the device
+  /// works on the world; command buffers recorded before are void.
+  void update(const SceneEdits& edits, const EmissiveTriangles& emissive);
 
   const vulkan::Device& device() const { return *device_; }
   std::shared_ptr<vulkan::Device> shared_device() const { return device_; }
-  VulkanRayTracer& tracer() { return *tracer_; }
-  const VulkanRayTracer& tracer() const { return *tracer_; }
+  const DeviceScene& scene() const { return device_scene_; }
+  VulkanRayTracer& tracer() { return tracer_; }
+  const VulkanRayTracer& tracer() const { return tracer_; }
 
  private:
-  struct MeshBuffers {
-    vulkan::Buffer positions, triangles;
-  };
-  void upload(std::size_t mesh);
-
   const Scene& scene_;
   std::shared_ptr<vulkan::Device> device_;
-  std::vector<MeshBuffers> meshes_;
-  std::unique_ptr<VulkanRayTracer> tracer_;
+  DeviceScene device_scene_;
+  VulkanRayTracer tracer_;
 };
 
 }  // namespace lambent

@@ -83,6 +83,7 @@ struct MeshRecord {
 
 // InstanceRecord::flags
 const uint kInstanceReceivesGi = 1u;
+const uint kInstanceCastsGi = 2u;
 /// InstanceRecord::first_emitter_pdf where nothing emits.
 const uint kEmitsNothing = 0xFFFFFFFFu;
 

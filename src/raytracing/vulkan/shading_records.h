@@ -103,6 +103,7 @@ struct LightDrawsArguments {
   Vec3Array stakes;          ///< Irradiance [W/m^2] that arrives where the ray does.
   ReflectedPairArray pairs;  ///< The same as reflected to the viewer [W/(m^2 sr)].
   PixelSurfaceArray surfaces;
+  UintArray ray_count;  ///< Shadow rays drawn so far: one number.
   uint first;
   uint count;
   uint emissive_samples;

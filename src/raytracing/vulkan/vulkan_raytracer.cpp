@@ -14,6 +14,7 @@
 #include "shaders/closest_rchit.h"
 #include "shaders/closest_rgen.h"
 #include "shaders/closest_rmiss.h"
+#include "shaders/coverage_rahit.h"
 #include "shaders/occlusion_rgen.h"
 #include "shaders/occlusion_rmiss.h"
 #include "vulkan/device.h"
@@ -100,17 +101,36 @@ class VulkanRayTracer::Borrowed {
   std::unique_ptr<Staging> staging_;
 };
 
-VulkanRayTracer::VulkanRayTracer(const vulkan::Device& device, const Scene& scene,
-                                 GeometryOfMesh geometry_of)
-    : device_(device),
-      scene_(scene),
-      closest_(device,
-               {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(), {}},
-               "closest hits"),
-      occlusion_(device, {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, {}},
-                 "occlusions") {
+/// The two pipelines, which all worlds on a device share.
+struct VulkanRayTracer::Kernels {
+  explicit Kernels(const vulkan::Device& device)
+      : closest(device,
+                {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(),
+                 shaders::coverage_rahit()},
+                "closest hits"),
+        occlusion(
+            device,
+            {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, shaders::coverage_rahit()},
+            "occlusions") {}
+
+  vulkan::RayKernel closest, occlusion;
+};
+
+VulkanRayTracer::VulkanRayTracer(const Scene& scene, const DeviceScene& device_scene)
+    : scene_(scene),
+      device_scene_(device_scene),
+      device_(device_scene.device()),
+      kernels_(device_.kept<Kernels>()) {
   Stopwatch watch;
-  acceleration_ = std::make_unique<SceneAcceleration>(device, scene, std::move(geometry_of));
+  acceleration_ = std::make_unique<SceneAcceleration>(device_, scene, [this](std::size_t mesh) {
+    const MeshRecord& record = device_scene_.mesh(mesh);
+    vulkan::TriangleGeometry geometry;
+    geometry.positions = record.positions.address;
+    geometry.indices = record.triangles.address;
+    geometry.vertices = static_cast<std::uint32_t>(scene_.meshes[mesh].positions.size());
+    geometry.triangles = static_cast<std::uint32_t>(scene_.meshes[mesh].triangles.size());
+    return geometry;
+  });
   statistics_.build_ms = watch.lap();
   tell_sizes();
 }
@@ -137,10 +157,15 @@ std::size_t VulkanRayTracer::batch_rays() const {
 void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel& kernel,
                             const RayBatch& batch, HitArray hits, UintArray occluded) const {
   if (batch.count == 0) return;
+  recorder.bind_textures(device_scene_.textures());
   const VkDeviceAddress structure = acceleration_->address();
   const TraceArguments arguments = {
-      uvec2(static_cast<uint>(structure), static_cast<uint>(structure >> 32)), batch.rays, hits,
-      occluded, batch.count};
+      uvec2(static_cast<uint>(structure), static_cast<uint>(structure >> 32)),
+      batch.rays,
+      hits,
+      occluded,
+      device_scene_.address(),
+      batch.count};
   if (batch.indirect != nullptr) {
     recorder.trace_indirect(kernel, arguments, *batch.indirect, batch.indirect_offset);
     return;
@@ -151,12 +176,12 @@ void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel&
 
 void VulkanRayTracer::closest_hits(vulkan::Recorder& recorder, const RayBatch& batch,
                                    HitArray hits) const {
-  trace(recorder, closest_, batch, hits, {});
+  trace(recorder, kernels_.closest, batch, hits, {});
 }
 
 void VulkanRayTracer::occlusions(vulkan::Recorder& recorder, const RayBatch& batch,
                                  UintArray occluded) const {
-  trace(recorder, occlusion_, batch, {}, occluded);
+  trace(recorder, kernels_.occlusion, batch, {}, occluded);
 }
 
 void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "raytracing/raytracer.h"
+#include "raytracing/vulkan/device_scene.h"
 #include "raytracing/vulkan/device_tracer.h"
 #include "raytracing/vulkan/scene_acceleration.h"
 #include "vulkan/kernel.h"
@@ -17,9 +18,9 @@ namespace lambent {
 
 class VulkanRayTracer final : public RayTracer, public DeviceTracer {
  public:
-  /// Built over the scene as it is now, whose vertices lie where `geometry_of` says. Scene and
-  /// device must outlive it. Throws std::runtime_error where memory runs out.
-  VulkanRayTracer(const vulkan::Device& device, const Scene& scene, GeometryOfMesh geometry_of);
+  /// Built over the scene as it is now, and as the device has it. Both must outlive it. Throws
+  /// std::runtime_error where memory runs out.
+  VulkanRayTracer(const Scene& scene, const DeviceScene& device_scene);
   ~VulkanRayTracer() override;
 
   // Of the host: rays go up, hits come down; callers take turns on the device.
@@ -27,6 +28,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
   std::size_t batch_rays() const override;
   AccelerationStatistics statistics() const override { return statistics_; }
+  /// After the device's scene has been updated.
   void update(const GeometryEdits& edits) override;
 
   // Of passes on the device.
@@ -36,6 +38,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
                   UintArray occluded) const override;
 
  private:
+  struct Kernels;
   class Staging;
   class Borrowed;
 
@@ -43,9 +46,10 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
              HitArray hits, UintArray occluded) const;
   void tell_sizes();
 
-  const vulkan::Device& device_;
   const Scene& scene_;
-  vulkan::RayKernel closest_, occlusion_;
+  const DeviceScene& device_scene_;
+  const vulkan::Device& device_;
+  const Kernels& kernels_;
   std::unique_ptr<SceneAcceleration> acceleration_;
   AccelerationStatistics statistics_;
   mutable std::mutex staging_mutex_;

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The interleaved gather on a Vulkan device, by its timestamps: against the plain gather, and
+// against the same interleaved pattern read from full-resolution buffers. The scene and size are
+// those of bench_rsm.cpp.
+#include <array>
+#include <map>
+
+#include "bench/rsm_workload.h"
+#include "bench/workload.h"
+#include "lambent/vulkan.h"
+#include "rsm/gather_vulkan.h"
+#include "rsm/lights.h"
+
+namespace lambent::bench {
+namespace {
+
+constexpr int kRepetitions = 7;
+constexpr std::uint32_t kTimedPasses = 8;
+
+/// The view, in the device's memory.
+struct ViewBuffers {
+  ViewBuffers(const vulkan::Device& device, const RsmView& view)
+      : positions(vulkan::upload(device, view.positions_ws, "positions")),
+        normals(vulkan::upload(device, view.normals_ws, "normals")),
+        depths(vulkan::upload(device, view.depths, "depths")),
+        on_device{view.width,
+                  view.height,
+                  {{positions.address()}, {normals.address()}, {depths.address()}}} {}
+  vulkan::Buffer positions, normals, depths;
+  RsmViewOnDevice on_device;
+};
+
+/// Times of one variant; its lights are chosen once.
+class Variant {
+ public:
+  Variant(const vulkan::Device& device, const RsmWorkload& work, const RsmSettings& settings)
+      : device_(device), settings_(settings), gatherer_(device), timestamps_(device, kTimedPasses) {
+    gatherer_.set_lights(choose_lights(work.maps, work.view(), settings), settings);
+  }
+  void run(const ViewBuffers& view) {
+    device_.run([&](vulkan::Recorder& untimed) {
+      vulkan::Recorder recorder(device_, untimed.commands(), &timestamps_);
+      gatherer_.record(recorder, view.on_device, settings_);
+    });
+    double sum = 0.0;
+    for (const vulkan::DevicePassTime& pass : timestamps_.read()) {
+      passes[pass.name].add(pass.ms);
+      sum += pass.ms;
+    }
+    total.add(sum);
+  }
+  /// Forgets times, the first of which are those of filling caches and making buffers.
+  void forget() {
+    passes.clear();
+    total = {};
+  }
+  double gathering() const { return passes.at("rsm.gather").value(); }
+
+  std::map<std::string, Median> passes;
+  Median total;
+
+ private:
+  const vulkan::Device& device_;
+  RsmSettings settings_;
+  RsmGathererVulkan gatherer_;
+  vulkan::Timestamps timestamps_;
+};
+
+RsmSettings with_layout(RsmLayout layout) {
+  RsmSettings settings;
+  settings.layout = layout;
+  return settings;
+}
+
+void vulkan_rsm(benchmark::State& state) {
+  const auto device = vulkan::open_device();
+  if (!device) return state.SkipWithError(device.error().message().c_str());
+  const RsmWorkload& work = rsm_workload();
+  const ViewBuffers view(**device, work.view());
+  Variant plain(**device, work, plain_gather());
+  Variant restructured(**device, work, with_layout(RsmLayout::restructured));
+  Variant full(**device, work, with_layout(RsmLayout::full));
+  const std::array<Variant*, 3> all = {&plain, &restructured, &full};
+  for (Variant* variant : all) {
+    variant->run(view);
+    variant->forget();
+  }
+  for (auto _ : state) {
+    const double ms = time_ms([&] {
+      for (Variant* variant : all) variant->run(view);
+    });
+    state.SetIterationTime(ms * 1e-3);
+  }
+  if (restructured.passes.empty()) return state.SkipWithError("the device has no timestamps");
+  state.SetLabel(description(**device).name);
+  for (const auto& [name, ms] : restructured.passes) state.counters[name + "_ms"] = ms.value();
+  state.counters["plain_ms"] = plain.total.value();
+  state.counters["interleaved_ms"] = restructured.total.value();
+  state.counters["plain_over_interleaved"] = plain.total.value() / restructured.total.value();
+  state.counters["gather_full_ms"] = full.gathering();
+  state.counters["full_over_restructured"] = full.gathering() / restructured.gathering();
+}
+
+BENCHMARK(vulkan_rsm)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace lambent::bench

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What passes take on a device.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/gpu/options.h"
+#include "lambent/world.h"
+
+namespace lambent::bench {
+
+struct Row {
+  std::string what;
+  double value = 0.0;
+  std::string unit;
+  std::string bar;  ///< What it is held to; empty: nothing.
+};
+
+/// All rows, of a world on a device. Times are medians over frames of what the device's timestamps
+/// tell of each pass.
+std::vector<Row> measure(const World& world, const Options& options);
+
+}  // namespace lambent::bench

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What benches of reflective shadow maps work on.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "lambent/rsm.h"
+
+namespace lambent::bench {
+
+/// What the camera of workload() sees, and the maps of all lights.
+struct RsmWorkload {
+  explicit RsmWorkload(const glm::ivec2& picture);
+  RsmView view() const { return {size.x, size.y, positions, normals, depths}; }
+
+  glm::ivec2 size;
+  std::vector<glm::vec3> positions, normals;
+  std::vector<float> depths;
+  std::vector<ReflectiveShadowMap> maps;
+};
+
+/// Of 1920 x 1080 pixels, unless LAMBENT_BENCH_RSM_SIZE=WxH says otherwise.
+RsmWorkload& rsm_workload();
+
+}  // namespace lambent::bench

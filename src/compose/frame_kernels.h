@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kernels of frames, and memory that one frame after the other uses.
+#pragma once
+
+#include "compose/frame_records.h"
+#include "compose/pixel_math.h"
+#include "raytracing/vulkan/hit_shading.h"
+#include "rsm/gather_vulkan.h"
+#include "vulkan/buffer.h"
+#include "vulkan/kernel.h"
+
+namespace lambent {
+
+/// Kept by the device (Device::kept); one frame at a time.
+struct FrameKernels {
+  explicit FrameKernels(const vulkan::Device& device);
+
+  vulkan::Kernel camera_rays, pixel_queries, gather_rays, ray_queries, gather_sum, replace_light,
+      view_geometry, compose;
+  HitShading pixel_shading, gather_shading;
+  RsmMapperVulkan mapper;
+  RsmGathererVulkan rsm;
+  RsmMapsOnDevice maps;
+
+  // Of a band's pixels
+  vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;
+  vulkan::Buffer queries, irradiance, mirror_irradiance, taken_out, from_maps;
+  // Of the rays that gather some pixels' light
+  vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
+      gathered_direct, gathered_field;
+  // Positions, normals and depths of a band's pixels, and of the small picture that maps light
+  vulkan::Buffer band_geometry[3], small_geometry[3];
+  // Of the whole picture
+  vulkan::Buffer layers;
+};
+
+}  // namespace lambent

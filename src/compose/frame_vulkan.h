@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of a frame on a Vulkan device. They are recorded as they are asked for and run
+// together, in few command buffers; pixels and layers stay on the device until the frame is done.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "compose/frame_kernels.h"
+#include "compose/frame_passes.h"
+#include "raytracing/vulkan/device_world.h"
+#include "vulkan/recorder.h"
+
+namespace lambent {
+
+class FramePassesVulkan final : public FramePasses {
+ public:
+  explicit FramePassesVulkan(const FrameRequest& request);
+
+  void rsm() override;
+  void gbuffer(const Band& band, int sample) override;
+  void direct() override;
+  void indirect() override;
+  void glossy() override;
+  void rsm_upsample() override;
+  void compose(float share) override;
+  void finish(RenderedFrame& frame) override;
+
+ private:
+  using Buffer = vulkan::Buffer;
+  using Recorder = vulkan::Recorder;
+  using Record = std::function<void(Recorder&)>;
+  struct Step {
+    std::string name;
+    Record record;
+  };
+
+  DeviceStage stage() const { return {world_.scene(), world_.tracer()}; }
+  /// Has a pass run after those asked for before; it sees what they wrote.
+  void add(const char* name, Record record);
+  void run_steps();
+  void reserve_pixels(std::size_t pixels);
+  void trace_pixels(Recorder& to, const CameraRaysArguments& arguments);
+  /// Records positions, normals and depths of so many pixels, into buffers made large enough.
+  RsmViewOnDevice add_geometry(const char* name, int width, int height, Buffer (&geometry)[3]);
+  /// Makes room for so many elements; memory that grew holds nothing.
+  template <class T>
+  void reserve(std::size_t count, const char* name, Buffer& buffer) const {
+    if (buffer.bytes() >= count * sizeof(T)) return;
+    buffer = Buffer(device_, count * sizeof(T), vulkan::Memory::device, name);
+  }
+  void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
+               std::uint32_t count, const Buffer& irradiance);
+  void gather();
+
+  FrameRequest request_;
+  const DeviceWorld& world_;
+  const vulkan::Device& device_;
+  FrameKernels& kernels_;
+  vulkan::Timestamps timestamps_;
+  Buffer shadow_rays_[2];  // of pixels, and of what gathering rays met
+  std::vector<Step> steps_;
+  RenderedFrame frame_;
+  std::vector<Layer> stage_layers_;
+  RsmViewOnDevice small_;  // the view that maps light
+  Band band_;
+  std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
+  std::uint32_t sample_ = 0;
+};
+
+}  // namespace lambent

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: Apache-2.0
+// Indirect light of a frame on a device: looked up, gathered, or from maps.
+#include <algorithm>
+#include <cmath>
+
+#include "compose/frame_vulkan.h"
+#include "compose/rsm_frame.h"
+#include "core/stopwatch.h"
+#include "field/field_device.h"
+#include "lambent/field.h"
+#include "raytracing/camera_rays.h"
+
+namespace lambent {
+namespace {
+
+// Rays gathered at a time: enough to fill any device, few enough to stay small (about 60 MB).
+constexpr std::uint32_t kGatherRays = 1u << 18;
+
+}  // namespace
+
+/// Looks the field up, on the device where that holds it and needs no rays for it.
+void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
+                                const Buffer& queries, std::uint32_t count,
+                                const Buffer& irradiance) {
+  const FieldDevice* there = field.on_device();
+  if (there != nullptr && there->is_on(request_.world)) {
+    add(name, [there, &queries, &irradiance, count](Recorder& to) {
+      there->record_lookups(to, queries.address(), count, irradiance.address());
+    });
+    return;
+  }
+  run_steps();
+  std::vector<FieldQuery> asked(count);
+  std::vector<vec3> answers(count);
+  vulkan::read(device_, queries, std::span(asked));
+  field.irradiance(asked, answers, &request_.world);
+  vulkan::write(device_, std::span<const vec3>(answers), irradiance);
+}
+
+void FramePassesVulkan::indirect() {
+  const IndirectSources& sources = request_.sources;
+  reserve<vec3>(pixels_, "irradiance", kernels_.irradiance);
+  reserve<QueryRecord>(std::max(pixels_, kGatherRays), "queries", kernels_.queries);
+  const auto ask = [this](uint mirrored) {
+    return [this, mirrored](Recorder& to) {
+      const PixelQueriesArguments arguments = {{kernels_.points.address()},
+                                               {kernels_.surfaces.address()},
+                                               {kernels_.queries.address()},
+                                               pixels_,
+                                               mirrored};
+      to.run(kernels_.pixel_queries, arguments, pixels_);
+    };
+  };
+  if (request_.settings.gather_rays > 0) {
+    gather();
+  } else {
+    add("indirect", ask(0u));
+    look_up("indirect", *sources.field, kernels_.queries, pixels_, kernels_.irradiance);
+  }
+  if (sources.taken_out == nullptr) return;
+  reserve<vec3>(pixels_, "taken out", kernels_.taken_out);
+  add("indirect", ask(0u));
+  look_up("indirect", *sources.taken_out, kernels_.queries, pixels_, kernels_.taken_out);
+}
+
+/// Final gathering, some pixels at a time; see gather.cpp.
+void FramePassesVulkan::gather() {
+  const auto rays_per_pixel = static_cast<std::uint32_t>(request_.settings.gather_rays);
+  const std::uint32_t chunk = std::max(kGatherRays / rays_per_pixel, 1u);
+  FrameKernels& k = kernels_;
+  const std::size_t most = static_cast<std::size_t>(chunk) * rays_per_pixel;
+  reserve<RayRecord>(most, "gathering rays", k.gathering_rays);
+  reserve<HitRecord>(most, "gathered hits", k.gathered_hits);
+  reserve<LitPointRecord>(most, "gathered points", k.gathered_points);
+  reserve<ShadedHitRecord>(most, "gathered light", k.gathered);
+  reserve<vec3>(most, "gathered direct light", k.gathered_direct);
+  reserve<vec3>(most, "gathered field", k.gathered_field);
+  reserve<QueryRecord>(most, "queries", k.queries);
+  reserve<uint>(chunk, "gathering indices", k.gathering_indices);
+  ShadeHitsSettings shading;
+  shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
+  shading.max_albedo = request_.sources.field->settings().max_albedo;
+  shading.back_faces_count = true;
+  shading.salt = sample_;
+  shading.seed = request_.settings.seed;
+
+  for (std::uint32_t first = 0; first < pixels_; first += chunk) {
+    const std::uint32_t count = std::min(chunk, pixels_ - first), rays = count * rays_per_pixel;
+    frame_.rays += rays;
+    add("indirect", [=, this, &k](Recorder& to) {
+      const GatherRaysArguments drawn = {{k.points.address()},
+                                         {k.surfaces.address()},
+                                         {k.gathering_rays.address()},
+                                         {k.gathering_indices.address()},
+                                         first,
+                                         count,
+                                         first_pixel_,
+                                         rays_per_pixel,
+                                         sample_,
+                                         request_.settings.seed};
+      to.run(k.gather_rays, drawn, count);
+      to.barrier();
+      const HitArray hits{k.gathered_hits.address()};
+      world_.tracer().closest_hits(to, {{k.gathering_rays.address()}, rays}, hits);
+      to.barrier();
+      k.gather_shading.shade_hits(
+          to, stage(), {{k.gathering_rays.address()}, hits, rays}, {k.gathering_indices.address()},
+          rays_per_pixel, shading,
+          {{k.gathered_points.address()}, {k.gathered.address()}, {k.gathered_direct.address()}});
+      const RayQueriesArguments asked = {{k.gathered_points.address()},
+                                         {k.gathering_rays.address()},
+                                         {k.queries.address()},
+                                         rays,
+                                         0u};
+      to.run(k.ray_queries, asked, rays);
+    });
+    look_up("indirect", *request_.sources.field, k.queries, rays, k.gathered_field);
+    add("indirect", [=, this, &k](Recorder& to) {
+      const GatherSumArguments summed = {{k.points.address()},
+                                         {k.gathering_rays.address()},
+                                         {k.gathered.address()},
+                                         {k.gathered_direct.address()},
+                                         {k.gathered_field.address()},
+                                         {k.irradiance.address()},
+                                         first,
+                                         count,
+                                         rays_per_pixel,
+                                         0u};
+      to.run(k.gather_sum, summed, count);
+    });
+  }
+}
+
+void FramePassesVulkan::glossy() {
+  reserve<vec3>(pixels_, "mirror irradiance", kernels_.mirror_irradiance);
+  add("glossy", [this](Recorder& to) {
+    const PixelQueriesArguments arguments = {{kernels_.points.address()},
+                                             {kernels_.surfaces.address()},
+                                             {kernels_.queries.address()},
+                                             pixels_,
+                                             1u};
+    to.run(kernels_.pixel_queries, arguments, pixels_);
+  });
+  look_up("glossy", *request_.sources.field, kernels_.queries, pixels_, kernels_.mirror_irradiance);
+}
+
+RsmViewOnDevice FramePassesVulkan::add_geometry(const char* name, int width, int height,
+                                                Buffer (&geometry)[3]) {
+  const auto pixels = static_cast<std::uint32_t>(width) * height;
+  reserve<vec3>(pixels, "view positions", geometry[0]);
+  reserve<vec3>(pixels, "view normals", geometry[1]);
+  reserve<float>(pixels, "view depths", geometry[2]);
+  const RsmViewOnDevice view{
+      width, height, {{geometry[0].address()}, {geometry[1].address()}, {geometry[2].address()}}};
+  add(name, [this, pixels, view](Recorder& to) {
+    const CameraRecord camera = camera_record(request_.camera, 1, 1);
+    const ViewGeometryArguments arguments = {{kernels_.points.address()},
+                                             {kernels_.surfaces.address()},
+                                             view.arrays.positions_ws,
+                                             view.arrays.normals_ws,
+                                             view.arrays.depths,
+                                             camera.position_ws,
+                                             normalize(camera.axes[2]),
+                                             pixels,
+                                             0u};
+    to.run(kernels_.view_geometry, arguments, pixels);
+  });
+  return view;
+}
+
+void FramePassesVulkan::rsm() {
+  const FrameSettings& settings = request_.settings;
+  const RsmSettings& by = *request_.sources.rsm;
+  const int width = (settings.width + by.downscale - 1) / by.downscale;
+  const int height = (settings.height + by.downscale - 1) / by.downscale;
+  const auto pixels = static_cast<std::uint32_t>(width) * height;
+  reserve_pixels(pixels);
+  add("rsm.view", [=, this](Recorder& to) {
+    trace_pixels(to, {{kernels_.rays.address()},
+                      camera_record(request_.camera, width, height),
+                      static_cast<uint>(width),
+                      0u,
+                      pixels,
+                      0u,
+                      1u,
+                      settings.seed});
+  });
+  small_ = add_geometry("rsm.view", width, height, kernels_.small_geometry);
+  run_steps();
+
+  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
+  Stopwatch watch;
+  kernels_.mapper.render(request_.world, request_.camera, aspect, by, kernels_.maps);
+  frame_.passes.push_back({"rsm", watch.lap()});
+  RsmIrradiance light;
+  kernels_.rsm.light(kernels_.mapper, kernels_.maps, small_, by, world_, light,
+                     request_.sources.rsm_stages);
+  frame_.rays += light.rays;
+  frame_.passes.insert(frame_.passes.end(), light.passes.begin(), light.passes.end());
+  if (request_.sources.rsm_stages) {
+    stage_layers_ = rsm_stage_layers(download_maps(device_, kernels_.maps), light, settings.width,
+                                     settings.height);
+  }
+}
+
+void FramePassesVulkan::rsm_upsample() {
+  const bool alone = request_.sources.field == nullptr;
+  const bool takes_out = request_.sources.taken_out != nullptr && !alone;
+  reserve<vec3>(pixels_, "light of maps", kernels_.from_maps);
+  reserve<vec3>(pixels_, "irradiance", kernels_.irradiance);
+  reserve<vec3>(takes_out ? pixels_ : 1, "taken out", kernels_.taken_out);
+  const RsmViewOnDevice band =
+      add_geometry("rsm.upsample", request_.settings.width, band_.rows, kernels_.band_geometry);
+  add("", [this, band](Recorder& to) {
+    kernels_.rsm.record_upsampling(to, small_, *request_.sources.rsm, band, band_.first_row,
+                                   {kernels_.from_maps.address()});
+  });
+  add("rsm.upsample", [=, this](Recorder& to) {
+    if (alone) {
+      to.fill(kernels_.irradiance, 0u);
+      to.barrier();
+    }
+    const ReplaceLightArguments arguments = {{kernels_.irradiance.address()},
+                                             {kernels_.taken_out.address()},
+                                             {kernels_.from_maps.address()},
+                                             pixels_,
+                                             takes_out ? 1u : 0u};
+    to.run(kernels_.replace_light, arguments, pixels_);
+  });
+}
+
+}  // namespace lambent

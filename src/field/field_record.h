@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// A field as shaders of an engine look it up (field/shaders/field_lookup.glsl).
+#ifndef LAMBENT_FIELD_FIELD_RECORD_H
+#define LAMBENT_FIELD_FIELD_RECORD_H
+
+#include "field/device_records.h"
+
+LAMBENT_BEGIN
+
+struct FieldRecord {
+  StoreArrays store;
+  int volumes;
+  int unused;
+};
+
+LAMBENT_END
+#endif

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the library is built without the CPU backend: a world needs a device.
+#include <stdexcept>
+
+#include "raytracing/raytracer.h"
+
+namespace lambent {
+
+std::unique_ptr<RayTracer> make_embree_raytracer(const Scene&) {
+  throw std::runtime_error("this build of Lambent traces rays on Vulkan devices alone");
+}
+
+}  // namespace lambent

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/vulkan/device_scene.h"
+
+#include <algorithm>
+
+#include "raytracing/vulkan/mesh_layout.h"
+#include "scene/attributes.h"
+#include "scene/light_sampling.h"
+#include "scene/texture.h"
+
+namespace lambent {
+namespace {
+
+TextureViewRecord record_of(const Scene& scene, const TextureView& view) {
+  TextureViewRecord record{};
+  record.texture = view.texture;
+  if (view.texture < 0) return record;
+  record.sampling =
+      static_cast<uint>(view.wrap_u) | (static_cast<uint>(view.wrap_v) << kSamplingWrapBits) |
+      (view.nearest ? kSamplingNearest : 0) | (view.uv_set == 1 ? kSamplingSecondUvs : 0);
+  record.uv_scale = view.uv_scale;
+  record.uv_rotation = uv_rotation(view);
+  record.uv_offset = view.uv_offset;
+  const Texture& texture = scene.textures[view.texture];
+  record.width = texture.levels.front().width;
+  record.height = texture.levels.front().height;
+  record.levels = static_cast<int>(texture.levels.size());
+  return record;
+}
+
+MaterialRecord record_of(const Scene& scene, const Material& m) {
+  MaterialRecord record{};
+  record.base_color = m.base_color;
+  record.emission = m.emission;
+  record.metallic = m.metallic;
+  record.roughness = m.roughness;
+  record.normal_scale = m.normal_scale;
+  record.ior = m.ior;
+  record.specular = m.specular;
+  record.specular_color = m.specular_color;
+  record.alpha_cutoff = m.alpha_cutoff;
+  record.alpha_mode = static_cast<uint>(m.alpha_mode);
+  record.flags = (m.double_sided ? kMaterialDoubleSided : 0) | (m.unlit ? kMaterialUnlit : 0) |
+                 (m.lambert ? kMaterialLambert : 0) | (may_emit(m) ? kMaterialMayEmit : 0);
+  record.base_color_texture = record_of(scene, m.base_color_texture);
+  record.metallic_roughness_texture = record_of(scene, m.metallic_roughness_texture);
+  record.normal_texture = record_of(scene, m.normal_texture);
+  record.emission_texture = record_of(scene, m.emission_texture);
+  record.specular_texture = record_of(scene, m.specular_texture);
+  record.specular_color_texture = record_of(scene, m.specular_color_texture);
+  return record;
+}
+
+vulkan::Texture upload_texture(const vulkan::Device& device, const Texture& texture) {
+  std::vector<vulkan::TexelLevel> levels;
+  for (const TextureLevel& level : texture.levels) {
+    levels.push_back({static_cast<std::uint32_t>(level.width),
+                      static_cast<std::uint32_t>(level.height), level.rgba});
+  }
+  return {device, levels, texture.srgb, texture.name.empty() ? "texture" : texture.name};
+}
+
+}  // namespace
+
+DeviceScene::DeviceScene(const vulkan::Device& device, const Scene& scene,
+                         const EmissiveTriangles& emissive)
+    : device_(device), texture_set_(device) {
+  update(scene, emissive);
+}
+
+void DeviceScene::update(const Scene& scene, const EmissiveTriangles& emissive) {
+  update_textures(scene);
+  update_materials(scene);
+  update_meshes(scene);
+  update_emitters(scene, emissive);
+  update_instances(scene);
+  update_lights(scene);
+  update_sky(scene.environment);
+  update_record(scene.environment);
+}
+
+void DeviceScene::update_textures(const Scene& scene) {
+  for (std::size_t i = 0; i < scene.textures.size(); ++i) {
+    const Texture& texture = scene.textures[i];
+    const bool known = i < texture_data_.size();
+    if (known && texture_data_[i].revision == texture.revision) continue;
+    if (!known) texture_data_.emplace_back();
+    texture_data_[i] = {texture.revision, upload_texture(device_, texture)};
+    texture_set_.set(static_cast<std::uint32_t>(i), texture_data_[i].texture);
+  }
+}
+
+void DeviceScene::update_materials(const Scene& scene) {
+  std::vector<MaterialRecord> records;
+  records.reserve(scene.materials.size());
+  for (const Material& material : scene.materials) records.push_back(record_of(scene, material));
+  materials_.set(device_, std::move(records), "materials");
+}
+
+void DeviceScene::update_meshes(const Scene& scene) {
+  // Find what differs: into the place it had, or into a buffer for all that need a new one
+  mesh_data_.resize(scene.meshes.size());
+  mesh_records_.resize(scene.meshes.size());
+  std::vector<std::size_t> placed;
+  std::size_t fresh_bytes = 0;
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    const Mesh& mesh = scene.meshes[i];
+    MeshData& data = mesh_data_[i];
+    const std::uint32_t attributes = attributes_of(mesh);
+    const bool fits = data.buffer != nullptr && data.vertices == mesh.positions.size() &&
+                      data.triangles == mesh.triangles.size() && data.attributes == attributes;
+    if (fits && data.revision == mesh.revision) {
+      mesh_records_[i].material = static_cast<uint>(mesh.material);
+      continue;
+    }
+    const std::size_t bytes = bytes_of(mesh);
+    if (fits) {
+      std::vector<std::byte> content(bytes);
+      write_mesh(mesh, content);
+      vulkan::write(device_, std::span<const std::byte>(content), *data.buffer, data.offset);
+      data.revision = mesh.revision;
+      mesh_records_[i].material = static_cast<uint>(mesh.material);
+      continue;
+    }
+    data = {mesh.revision,
+            mesh.positions.size(),
+            mesh.triangles.size(),
+            attributes,
+            nullptr,
+            fresh_bytes,
+            bytes};
+    fresh_bytes += bytes;
+    placed.push_back(i);
+  }
+
+  // Upload the new ones together: devices allow few allocations
+  if (!placed.empty()) {
+    std::vector<std::byte> content(fresh_bytes);
+    for (const std::size_t i : placed) {
+      const MeshData& data = mesh_data_[i];
+      write_mesh(scene.meshes[i], std::span(content).subspan(data.offset, data.bytes));
+    }
+    const auto buffer = std::make_shared<vulkan::Buffer>(
+        vulkan::upload(device_, content, "meshes",
+                       VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR));
+    for (const std::size_t i : placed) {
+      mesh_data_[i].buffer = buffer;
+      mesh_records_[i] = record_of(scene.meshes[i], buffer->address() + mesh_data_[i].offset);
+    }
+  }
+  meshes_.set(device_, mesh_records_, "mesh records");
+}
+
+void DeviceScene::update_emitters(const Scene& scene, const EmissiveTriangles& emissive) {
+  first_emitter_pdfs_.assign(scene.instances.size(), kEmitsNothing);
+  std::vector<EmitterRecord> records;
+  std::vector<float> pdfs;
+  records.reserve(emissive.size());
+  for (const EmissiveTriangles::Entry& entry : emissive.entries()) {
+    records.push_back({entry.instance, entry.triangle, entry.area, entry.probability});
+    std::uint32_t& first = first_emitter_pdfs_[entry.instance];
+    if (first == kEmitsNothing) {
+      first = static_cast<std::uint32_t>(pdfs.size());
+      const Mesh& mesh = scene.meshes[scene.instances[entry.instance].mesh];
+      pdfs.resize(pdfs.size() + mesh.triangles.size(), 0.0f);
+    }
+    pdfs[first + entry.triangle] = entry.probability / entry.area;
+  }
+  emitter_count_ = records.size();
+  emitters_.set(device_, std::move(records), "emitters");
+  emitter_cumulative_.set(device_, emissive.cumulative(), "cumulative power of emitters");
+  emitter_pdfs_.set(device_, std::move(pdfs), "densities of emitters");
+}
+
+void DeviceScene::update_instances(const Scene& scene) {
+  std::vector<InstanceRecord> records;
+  records.reserve(scene.instances.size());
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const uint flags = (instance.receives_gi ? kInstanceReceivesGi : 0) |
+                       (instance.casts_gi ? kInstanceCastsGi : 0);
+    records.push_back({instance.world_from_object, static_cast<uint>(instance.mesh), flags,
+                       first_emitter_pdfs_[i]});
+  }
+  instances_.set(device_, std::move(records), "instances");
+}
+
+void DeviceScene::update_lights(const Scene& scene) {
+  std::vector<LightRecord> records;
+  for (const Light& light : scene.lights) records.push_back(light_record(light));
+  light_count_ = records.size();
+  lights_.set(device_, std::move(records), "lights");
+}
+
+void DeviceScene::update_sky(const Environment& environment) {
+  const Image& map = environment.map;
+  const SkyData now = map.empty()
+                          ? SkyData{}
+                          : SkyData{environment.revision, map.pixels.data(), map.width, map.height};
+  if (sky_map_.handle() != VK_NULL_HANDLE && now == sky_data_) return;
+  std::vector<glm::vec3> texels;
+  if (!map.empty()) texels.reserve(static_cast<std::size_t>(map.width) * map.height);
+  for (int y = 0; y < now.height; ++y) {
+    for (int x = 0; x < now.width; ++x) {
+      const float* p = map.at(x, y);
+      texels.emplace_back(p[0], p[1], p[2]);
+    }
+  }
+  sky_map_ = vulkan::upload(device_, texels, "sky");
+  sky_data_ = now;
+}
+
+void DeviceScene::update_record(const Environment& environment) {
+  SceneRecord record{};
+  record.instances.address = instances_.address();
+  record.meshes.address = meshes_.address();
+  record.materials.address = materials_.address();
+  record.lights.address = lights_.address();
+  record.emitters.address = emitters_.address();
+  record.emitter_cumulative.address = emitter_cumulative_.address();
+  record.emitter_pdfs.address = emitter_pdfs_.address();
+  record.sky_map.address = sky_map_.address();
+  record.light_count = static_cast<uint>(light_count_);
+  record.emitter_count = static_cast<uint>(emitter_count_);
+  record.sky_radiance = environment.radiance;
+  record.sky_rotation = environment.rotation;
+  record.sky_width = sky_data_.width;
+  record.sky_height = sky_data_.height;
+  record_.set(device_, {record}, "scene");
+}
+
+std::size_t DeviceScene::bytes() const {
+  std::size_t sum = sky_map_.bytes() + materials_.bytes() + meshes_.bytes() + instances_.bytes() +
+                    lights_.bytes() + emitters_.bytes() + emitter_cumulative_.bytes() +
+                    emitter_pdfs_.bytes() + record_.bytes();
+  for (const MeshData& data : mesh_data_) sum += data.bytes;
+  for (const TextureData& data : texture_data_) sum += data.texture.bytes();
+  return sum;
+}
+
+}  // namespace lambent

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene in a device's memory, as kernels see it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "lambent/scene.h"
+#include "raytracing/vulkan/scene_records.h"
+#include "vulkan/buffer.h"
+#include "vulkan/device.h"
+#include "vulkan/texture.h"
+
+namespace lambent {
+
+class EmissiveTriangles;
+
+/// An array of records on a device, of which only what differs is written again.
+template <class Record>
+class DeviceTable {
+ public:
+  std::uint64_t address() const { return buffer_.address(); }
+  std::size_t bytes() const { return buffer_.bytes(); }
+
+  /// Makes the array hold these. The device must not be reading it.
+  void set(const vulkan::Device& device, std::vector<Record> records, const std::string& name) {
+    const std::size_t bytes = records.size() * sizeof(Record);
+    if (buffer_.handle() == VK_NULL_HANDLE || bytes > buffer_.bytes()) {
+      buffer_ = vulkan::upload(device, records, name);
+    } else {
+      std::size_t first = 0, last = records.size();
+      const auto same = [&](std::size_t i) {
+        return i < records_.size() && std::memcmp(&records_[i], &records[i], sizeof(Record)) == 0;
+      };
+      while (first < last && same(first)) ++first;
+      while (last > first && same(last - 1)) --last;
+      vulkan::write(device, std::span<const Record>(records).subspan(first, last - first), buffer_,
+                    first);
+    }
+    records_ = std::move(records);
+  }
+
+ private:
+  std::vector<Record> records_;  // as the device has them
+  vulkan::Buffer buffer_;
+};
+
+class DeviceScene {
+ public:
+  /// Brings a scene and its table of emitters to the device, which must outlive it. Throws
+  /// std::runtime_error where memory runs out or the device takes no more textures.
+  DeviceScene(const vulkan::Device& device, const Scene& scene, const EmissiveTriangles& emissive);
+
+  /// Follows edits: records are compared; of meshes, textures and the environment's map the
+  /// `revision` is, and their size. Not to be called while the device works with the scene. Command
+  /// buffers recorded before are void. Throws as the constructor does.
+  void update(const Scene& scene, const EmissiveTriangles& emissive);
+
+  /// What kernels take. The same after an update.
+  SceneArray address() const { return {record_.address()}; }
+  /// What kernels that read textures need bound (Recorder::bind_textures).
+  VkDescriptorSet textures() const { return texture_set_.handle(); }
+  /// Where a mesh's attributes lie; positions and triangles can be built upon
+  /// (VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR).
+  const MeshRecord& mesh(std::size_t index) const { return mesh_records_[index]; }
+
+  std::uint32_t lights() const { return static_cast<std::uint32_t>(light_count_); }
+  bool has_emitters() const { return emitter_count_ > 0; }
+  const vulkan::Device& device() const { return device_; }
+  /// Memory held on the device.
+  std::size_t bytes() const;
+
+ private:
+  /// A mesh as it was when it was uploaded. Meshes that came together share a buffer.
+  struct MeshData {
+    std::uint32_t revision;
+    std::size_t vertices, triangles;
+    std::uint32_t attributes;
+    std::shared_ptr<vulkan::Buffer> buffer;
+    std::size_t offset, bytes;
+  };
+  struct TextureData {
+    std::uint32_t revision;
+    vulkan::Texture texture;
+  };
+  struct SkyData {
+    std::uint32_t revision = 0;
+    const float* pixels = nullptr;  // never read: another map is at another address
+    int width = 0, height = 0;
+    bool operator==(const SkyData&) const = default;
+  };
+  void update_textures(const Scene& scene);
+  void update_materials(const Scene& scene);
+  void update_meshes(const Scene& scene);
+  void update_emitters(const Scene& scene, const EmissiveTriangles& emissive);
+  void update_instances(const Scene& scene);
+  void update_lights(const Scene& scene);
+  void update_sky(const Environment& environment);
+  void update_record(const Environment& environment);
+
+  const vulkan::Device& device_;
+  std::vector<TextureData> texture_data_;
+  vulkan::TextureSet texture_set_;
+  std::vector<MeshData> mesh_data_;
+  std::vector<MeshRecord> mesh_records_;
+  std::vector<std::uint32_t> first_emitter_pdfs_;  // by instance
+  std::size_t light_count_ = 0, emitter_count_ = 0;
+  SkyData sky_data_;
+  vulkan::Buffer sky_map_;
+  DeviceTable<MaterialRecord> materials_;
+  DeviceTable<MeshRecord> meshes_;
+  DeviceTable<InstanceRecord> instances_;
+  DeviceTable<LightRecord> lights_;
+  DeviceTable<EmitterRecord> emitters_;
+  DeviceTable<float> emitter_cumulative_, emitter_pdfs_;
+  DeviceTable<SceneRecord> record_;
+};
+
+}  // namespace lambent

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/vulkan/hit_shading.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "shaders/collect_irradiance_comp.h"
+#include "shaders/collect_reflected_comp.h"
+#include "shaders/emitter_rays_comp.h"
+#include "shaders/hit_surfaces_comp.h"
+#include "shaders/light_irradiance_comp.h"
+#include "shaders/light_reflected_comp.h"
+#include "shaders/pixel_surfaces_comp.h"
+#include "vulkan/device.h"
+
+namespace lambent {
+namespace {
+
+// Slots that are in memory at once: 2^21 of rays, stakes and answers take up to 134 MB.
+constexpr std::uint32_t kMaxSlots = 1u << 21;
+// Invocations of one dispatch: the groups that every device takes, of 64 invocations.
+constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
+
+}  // namespace
+
+HitShadingKernels::HitShadingKernels(const vulkan::Device& device)
+    : hit_surfaces(device, shaders::hit_surfaces_comp(), "hit surfaces"),
+      pixel_surfaces(device, shaders::pixel_surfaces_comp(), "pixel surfaces"),
+      emitter_rays(device, shaders::emitter_rays_comp(), "emitter rays"),
+      light_irradiance(device, shaders::light_irradiance_comp(), "light as irradiance"),
+      light_reflected(device, shaders::light_reflected_comp(), "light as reflected"),
+      collect_irradiance(device, shaders::collect_irradiance_comp(), "collect irradiance"),
+      collect_reflected(device, shaders::collect_reflected_comp(), "collect reflected light") {}
+
+HitShading::HitShading(const vulkan::Device& device)
+    : device_(device),
+      kernels_(device.kept<HitShadingKernels>()),
+      ray_count_(device, sizeof(uint), vulkan::Memory::device, "shadow rays counted") {
+  device.run([&](vulkan::Recorder& to) { to.fill(ray_count_, 0u); });
+}
+
+template <class Work>
+void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
+                                const ShadeHitsSettings& settings, Work work) {
+  Chunk chunk{};
+  chunk.samples = scene.has_emitters() ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
+  chunk.slots = scene.lights() + chunk.samples;
+  const std::uint32_t most = std::clamp(kMaxSlots / std::max(chunk.slots, 1u), 1u, kMaxInvocations);
+  chunk.count = std::min(most, count);
+  reserve(chunk);
+  for (; chunk.first < count; chunk.first += most) {
+    chunk.count = std::min(most, count - chunk.first);
+    work(chunk);
+  }
+}
+
+void HitShading::grow(std::size_t bytes, const char* name, vulkan::Buffer& buffer) {
+  if (buffer.handle() != VK_NULL_HANDLE && buffer.bytes() >= bytes) return;
+  // Twice as large at least: all that is outgrown is then no larger than what is in use
+  const std::size_t room = std::max(bytes, 2 * buffer.bytes());
+  vulkan::Buffer larger(device_, room, vulkan::Memory::device, name);
+  if (buffer.handle() != VK_NULL_HANDLE) outgrown_.push_back(std::move(buffer));
+  buffer = std::move(larger);
+}
+
+void HitShading::reserve(const Chunk& chunk) {
+  const std::size_t samples = std::size_t{chunk.count} * chunk.samples;
+  const std::size_t slots = std::size_t{chunk.count} * chunk.slots;
+  grow(samples * sizeof(RayRecord), "emitter rays", emitter_ray_memory_);
+  grow(samples * sizeof(HitRecord), "emitter hits", emitter_hit_memory_);
+  grow(slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
+  grow(slots * sizeof(ReflectedPair), "stakes of shadow rays", stake_memory_);
+  grow(slots * sizeof(uint), "occlusions", occlusion_memory_);
+}
+
+void HitShading::find_emitters(vulkan::Recorder& recorder, const DeviceStage& stage,
+                               LitPointArray points, const Chunk& chunk,
+                               const ShadeHitsSettings& settings) {
+  if (chunk.samples == 0) return;
+  const RayArray rays = {emitter_ray_memory_.address()};
+  const EmitterRaysArguments arguments = {stage.scene.address(), points,        rays,
+                                          chunk.first,           chunk.count,   chunk.samples,
+                                          settings.salt,         settings.seed, 0};
+  recorder.run(kernels_.emitter_rays, arguments, chunk.count);
+  recorder.barrier();
+  RayBatch batch;
+  batch.rays = rays;
+  batch.count = chunk.count * chunk.samples;
+  stage.tracer.closest_hits(recorder, batch, {emitter_hit_memory_.address()});
+  recorder.barrier();
+}
+
+LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray points,
+                                      const Chunk& chunk, const ShadeHitsSettings& settings) const {
+  LightDrawsArguments arguments{};
+  arguments.scene = stage.scene.address();
+  arguments.points = points;
+  arguments.emitter_rays.address = emitter_ray_memory_.address();
+  arguments.emitter_hits.address = emitter_hit_memory_.address();
+  arguments.shadow_rays.address = shadow_ray_memory_.address();
+  arguments.ray_count.address = ray_count_.address();
+  arguments.first = chunk.first;
+  arguments.count = chunk.count;
+  arguments.emissive_samples = chunk.samples;
+  arguments.salt = settings.salt;
+  arguments.seed = settings.seed;
+  return arguments;
+}
+
+void HitShading::take_ray_count(vulkan::Recorder& recorder, const vulkan::Buffer& count) const {
+  recorder.barrier();
+  recorder.copy(ray_count_, count, sizeof(uint));
+  recorder.barrier();
+  recorder.fill(ray_count_, 0u);
+  recorder.barrier();
+}
+
+void HitShading::trace_shadows(vulkan::Recorder& recorder, const DeviceStage& stage,
+                               const Chunk& chunk) {
+  recorder.barrier();
+  RayBatch batch;
+  batch.rays.address = shadow_ray_memory_.address();
+  batch.count = chunk.count * chunk.slots;
+  stage.tracer.occlusions(recorder, batch, {occlusion_memory_.address()});
+  recorder.barrier();
+}
+
+CollectArguments HitShading::collecting(const Chunk& chunk) const {
+  CollectArguments arguments{};
+  arguments.occluded.address = occlusion_memory_.address();
+  arguments.first = chunk.first;
+  arguments.count = chunk.count;
+  arguments.slots = chunk.slots;
+  return arguments;
+}
+
+void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage,
+                            const DeviceHits& hits, UintArray first_indices,
+                            std::uint32_t rays_per_index, const ShadeHitsSettings& settings,
+                            const DeviceShadedHits& out) {
+  recorder.bind_textures(stage.scene.textures());
+  for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
+    HitSurfacesArguments arguments{};
+    arguments.scene = stage.scene.address();
+    arguments.rays = hits.rays;
+    arguments.hits = hits.hits;
+    arguments.first_indices = first_indices;
+    arguments.points = out.points;
+    arguments.shaded = out.shaded;
+    arguments.first = first;
+    arguments.count = std::min(kMaxInvocations, hits.count - first);
+    arguments.rays_per_index = rays_per_index;
+    arguments.cone_width = settings.cone_width;
+    arguments.max_albedo = settings.max_albedo;
+    arguments.back_faces_count = settings.back_faces_count ? 1 : 0;
+    recorder.run(kernels_.hit_surfaces, arguments, arguments.count);
+  }
+  recorder.barrier();
+  direct_irradiance(recorder, stage, out.points, hits.count, settings, out.irradiance);
+}
+
+void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                   LitPointArray points, std::uint32_t count,
+                                   const ShadeHitsSettings& settings, Vec3Array irradiance) {
+  recorder.bind_textures(stage.scene.textures());
+  for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
+    find_emitters(recorder, stage, points, chunk, settings);
+    LightDrawsArguments arguments = draws(stage, points, chunk, settings);
+    arguments.stakes.address = stake_memory_.address();
+    recorder.run(kernels_.light_irradiance, arguments, chunk.count);
+    trace_shadows(recorder, stage, chunk);
+    CollectArguments collect = collecting(chunk);
+    collect.stakes.address = stake_memory_.address();
+    collect.irradiance = irradiance;
+    recorder.run(kernels_.collect_irradiance, collect, chunk.count);
+    recorder.barrier();
+  });
+}
+
+void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                const DeviceHits& hits, std::uint32_t first_index,
+                                const DevicePixels& out) {
+  recorder.bind_textures(stage.scene.textures());
+  for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
+    PixelSurfacesArguments arguments{};
+    arguments.scene = stage.scene.address();
+    arguments.rays = hits.rays;
+    arguments.hits = hits.hits;
+    arguments.points = out.points;
+    arguments.surfaces = out.surfaces;
+    arguments.first = first;
+    arguments.count = std::min(kMaxInvocations, hits.count - first);
+    arguments.first_index = first_index;
+    recorder.run(kernels_.pixel_surfaces, arguments, arguments.count);
+  }
+  recorder.barrier();
+}
+
+void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                 const DevicePixels& pixels, std::uint32_t count,
+                                 const ShadeHitsSettings& settings,
+                                 const DeviceReflectedLight& out) {
+  recorder.bind_textures(stage.scene.textures());
+  for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
+    find_emitters(recorder, stage, pixels.points, chunk, settings);
+    LightDrawsArguments arguments = draws(stage, pixels.points, chunk, settings);
+    arguments.pairs.address = stake_memory_.address();
+    arguments.surfaces = pixels.surfaces;
+    recorder.run(kernels_.light_reflected, arguments, chunk.count);
+    trace_shadows(recorder, stage, chunk);
+    CollectArguments collect = collecting(chunk);
+    collect.pairs.address = stake_memory_.address();
+    collect.diffuse = out.diffuse;
+    collect.specular = out.specular;
+    recorder.run(kernels_.collect_reflected, collect, chunk.count);
+    recorder.barrier();
+  });
+}
+
+}  // namespace lambent

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all gathers do with a pixel before and after.
+layout(local_size_x = 32, local_size_y = 8) in;
+
+#include "rsm/device_passes.h"
+#include "rsm/gather_texel.h"
+#include "rsm/shaders/sub_image.glsl"
+#include "shared/octahedral.h"
+#include "shared/packing.h"
+#include "shared/relight.h"
+
+/// A pixel that gathers.
+struct Pixel {
+  ivec2 at;
+  vec3 position_ws;
+  vec3 normal_ws;
+};
+
+/// This invocation's place, where the first row of workgroups is that row of tiles.
+ivec2 own_place(int first_row) {
+  return tile_of_group(kSubImages, first_row) + ivec2(gl_LocalInvocationID);
+}
+
+/// The pixel at a place of this workgroup's sub-image; false where the picture has none.
+bool find_pixel(DeviceView view, ivec2 size, ivec2 place, out Pixel pixel) {
+  pixel.at = pixel_of_sub_image(sub_image_of_group(kSubImages), place, kSubImages);
+  pixel.position_ws = vec3(0.0f);
+  pixel.normal_ws = vec3(0.0f);
+  if (pixel.at.x >= size.x || pixel.at.y >= size.y) return false;
+  int i = pixel.at.y * size.x + pixel.at.x;
+  pixel.position_ws = view.positions_ws.at[i];
+  pixel.normal_ws = view.normals_ws.at[i];
+  return true;
+}
+
+/// Of this invocation among all, workgroup after workgroup.
+uint invocation_index() {
+  uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
+  return group * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
+}
+
+/// Restructures what blurs read of the pixel.
+void write_guide(DeviceGuide guide, int place, Pixel pixel, float depth) {
+  bool seen = depth > 0.0f && pixel.normal_ws != vec3(0.0f);
+  guide.points.at[place] = vec4(pixel.position_ws, seen ? 1.0f / depth : 0.0f);
+  guide.normals.at[place] = seen ? encode_unit_vector(pixel.normal_ws) : 0u;
+}
+
+/// Writes what the pixel gathered: to the picture, or as it can be blurred.
+void finish_pixel(DeviceView view, GatherTarget target, ivec2 size, uint flags, Pixel pixel,
+                  GatheredLight gathered) {
+  int i = pixel.at.y * size.x + pixel.at.x;
+  vec3 light = gathered.light;
+  if ((flags & kGatherDimmed) != 0u) light *= target.arrived.at[i];
+  if ((flags & kGatherBlurred) == 0u) {
+    target.picture.at[i] = light;
+    return;
+  }
+  int place = mosaic_index(pixel.at, size, kSubImages);
+  int plane = mosaic_places(size, kSubImages);
+  write_guide(target.guide, place, pixel, view.depths.at[i]);
+  vec3 means = relighting(gathered.ways, pixel.normal_ws, luminance(light));
+  target.light.at[place] = pack_upper_halves(light.x, means.x);
+  target.light.at[place + plane] = pack_upper_halves(light.y, means.y);
+  target.light.at[place + 2 * plane] = pack_upper_halves(light.z, means.z);
+}

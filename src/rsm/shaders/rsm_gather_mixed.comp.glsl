@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gathers the light of sub-maps at the pixels of a picture that is not restructured: neighbours ask
+// different ones. What restructuring is measured against.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "rsm/shaders/gather_pixel.glsl"
+
+layout(push_constant, scalar) uniform Push {
+  GatherArguments args;
+};
+
+void main() {
+  Pixel pixel;
+  ivec2 size = ivec2(args.width, args.height);
+  if (!find_pixel(args.view, size, own_place(0), pixel)) return;
+  bool ways = (args.flags & kGatherBlurred) != 0u;
+  bool rendered = (args.flags & kGatherRendered) != 0u;
+  uint start = uint(sub_map_of(pixel.at, args.sub_maps) * args.count);
+  GatheredLight sum = {vec3(0.0f), vec3(0.0f)};
+  for (int k = 0; k < args.count; ++k) {
+    uint at = start + uint(k);
+    RsmTexelRecord texel = args.texels.at[rendered ? args.places.at[at] : at];
+    texel.flux *= kInvPi;
+    TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
+    gather_texel(sum, pixel.normal_ws, sight, texel);
+    if (ways && k % kTexelsPerWay == 0) gather_way(sum, sight, texel);
+  }
+  finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the lookup for engines is tried with.
+#ifndef LAMBENT_TESTS_TWIN_ENGINE_LOOKUP_H
+#define LAMBENT_TESTS_TWIN_ENGINE_LOOKUP_H
+
+#include "field/field_record.h"
+
+LAMBENT_BEGIN
+
+struct EngineLookupArguments {
+  FieldRecord field;
+  QueryArray queries;
+  Vec3Array irradiance;
+  uint count;
+  uint unused;
+};
+
+LAMBENT_END
+#endif

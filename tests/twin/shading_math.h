@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every formula between a hit and its light, for random numbers: one body that both languages run.
+#ifndef LAMBENT_TESTS_TWIN_SHADING_MATH_H
+#define LAMBENT_TESTS_TWIN_SHADING_MATH_H
+
+#include "raytracing/emitter_sampling.h"
+#include "raytracing/ray_records.h"
+#include "raytracing/surface_math.h"
+#include "scene/coverage.h"
+#include "scene/latitude_longitude.h"
+#include "scene/punctual_light.h"
+#include "scene/texture_lookup.h"
+
+LAMBENT_BEGIN
+
+/// What comes out as numbers that differ by rounding.
+struct ShadingNumbers {
+  vec3 position, edges, area_normal;
+  float cone_share;
+  vec4 tangent;
+  vec3 orthogonal, mapped, shading_normal;
+  Reflectance coated, plain;
+  PunctualSample punctual[3];
+  vec2 uv;
+  float wrapped[3];
+  vec2 map_fraction;
+  EmitterDraw draw;
+  EmitterPoint drawn, met;
+  LightCandidate candidate;
+  float shadow_length, stopping;
+};
+
+/// What comes of inverse sines and tangents, which devices approximate.
+struct AngleNumbers {
+  vec2 map_point;
+  vec3 map_direction;
+};
+
+/// What decides, and must be the same.
+struct ShadingDecisions {
+  int wrapped_index[3];
+  int nearest[3];
+  int first[3];
+  int second[3];
+  int level;
+  uint mean_alone;
+  uint stops_mask;
+  uint stops_blend;
+  uint uniform_bits;
+};
+
+struct ShadingMath {
+  ShadingNumbers numbers;
+  AngleNumbers angles;
+  ShadingDecisions decisions;
+};
+LAMBENT_DEVICE_ARRAY(ShadingMathArray, ShadingMath, 4)
+
+struct ShadingMathArguments {
+  ShadingMathArray results;
+  uint count;
+  uint padding;
+};
+
+LAMBENT_FN vec3 random_vec3(LAMBENT_INOUT(RandomStream) random, float low, float high) {
+  float x = next_uniform(random);
+  float y = next_uniform(random);
+  float z = next_uniform(random);
+  return vec3(low) + vec3(x, y, z) * (high - low);
+}
+
+LAMBENT_FN vec3 random_direction(LAMBENT_INOUT(RandomStream) random) {
+  return normalize(random_vec3(random, -1.0f, 1.0f) + vec3(0.0f, 0.0f, 0.01f));
+}
+
+LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
+                                  LAMBENT_INOUT(ShadingNumbers) n) {
+  // Drawn one by one: languages differ in the order of arguments
+  vec3 x = random_vec3(random, -1.0f, 1.0f);
+  vec3 y = random_vec3(random, -1.0f, 1.0f);
+  vec3 z = random_vec3(random, -1.0f, 1.0f);
+  vec3 origin = random_vec3(random, -10.0f, 10.0f);
+  mat4 place = mat4(vec4(x, 0.0f), vec4(y, 0.0f), vec4(z, 0.0f), vec4(origin, 1.0f));
+  vec3 edge1 = random_vec3(random, -1.0f, 1.0f);
+  vec3 edge2 = random_vec3(random, -1.0f, 1.0f);
+  n.position = transform_point(place, edge1);
+  n.edges = edge_product(place, edge1, edge2);
+  n.area_normal = cofactors(place) * cross(edge1, edge2);
+  n.cone_share = share_of_triangle(next_uniform(random), length(edge1));
+  vec2 uv1 = next_uniform2(random);
+  vec2 uv2 = next_uniform2(random);
+  n.tangent = tangent_from_uvs(edge1, edge2, uv1, uv2);
+  vec3 normal = random_direction(random);
+  vec3 along = random_direction(random);
+  n.orthogonal = orthogonal_tangent(normal, along);
+  float handedness = next_uniform(random) - 0.5f;
+  vec3 texel = random_vec3(random, 0.0f, 1.0f);
+  n.mapped = mapped_normal(normal, n.orthogonal, handedness, texel, 2.0f * next_uniform(random));
+  vec3 geometric = random_direction(random);
+  bool along_winding = next_uniform(random) < 0.5f;
+  bool from_front = next_uniform(random) < 0.5f;
+  n.shading_normal = normal_towards_viewer(normal, along_winding, from_front, along, geometric);
+  vec3 base = random_vec3(random, 0.0f, 1.0f);
+  vec3 tint = random_vec3(random, 0.0f, 1.5f);
+  vec2 amounts = next_uniform2(random);
+  vec2 strengths = next_uniform2(random);
+  n.coated =
+      coated_reflectance(base, amounts.x, amounts.y, strengths.x, tint, 1.0f + 2.0f * strengths.y);
+  n.plain = lambert_reflectance(base);
+}
+
+LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOUT(ShadingNumbers) n,
+                                LAMBENT_INOUT(AngleNumbers) angles) {
+  vec3 point = random_vec3(random, -3.0f, 3.0f);
+  for (uint type = kLightDirectional; type <= kLightSpot; ++type) {
+    LightRecord light = {random_vec3(random, 0.0f, 5.0f),
+                         type,
+                         random_vec3(random, -3.0f, 3.0f),
+                         8.0f * next_uniform(random) - 2.0f,
+                         random_direction(random),
+                         0.2f,
+                         cone_scale(0.9f, 0.2f)};
+    n.punctual[type] = sample_punctual(light, point);
+    // Infinity is no number to compare
+    if (type == kLightDirectional) n.punctual[type].distance = 0.0f;
+  }
+  vec3 normal = random_direction(random);
+  n.draw = draw_emitter(random, 1, 0.5f);
+  EmissiveSample sampled = {random_vec3(random, -3.0f, 3.0f), random_direction(random),
+                            random_vec3(random, 0.0f, 5.0f), next_uniform(random)};
+  n.drawn = emitter_drawn(sampled, point);
+  vec3 direction = sample_cosine_about(normal, vec2(n.draw.u.y, n.draw.u.z));
+  n.met = emitter_met(direction, 2.0f, sampled.radiance, sampled.normal_ws, sampled.pdf_area);
+  n.candidate = emitter_candidate(n.met, normal, 0.5f);
+  n.shadow_length = shadow_ray_length(n.drawn.distance);
+  vec3 towards = random_direction(random);
+  angles.map_point = latitude_longitude_from_direction(towards, 0.7f);
+  angles.map_direction = direction_from_latitude_longitude(angles.map_point, 0.7f);
+  n.map_fraction = map_texels(next_uniform2(random), 16, 8).fraction;
+}
+
+LAMBENT_FN void evaluate_textures(LAMBENT_INOUT(RandomStream) random,
+                                  LAMBENT_INOUT(ShadingMath) result) {
+  // Whole multiples of 2^-10, so that both sides compute the same without rounding
+  float u = floor(next_uniform(random) * 16384.0f) / 1024.0f - 8.0f;
+  vec2 turn = next_uniform(random) < 0.5f ? vec2(1.0f, 0.0f) : vec2(0.6f, 0.8f);
+  result.numbers.uv = transform_uv(vec2(u, -0.5f * u), vec2(2.0f, 3.0f), turn, vec2(0.25f, 0.5f));
+  for (uint wrap = kWrapRepeat; wrap <= kWrapClampToEdge; ++wrap) {
+    float wrapped = wrap_coordinate(u, wrap);
+    TexelPair pair = texels_around(wrapped, 24, wrap);
+    result.numbers.wrapped[wrap] = wrapped;
+    result.decisions.wrapped_index[wrap] = wrap_index(int(wrapped * 24.0f) - 1, 24, wrap);
+    result.decisions.nearest[wrap] = nearest_index(wrapped, 24, wrap);
+    result.decisions.first[wrap] = pair.first;
+    result.decisions.second[wrap] = pair.second;
+  }
+  float share = exp2(floor(next_uniform(random) * 20.0f) - 10.0f);
+  result.decisions.level =
+      mip_level(vec2(1.0f, 0.0f), vec2(0.0f, 1.5f), vec2(1.0f, 2.0f), 64, 128, share);
+  result.decisions.mean_alone = shows_mean_alone(result.decisions.level, 7) ? 1u : 0u;
+
+  vec2 barycentrics = next_uniform2(random);
+  float distance = next_uniform(random);
+  float alpha = next_uniform(random);
+  result.numbers.stopping = stopping_probability(kAlphaBlend, 0.5f, alpha) +
+                            stopping_probability(kAlphaMask, 0.5f, alpha);
+  result.decisions.stops_mask =
+      stops_ray(kAlphaMask, 0.5f, alpha, barycentrics, distance, 7u) ? 1u : 0u;
+  result.decisions.stops_blend =
+      stops_ray(kAlphaBlend, 0.5f, alpha, barycentrics, distance, 7u) ? 1u : 0u;
+  result.decisions.uniform_bits = floatBitsToUint(uniform_of_hit(barycentrics, distance, 7u));
+}
+
+LAMBENT_FN ShadingMath evaluate_shading_math(uint i) {
+  ShadingMath result;
+  RandomStream random = make_random_stream(i, 3u, 5u);
+  evaluate_surfaces(random, result.numbers);
+  evaluate_lights(random, result.numbers, result.angles);
+  evaluate_textures(random, result);
+  return result;
+}
+
+LAMBENT_END
+#endif
