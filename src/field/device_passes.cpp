@@ -36,7 +36,8 @@ void run_groups(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Argume
 }  // namespace
 
 ProbeList DeviceField::arrays(const DeviceProbes& list) const {
-  return {list.index_array(), {list.ray_sets.address()}, {sets_.address()}};
+  const RaySetArray own = {sets_.address()};
+  return {list.index_array(), {list.ray_sets.address()}, list.sets.address != 0 ? list.sets : own};
 }
 
 StoreArrays DeviceField::store() const {
