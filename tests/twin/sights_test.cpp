@@ -5,6 +5,7 @@
 #include "field/visibility.h"
 #include "field_update_cpu.h"
 #include "raytracing/vulkan/device_world.h"
+#include "shared/random.h"
 #include "support/random_store.h"
 #include "support/vulkan_device.h"
 
@@ -17,6 +18,9 @@ using test::UpdateOnCpu;
 // Where a ray grazes an edge, or a weight is about what a ray is worth, the two sides may see it
 // otherwise: so large a share of rays, or of weights, may differ.
 constexpr double kTolerance = 0.002;
+
+// Rays change at least so much of what distances say.
+constexpr double kChanged = 0.05;
 
 struct SightCase {
   Visibility visibility;
@@ -31,6 +35,9 @@ struct Sighted {
         sights(update.store.probes()),
         field(there.on_device()->device(), update.settings, update.store),
         by{as.visibility, &stage.world.tracer(), &sights} {
+    // Distances that tell nothing leave much to rays
+    test::fill_randomly(update.store);
+    field.write_store(update.store);
     field.write_surfels(update.all, update.traces);
     const std::vector<int> cells = cells_around(update.store, update.all);
     cell_rays = sights.look(stage.world.tracer(), update.store, cells);
@@ -71,6 +78,7 @@ class FieldSights : public test::OnDevice, public testing::WithParamInterface<Si
 TEST_P(FieldSights, WeighSurfelsAsOnTheProcessor) {
   Sighted twins(GetParam(), shared_device());
   UpdateOnCpu& update = twins.update;
+  find_surfel_lookups(update.store, {}, update.all, update.traces);
   const std::vector<ProbeTrace> by_distances = update.traces;
   const std::uint64_t rays = find_surfel_lookups(update.store, twins.by, update.all, update.traces);
   const DeviceProbes list = twins.field.list(update.all);
@@ -99,20 +107,12 @@ TEST_P(FieldSights, WeighSurfelsAsOnTheProcessor) {
     }
   }
   EXPECT_LE(difference, kTolerance * whole);
-  // Rays have something to say
-  EXPECT_GT(changed, 3.0 * kTolerance * whole);
+  EXPECT_GT(changed, kChanged * whole);
 }
 
 TEST_P(FieldSights, AnswerQueriesAsOnTheProcessor) {
   Sighted twins(GetParam(), shared_device());
-  ProbeStore& store = twins.update.store;
   RandomStream random = make_random_stream(1, 2, 3);
-  std::vector<vec3> light(twins.update.tile_texels());
-  for (const int probe : twins.update.all) {
-    for (vec3& texel : light) texel = vec3(next_uniform2(random), next_uniform(random));
-    store.store_irradiance(probe, light, 1u);
-  }
-  twins.field.write_store(store);
   const Bounds bounds = twins.stage.bounds();
   std::vector<FieldQuery> queries(3000);
   for (FieldQuery& query : queries) {
@@ -122,7 +122,7 @@ TEST_P(FieldSights, AnswerQueriesAsOnTheProcessor) {
     query.to_viewer_ws = test::random_unit(random);
   }
   std::vector<vec3> expected(queries.size());
-  lookup_irradiance(store, twins.by, queries, expected);
+  lookup_irradiance(twins.update.store, twins.by, queries, expected);
   const vulkan::Buffer in = vulkan::upload(device(), queries, "queries");
   const vulkan::Buffer out(device(), queries.size() * sizeof(vec3), vulkan::Memory::device, "E");
   twins.run([&](vulkan::Recorder& to, const DeviceTracer& tracer) {
