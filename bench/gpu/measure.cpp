@@ -80,14 +80,13 @@ std::map<std::string, Median> time_frames(const World& world, const IndirectSour
   return passes;
 }
 
-/// Of all passes whose name begins so, but for the making of the maps and the choice of their
-/// texels, which is the same however they are gathered.
+/// Restructuring, gathering and blurring. Making maps, choosing their texels and finding what the
+/// camera sees are the same however light is gathered.
 double gathering(const std::map<std::string, Median>& passes) {
   double sum = 0.0;
-  for (const auto& [name, ms] : passes) {
-    if (name.starts_with("rsm.") && name != "rsm.choose" && name != "rsm.upsample") {
-      sum += ms.value();
-    }
+  for (const char* name : {"rsm.gather", "rsm.sub_blur", "rsm.interleave"}) {
+    const auto pass = passes.find(name);
+    if (pass != passes.end()) sum += pass->second.value();
   }
   return sum;
 }

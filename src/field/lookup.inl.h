@@ -2,7 +2,8 @@
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
 //   ProbeGrid fetch_grid(int volume)
 //   vec2 fetch_moments(ProbeGrid grid, int probe, vec3 direction)
-//       mean distance [m] and mean squared distance [m^2], bilinear; of a probe of that grid
+//       mean distance [m] and mean squared distance [m^2], bilinear; of a probe of that grid, along
+//       a direction of any length
 //   vec3 fetch_offset(int probe)
 //       of the probe from its place on the grid, in shares of a cell
 //   vec3 fetch_irradiance(int probe, vec3 direction)
@@ -29,7 +30,7 @@ LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, v
   // Ask the probe how far it sees along the direction to the biased point
   vec3 from_probe = biased_ws - probe_ws;
   float dist = max(length(from_probe), kMinProbeDistance);
-  vec2 moments = fetch_moments(grid, probe_index(grid, coords), from_probe / dist);
+  vec2 moments = fetch_moments(grid, probe_index(grid, coords), from_probe);
 
   // Weigh it by visibility and by its side of the surface
   return probe_weight(probe_cosine(probe_ws, position_ws, normal_ws), moments, dist);

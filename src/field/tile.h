@@ -39,7 +39,8 @@ LAMBENT_FN int gutter_texels(int texels) {
 /// One of them (coordinates with gutter): the top row, the bottom row, then both sides.
 LAMBENT_FN ivec2 gutter_texel(int index, int texels) {
   int width = texels + 2;
-  if (index < 2 * width) return ivec2(index % width, index < width ? 0 : width - 1);
+  if (index < width) return ivec2(index, 0);
+  if (index < 2 * width) return ivec2(index - width, width - 1);
   int i = index - 2 * width;
   return ivec2((i & 1) * (width - 1), 1 + (i >> 1));
 }

@@ -11,6 +11,9 @@ namespace {
 
 constexpr std::uint32_t kRequiredApi = VK_API_VERSION_1_2;
 
+// Lanes that matrix products share what they load among.
+constexpr std::uint32_t kLeastSubgroup = 8;
+
 /// Calls visit(name, flag) for each feature that passes need.
 template <class Features, class Visit>
 void for_each_feature(Features& f, Visit visit) {
@@ -85,6 +88,9 @@ std::optional<std::uint32_t> compute_queue_family(const Functions& f, VkPhysical
 DeviceDescription describe(const Functions& f, VkPhysicalDevice device) {
   VkPhysicalDeviceDriverProperties driver{};
   driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  VkPhysicalDeviceSubgroupProperties subgroups{};
+  subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+  driver.pNext = &subgroups;
   VkPhysicalDeviceProperties2 properties{};
   properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
   properties.pNext = &driver;
@@ -105,6 +111,11 @@ DeviceDescription describe(const Functions& f, VkPhysicalDevice device) {
     if (!has_extension(f, device, name)) description.missing.emplace_back(name);
   }
   if (!compute_queue_family(f, device)) description.missing.emplace_back("a compute queue");
+  if (subgroups.subgroupSize < kLeastSubgroup ||
+      (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
+      (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) == 0) {
+    description.missing.emplace_back("subgroups of 8 that shuffle");
+  }
   if (!description.missing.empty()) return description;
   RequiredFeatures features;
   f.vkGetPhysicalDeviceFeatures2(device, &features.core);

@@ -164,7 +164,8 @@ TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
     return std::vector<uint>(store.offset_words().begin(), store.offset_words().end());
   };
   EXPECT_EQ(offsets(far), offsets(stage.world.tracer()));
-  // As many as the steps of the probe that takes most, and a few more each for what moves in the way
+  // As many as the steps of the probe that takes most, and a few more each for what moves in the
+  // way
   EXPECT_LT(far.batches, 300);
   EXPECT_GT(far.batches, 1);
 

@@ -12,23 +12,18 @@ layout(push_constant, scalar) uniform Push {
   BlendDistancesArguments args;
 };
 
-void store_moments(int texel, int k, vec2 now) {
-  int probe = args.list.probes.at[k];
-  int width = kDistanceTexels + 2;
-  int index = probe * (width * width) + (texel / kDistanceTexels + 1) * width +
-              texel % kDistanceTexels + 1;
-  float scale = 1.0 / distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
-  float share = args.shares.at[k];
+/// Moves a texel of a store a share of the way to new moments.
+void store_moments(int texel, vec2 now, float share, float scale) {
   if (kDistanceFormat == kRg16f) {
-    args.store.distance.at[index] = blended_halves(args.store.distance.at[index], now, share, scale,
-                                                   uint(index) + args.salt);
-  } else {
-    vec2 old = vec2(uintBitsToFloat(args.store.distance.at[2 * index]),
-                    uintBitsToFloat(args.store.distance.at[2 * index + 1]));
-    vec2 moments = blended_moments(old, now, share, scale);
-    args.store.distance.at[2 * index] = floatBitsToUint(moments.x);
-    args.store.distance.at[2 * index + 1] = floatBitsToUint(moments.y);
+    args.store.distance.at[texel] = blended_halves(args.store.distance.at[texel], now, share, scale,
+                                                   uint(texel) + args.salt);
+    return;
   }
+  vec2 old = vec2(uintBitsToFloat(args.store.distance.at[2 * texel]),
+                  uintBitsToFloat(args.store.distance.at[2 * texel + 1]));
+  vec2 moments = blended_moments(old, now, share, scale);
+  args.store.distance.at[2 * texel] = floatBitsToUint(moments.x);
+  args.store.distance.at[2 * texel + 1] = floatBitsToUint(moments.y);
 }
 
 void main() {
@@ -71,15 +66,18 @@ void main() {
     }
   }
 
+  const int width = kDistanceTexels + 2;
   [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
-    if (p >= block.count) continue;
-    int k = block.first + p;
-    bool blocked = args.blocked.at[k] != 0u;
+    int k = block.first + min(p, block.count - 1);
+    int probe = args.list.probes.at[k];
+    float scale = 1.0 / distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
+    float known = args.blocked.at[k] == 0u ? 1.0 : 0.0;
+    float share = args.shares.at[k];
     [[unroll]] for (int v = 0; v < kDistanceVectors; ++v) {
-      int texel = first + kClusterLanes * v;
-      if (texel >= texels) continue;
-      vec2 now = vec2(means[v][p], squares[v][p]) / totals[v];
-      store_moments(texel, k, blocked ? vec2(0.0) : now);
+      int t = first + kClusterLanes * v;
+      int texel = (probe * width + t / kDistanceTexels + 1) * width + t % kDistanceTexels + 1;
+      vec2 now = vec2(means[v][p], squares[v][p]) * (known / totals[v]);
+      if (p < block.count && t < texels) store_moments(texel, now, share, scale);
     }
   }
 }

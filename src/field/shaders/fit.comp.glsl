@@ -9,6 +9,17 @@ layout(push_constant, scalar) uniform Push {
   FitArguments args;
 };
 
+/// Where rays count for some texels only, there is nothing to fit: the others keep what they had.
+void store_received(int i, vec3 fitted, bool known) {
+  vec4 received = vec4(fitted, 0.0);
+  if (!known) {
+    vec4 centre = args.at_centres.at[i];
+    received = centre.w > 0.0 ? vec4(centre.xyz, 0.0) : args.fallback.at[i];
+  }
+  if (args.has_gain != 0u) received *= args.gain.at[i];
+  args.received.at[i] = received;
+}
+
 void main() {
   int b = int(gl_WorkGroupID.y * kGroupClusters + cluster_in_group());
   if (b >= args.block_count) return;
@@ -27,20 +38,14 @@ void main() {
     add_rows(args.fit, row, centres);
   }
 
-  // Where rays count for some texels only, there is nothing to fit: the others keep what they had
   [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
     bool known = cluster_sum(unknown[p]) == 0;
     [[unroll]] for (int v = 0; v < kIrradianceVectors; ++v) {
       int texel = first_texel() + kClusterLanes * v;
-      if (p >= block.count || texel >= kTexels) continue;
-      int i = (block.first + p) * kTexels + texel;
-      vec4 received = vec4(sums[v][p].xyz, 0.0);
-      if (!known) {
-        vec4 centre = args.at_centres.at[i];
-        received = centre.w > 0.0 ? vec4(centre.xyz, 0.0) : args.fallback.at[i];
+      vec3 fitted = sums[v][p].xyz;
+      if (p < block.count && texel < kTexels) {
+        store_received((block.first + p) * kTexels + texel, fitted, known);
       }
-      if (args.has_gain != 0u) received *= args.gain.at[i];
-      args.received.at[i] = received;
     }
   }
 }

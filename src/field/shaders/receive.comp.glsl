@@ -29,10 +29,11 @@ void main() {
   [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
     [[unroll]] for (int v = 0; v < kIrradianceVectors; ++v) {
       int texel = first_texel() + kClusterLanes * v;
-      if (p >= block.count || texel >= kTexels) continue;
       float known = sums[v][p].w > enough ? 1.0 : 0.0;
-      args.at_centres.at[(block.first + p) * kTexels + texel] =
-          vec4(irradiance_at_centre(sums[v][p]), known);
+      vec4 centre = vec4(irradiance_at_centre(sums[v][p]), known);
+      if (p < block.count && texel < kTexels) {
+        args.at_centres.at[(block.first + p) * kTexels + texel] = centre;
+      }
     }
   }
 }

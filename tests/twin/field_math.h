@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Functions of the field that both languages share, from numbers to numbers.
+#ifndef LAMBENT_TESTS_TWIN_FIELD_MATH_H
+#define LAMBENT_TESTS_TWIN_FIELD_MATH_H
+
+#include "field/anderson_math.h"
+#include "field/blend_math.h"
+#include "field/irradiance_encoding.h"
+#include "field/moments_encoding.h"
+#include "field/tile.h"
+#include "raytracing/ray_records.h"
+
+LAMBENT_BEGIN
+
+struct FieldMathArguments {
+  FloatArray in_numbers;   ///< kFieldMathInputs a case, 0 to 1.
+  FloatArray out_numbers;  ///< kFieldMathOutputs a case.
+  uint count;
+  uint padding;
+};
+
+const int kFieldMathInputs = 16;
+const int kFieldMathExact = 11;    // outputs that must agree to the bit, ...
+const int kFieldMathOutputs = 18;  // ... and those after them, up to rounding
+
+struct FieldMathResult {
+  float number[kFieldMathOutputs];
+};
+
+/// A gram matrix of three random steps and their projections.
+LAMBENT_FN StepProducts some_products(vec3 a, vec3 b, vec3 c, vec3 residual) {
+  vec3 steps[3];
+  steps[0] = a;
+  steps[1] = b;
+  steps[2] = c;
+  StepProducts products;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      products.gram[3 * i + j] = make_wide(0.0f);
+      for (int k = 0; k < 3; ++k) {
+        products.gram[3 * i + j] =
+            wide_add(products.gram[3 * i + j], exact_product(steps[i][k], steps[j][k]));
+      }
+    }
+    products.projection[i] = make_wide(0.0f);
+    for (int k = 0; k < 3; ++k) {
+      products.projection[i] =
+          wide_add(products.projection[i], exact_product(steps[i][k], residual[k]));
+    }
+  }
+  return products;
+}
+
+LAMBENT_FN FieldMathResult field_math(vec4 a, vec4 b, vec4 c, vec4 d) {
+  FieldMathResult r;
+  Wide sum = exact_sum(a.x, 1e-4f * a.y);
+  Wide product = exact_product(a.z, a.w);
+  Wide quotient = wide_divide(sum, make_wide(0.5f + b.x));
+  r.number[0] = sum.high;
+  r.number[1] = sum.low;
+  r.number[2] = product.high;
+  r.number[3] = product.low;
+  ivec2 gutter = gutter_texel(int(b.y * 36.0f), 8);
+  r.number[4] = float(gutter.x);
+  r.number[5] = float(gutter.y);
+  r.number[6] = float(stands_in_matter(int(b.z * 20.0f), 40));
+  r.number[7] = counted_distance(3.0f * b.w, a.x < 0.5f ? 1u : 0u, 2.0f);
+  vec3 dither = irradiance_dither(uint(a.x * 1000.0f), 7u);
+  r.number[8] = dither.x;
+  r.number[9] = dither.y;
+  r.number[10] = dither.z;
+
+  r.number[11] = quotient.high;
+  vec3 shares = step_shares(some_products(vec3(a), vec3(b), vec3(c), vec3(d)), 3);
+  r.number[12] = shares.x;
+  r.number[13] = shares.y;
+  r.number[14] = shares.z;
+  r.number[15] = blend_weight(normalize(vec3(a)), normalize(vec3(b)), 1.0f);
+  r.number[16] = blend_weight(normalize(vec3(c)), normalize(vec3(d)), kDistanceExponent);
+  r.number[17] = remaining_error(0.9f * c.w, d.w, a.x * a.x, 1.0f + b.x);
+  return r;
+}
+
+LAMBENT_END
+#endif
