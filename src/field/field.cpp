@@ -74,7 +74,8 @@ IrradianceField& IrradianceField::operator=(IrradianceField&&) noexcept = defaul
 
 Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
                                                 const Bounds& scene_bounds) {
-  if (const Expected<void> fine = check_settings(settings); !fine) return tl::unexpected(fine.error());
+  if (const Expected<void> fine = check_settings(settings); !fine)
+    return tl::unexpected(fine.error());
   const Expected<std::vector<Volume>> volumes = plan_volumes(settings, scene_bounds);
   if (!volumes) return tl::unexpected(volumes.error());
   return IrradianceField(std::make_unique<State>(settings, *volumes));
@@ -107,7 +108,7 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
                                  const World* world) const {
   assert(queries.size() == result.size());
   const State& s = *state_;
-  if (s.device) return s.device->irradiance(queries, result);
+  if (s.device) return s.device->irradiance(queries, world, result);
   const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
     lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
