@@ -75,6 +75,11 @@ struct RecordedFieldSettings {
   /// Probes that an update traces, in turn; 0: all. Costs of an update are in proportion, its
   /// memory for rays, hits and results too (128 bytes a ray).
   int probes_per_update = 0;
+  /// Rays that an update traces at most, of the probes whose light is least settled: the device
+  /// decides which, once the first rounds and placing are over, and those that are settled rest. 0:
+  /// as above. At least eight probes' rays (FieldSettings::rays_per_probe each); probes are served
+  /// in eights. Costs and memory as above.
+  int rays_per_update = 0;
   /// Times that a probe is traced, from the start or from UpdatePlan::place_again on, after which
   /// it may move to where it stands better; 2 to 64, or 0: none moves. Most stand well after
   /// three, those in corners after five. One that moved averages anew.
@@ -95,10 +100,11 @@ struct UpdatePlan {
 
 /// What an update came to.
 struct PlannedUpdate {
-  std::uint32_t probes = 0;          ///< That are traced.
+  std::uint32_t probes = 0;  ///< That are traced; where the device decides, at most.
   std::uint32_t rays_per_probe = 0;  ///< A probe's rays follow one another.
   std::uint32_t rays = 0;            ///< In all.
   bool moves_probes = false;         ///< record_maintain may move some.
+  bool on_device = false;            ///< The device decides which probes; see ray_launch().
 };
 
 /// What shaders look the field up in. The same for the field's whole life.
@@ -132,9 +138,10 @@ struct LookupBuffers {
 /// semaphore. So on one queue the engine owes no barrier but between its own commands. What each
 /// one touches, for engines that use several queues or track resources themselves:
 ///
-///   record_rays      reads the lookup buffers, writes rays()      compute shaders
-///   record_trace     reads rays() and the structure,              ray tracing shaders
-///                    writes hits()
+///   record_rays      reads the lookup buffers, writes rays()      compute shaders,
+///                    and ray_launch()                             indirect commands
+///   record_trace     reads rays(), ray_launch() and the           ray tracing shaders,
+///                    structure, writes hits()                     indirect commands
 ///   record_update    reads rays() and results(),                  compute shaders, transfer,
 ///                    writes the lookup buffers                    indirect commands
 ///   record_maintain  reads rays() and results(), writes states()  compute shaders
@@ -162,7 +169,8 @@ class RecordedField {
   /// Begins an update.
   PlannedUpdate plan(const UpdatePlan& update = {});
 
-  /// RayRecord (raytracing/ray_records.h), one a ray. A mask of 0: need not be traced.
+  /// RayRecord (raytracing/ray_records.h), one a ray. A mask of 0: need not be traced, as those of
+  /// PlannedUpdate::rays that are more than the device decided on.
   void record_rays(VkCommandBuffer commands) const;
   /// HitRecord, one a ray, by a ray tracing pipeline of Lambent's. `instance` is the custom index.
   /// Knows no materials: rays stop where triangles are see-through.
@@ -175,6 +183,10 @@ class RecordedField {
   BufferRange hits() const;
   /// RayResult (field/ray_results.h), one a ray: what the engine writes.
   BufferRange results() const;
+
+  /// Where PlannedUpdate::on_device: a VkTraceRaysIndirectCommandKHR, as wide as a probe has rays
+  /// and as high as the device decided on probes; ray (x, y) is y * width + x. None else.
+  BufferRange ray_launch() const;
 
   LookupBuffers lookup_buffers() const;
   /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are

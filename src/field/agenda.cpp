@@ -15,20 +15,9 @@ namespace {
 constexpr std::size_t kBlock = 64;
 constexpr std::size_t kBlocksPerTask = 64;
 
-// A probe whose light is known this well rests until its age calls it: surfaces average the noise
-// of eight.
-constexpr float kSettledError = 0.01f;
-
 // What the first light of a sleeping probe is held to gain: others come first until theirs is about
 // as good as can be seen.
 constexpr float kSleepersGain = 0.02f;
-
-// No probe's noise is held to be less than this share of the mean when their turn is decided, for
-// the same reason: light would come out too dark where few rays met what is bright.
-constexpr float kLeastNoise = 0.5f;
-
-// Keeps the gain of probes that lost their light finite: samples of the least number of rays.
-constexpr float kFewestSamples = 0.1f;
 
 // A probe is worth half as much so many cells away from the camera.
 constexpr float kHalfWorthCells = 16.0f;
@@ -188,16 +177,13 @@ void ProbeAgenda::note_noise(const ProbeStore& store, std::span<const ProbeRecor
     sum += records[neighbour].noise;
     ++count;
   });
-  entry.noise = std::sqrt(std::max(own.noise, sum / static_cast<float>(count)));
+  entry.noise = probe_noise(own.noise, sum / static_cast<float>(count));
   if (own.state == ProbeState::sleeping) {
     entry.gain = kSleepersGain;
     return;
   }
-  // A square error of noise^2 / samples falls by noise^2 / samples^2 for each further sample
-  const float samples = std::max(own.samples, kFewestSamples);
-  if (own.samples >= longest_ || entry.noise < kSettledError * std::sqrt(samples)) return;
-  entry.gain = entry.noise / samples;
-  entry.thin = 1.0f / samples;
+  entry.gain = noise_gain(entry.noise, own.samples, longest_);
+  if (entry.gain > 0.0f) entry.thin = gain_per_noise(own.samples);
 }
 
 void ProbeAgenda::note_block(std::size_t block) {

@@ -16,7 +16,7 @@ void DeviceField::record_see_surfels(vulkan::Recorder& to, const DeviceProbes& l
                                          list.count(),
                                          stride_,
                                          round_up(list.most_rays, kClusterLanes)};
-  to.run(kernels_.see_surfels, arguments, list.count() * kClusterLanes);
+  run_over(to, kernels_.see_surfels, arguments, list, kOverClusters);
   to.barrier();
 }
 
@@ -47,8 +47,7 @@ void DeviceField::record_move_distances(vulkan::Recorder& to, const DeviceProbes
                                             salt};
   to.run(kernels_.move_distances, arguments, edge * edge, list.count());
   to.barrier();
-  record_gutters(to, {distance_.address()}, list.index_array(), list.count(), edge,
-                 words_per_distance_texel_);
+  record_distance_gutters(to, list);
 }
 
 void DeviceField::record_send_back(vulkan::Recorder& to, const DeviceProbes& list,

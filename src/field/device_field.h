@@ -11,6 +11,7 @@
 #include "field/device_arguments.h"
 #include "field/device_kernels.h"
 #include "field/device_sights.h"
+#include "field/list_sizes.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
 #include "field/surfels.h"
@@ -26,16 +27,14 @@ struct DeviceProbes {
   int most_rays = 0;                  ///< Of any of them.
   int block_count = 0;
   vulkan::Buffer indices, ray_sets, blocks;
+  /// Where the device decides how many they are: a buffer that begins with a ListState; count() and
+  /// block_count are the most then.
+  const vulkan::Buffer* chosen = nullptr;
   RaySetArray sets;  ///< What ray_sets point into; none where its address is 0: the field's own.
 
   int count() const { return static_cast<int>(probes.size()); }
   IntArray index_array() const { return {indices.address()}; }
   ProbeBlockArray block_array() const { return {blocks.address()}; }
-};
-
-/// Groups of the kernels of transport, for indirect dispatches.
-struct TransportSize {
-  GroupCounts over_rays, over_receive_blocks, over_fit_blocks;
 };
 
 /// What transport reads and writes. `field`: of all probes; the others of the list's.
@@ -49,7 +48,7 @@ struct DeviceTransport {
 /// Where the groups of its kernels are read from, if the device decides; bytes into the buffer.
 struct TransportGroups {
   const vulkan::Buffer* buffer = nullptr;
-  std::size_t rays = 0, receive_blocks = 0, fit_blocks = 0;
+  std::size_t rays = 0, blocks = 0;
 };
 
 /// Part of a list, all of which traces the same rays now.
@@ -68,6 +67,7 @@ class DeviceField {
   const FieldKernels& kernels() const { return kernels_; }
   const FieldSettings& settings() const { return settings_; }
   int probes() const { return probes_; }
+  int volumes() const { return volumes_; }
   int tile_texels() const { return settings_.irradiance_texels * settings_.irradiance_texels; }
   int lookups_per_surfel() const { return lookups_; }
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
@@ -119,6 +119,21 @@ class DeviceField {
   void record_weights(vulkan::Recorder& to, Vec3Array directions, int rays, FloatArray irradiance,
                       FloatArray distance) const;
 
+  // Kernels over a list; the shape is one of list_sizes.h.
+
+  ListSize list_size(uint shape, int most_rays) const;
+  GroupCounts groups_over(const DeviceProbes& list, uint shape) const;
+  template <class Arguments>
+  void run_over(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
+                const DeviceProbes& list, uint shape) const {
+    if (list.chosen != nullptr) {
+      to.run_indirect(kernel, arguments, *list.chosen, shape * sizeof(GroupCounts));
+      return;
+    }
+    const GroupCounts groups = groups_over(list, shape);
+    to.run(kernel, arguments, groups.x * kernel.group_size(0), groups.y * kernel.group_size(1));
+  }
+
   // Passes.
 
   /// As trace_probe_rays: the rays of a group, count x rays.
@@ -160,11 +175,9 @@ class DeviceField {
                       const DeviceTransport& transport, const TransportGroups& groups = {}) const;
   /// Makes room for both: before they are recorded.
   void reserve_transport(const DeviceProbes& list);
-  /// Groups of its kernels.
-  TransportSize transport_size(const DeviceProbes& list) const;
 
   /// As ProbeStore::store_irradiance, of the field's light.
-  void record_store_light(vulkan::Recorder& to, IntArray probes, int count, uint salt) const;
+  void record_store_light(vulkan::Recorder& to, const DeviceProbes& list, uint salt) const;
   /// As SendBack of importance.h, for a list of those that send; `sent` was 0.
   void record_send_back(vulkan::Recorder& to, const DeviceProbes& list, FloatArray received,
                         UintArray sent, float scale) const;
@@ -190,8 +203,11 @@ class DeviceField {
   void write_sets();
   void record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list, FloatArray seen,
                           UintArray blocked) const;
-  void record_gutters(vulkan::Recorder& to, UintArray words, IntArray probes, int count, int texels,
-                      int words_per_texel) const;
+  template <class Arguments>
+  void run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
+                     const DeviceProbes& list, uint shape, const TransportGroups& groups,
+                     std::size_t offset) const;
+  void record_distance_gutters(vulkan::Recorder& to, const DeviceProbes& list) const;
   void record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                              Vec3Array irradiance, const DeviceTracer& tracer) const;
   ProbeList arrays(const DeviceProbes& list, int first = 0) const;

@@ -24,18 +24,6 @@ IntArray indices_from(const DeviceProbes& list, int first) {
   return from<IntArray>(list.indices, static_cast<std::size_t>(first), sizeof(int));
 }
 
-/// Runs so many groups of a kernel, or as many as the device says.
-template <class Arguments>
-void run_groups(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
-                const GroupCounts& count, const TransportGroups& groups, std::size_t offset) {
-  if (groups.buffer != nullptr) {
-    to.run_indirect(kernel, arguments, *groups.buffer, offset);
-  } else {
-    to.run(kernel, arguments, count.x * kernel.group_size(0), count.y * kernel.group_size(1));
-  }
-  to.barrier();
-}
-
 }  // namespace
 
 ProbeList DeviceField::arrays(const DeviceProbes& list, int first) const {
@@ -101,7 +89,6 @@ void DeviceField::record_seen_distances(vulkan::Recorder& to, const DeviceProbes
 
 void DeviceField::record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list,
                                          FloatArray shares, uint salt) {
-  const int edge = settings_.distance_texels;
   const BlendDistancesArguments arguments = {store(),
                                              arrays(list),
                                              list.block_array(),
@@ -111,17 +98,18 @@ void DeviceField::record_blend_distances(vulkan::Recorder& to, const DeviceProbe
                                              list.block_count,
                                              round_up(list.most_rays, kClusterLanes),
                                              salt};
-  to.run(kernels_.blend_distances, arguments, groups_of(edge * edge, kDistanceBlock) * kGroupLanes,
-         groups_of(list.block_count, kGroupLanes / kClusterLanes));
+  run_over(to, kernels_.blend_distances, arguments, list, kOverDistanceBlocks);
   to.barrier();
-  record_gutters(to, {distance_.address()}, list.index_array(), list.count(), edge,
-                 words_per_distance_texel_);
+  record_distance_gutters(to, list);
 }
 
-void DeviceField::record_gutters(vulkan::Recorder& to, UintArray words, IntArray probes, int count,
-                                 int texels, int words_per_texel) const {
-  const GuttersArguments arguments = {words, probes, count, texels, words_per_texel};
-  to.run(kernels_.gutters, arguments, gutter_texels(texels), count);
+void DeviceField::record_distance_gutters(vulkan::Recorder& to, const DeviceProbes& list) const {
+  const GuttersArguments arguments = {{distance_.address()},
+                                      list.index_array(),
+                                      list.count(),
+                                      settings_.distance_texels,
+                                      words_per_distance_texel_};
+  run_over(to, kernels_.gutters, arguments, list, kOverDistanceGutters);
   to.barrier();
 }
 
@@ -138,7 +126,7 @@ void DeviceField::record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
   };
   const LookupArray lookups{lookup_records_.address()};
   const FindLookupsArguments arguments = {store(), points(0, list.count()), lookups};
-  to.run(kernels_.find_lookups, arguments, list.most_rays, list.count());
+  run_over(to, kernels_.find_lookups, arguments, list, kOverRays);
   to.barrier();
   if (!sights_ || tracer == nullptr) return;
   const int rows = sights_->points() / stride_;
@@ -154,14 +142,46 @@ void DeviceField::reserve_transport(const DeviceProbes& list) {
   reserve<vec4>(device_, count * tile_texels(), "irradiance at centres", at_centres_);
 }
 
-TransportSize DeviceField::transport_size(const DeviceProbes& list) const {
-  const std::uint32_t blocks = groups_of(list.block_count, kGroupLanes / kClusterLanes);
-  const std::uint32_t columns = groups_of(tile_texels(), kIrradianceBlock);
-  const auto x = static_cast<int>(kernels_.gather.group_size(0));
-  const auto y = static_cast<int>(kernels_.gather.group_size(1));
-  return {{groups_of(round_up(list.most_rays, kClusterLanes), x), groups_of(list.count(), y), 1},
-          {columns, blocks, 1},
-          {columns, blocks, 1}};
+ListSize DeviceField::list_size(uint shape, int most_rays) const {
+  const auto squares = [](const vulkan::Kernel& kernel, int across) {
+    return ListSize{groups_of(across, static_cast<int>(kernel.group_size(0))), kernel.group_size(1),
+                    0u};
+  };
+  const auto products = [](int edge, int columns) {
+    return ListSize{groups_of(edge * edge, columns), kGroupLanes / kClusterLanes, 1u};
+  };
+  switch (shape) {
+    case kOverRays: return squares(kernels_.gather, most_rays);
+    case kOverTexels: return squares(kernels_.blend_in, tile_texels());
+    case kOverIrradianceGutters:
+      return squares(kernels_.gutters, gutter_texels(settings_.irradiance_texels));
+    case kOverDistanceGutters:
+      return squares(kernels_.gutters, gutter_texels(settings_.distance_texels));
+    case kOverClusters: return {0u, kGroupLanes / kClusterLanes, 0u};
+    case kOverIrradianceBlocks: return products(settings_.irradiance_texels, kIrradianceBlock);
+    case kOverDistanceBlocks: return products(settings_.distance_texels, kDistanceBlock);
+    case kOverLanes: return {0u, kGroupLanes, 0u};
+    case kOverProbes: return {0u, 1u, 0u};
+    default: return {static_cast<uint>(most_rays), 1u, 0u};
+  }
+}
+
+GroupCounts DeviceField::groups_over(const DeviceProbes& list, uint shape) const {
+  return list_groups(list_size(shape, list.most_rays), static_cast<uint>(list.count()),
+                     static_cast<uint>(list.block_count));
+}
+
+/// Runs a kernel of transport over a list, or over as many groups as a solve says.
+template <class Arguments>
+void DeviceField::run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel,
+                                const Arguments& arguments, const DeviceProbes& list, uint shape,
+                                const TransportGroups& groups, std::size_t offset) const {
+  if (groups.buffer != nullptr) {
+    to.run_indirect(kernel, arguments, *groups.buffer, offset);
+  } else {
+    run_over(to, kernel, arguments, list, shape);
+  }
+  to.barrier();
 }
 
 void DeviceField::record_transport(vulkan::Recorder& to, const DeviceProbes& list,
@@ -177,7 +197,7 @@ void DeviceField::record_transport(vulkan::Recorder& to, const DeviceProbes& lis
                                   stride_,
                                   round_up(list.most_rays, kClusterLanes),
                                   transport.light};
-  run_groups(to, kernels_.gather, gather, transport_size(list).over_rays, groups, groups.rays);
+  run_transport(to, kernels_.gather, gather, list, kOverRays, groups, groups.rays);
   record_receive(to, list, transport, groups);
 }
 
@@ -191,27 +211,28 @@ void DeviceField::record_receive(vulkan::Recorder& to, const DeviceProbes& list,
                             {at_centres_.address()}, transport.fallback,
                             transport.gain,          transport.received,
                             list.block_count,        transport.gain.address != 0 ? 1u : 0u};
-  const TransportSize size = transport_size(list);
-  run_groups(to, kernels_.receive, receive, size.over_receive_blocks, groups,
-             groups.receive_blocks);
-  run_groups(to, kernels_.fit, fit, size.over_fit_blocks, groups, groups.fit_blocks);
+  run_transport(to, kernels_.receive, receive, list, kOverIrradianceBlocks, groups, groups.blocks);
+  run_transport(to, kernels_.fit, fit, list, kOverIrradianceBlocks, groups, groups.blocks);
 }
 
-void DeviceField::record_store_light(vulkan::Recorder& to, IntArray probes, int count,
+void DeviceField::record_store_light(vulkan::Recorder& to, const DeviceProbes& list,
                                      uint salt) const {
   const UintArray words = {irradiance_.address()};
-  const StoreIrradianceArguments arguments = {words, probes, {light_.address()}, count, salt};
-  to.run(kernels_.store_irradiance, arguments, tile_texels(), count);
+  const StoreIrradianceArguments arguments = {
+      words, list.index_array(), {light_.address()}, list.count(), salt};
+  run_over(to, kernels_.store_irradiance, arguments, list, kOverTexels);
   to.barrier();
-  record_gutters(to, words, probes, count, settings_.irradiance_texels,
-                 words_per_irradiance_texel_);
+  const GuttersArguments gutters = {words, list.index_array(), list.count(),
+                                    settings_.irradiance_texels, words_per_irradiance_texel_};
+  run_over(to, kernels_.gutters, gutters, list, kOverIrradianceGutters);
+  to.barrier();
 }
 
 void DeviceField::record_compare_light(vulkan::Recorder& to, const DeviceProbes& list,
                                        Vec4Array before, float darkest, Vec3Array changes) const {
   const CompareLightArguments arguments = {
       list.index_array(), {light_.address()}, before, changes, list.count(), darkest};
-  to.run(kernels_.compare_light, arguments, list.count());
+  run_over(to, kernels_.compare_light, arguments, list, kOverLanes);
   to.barrier();
 }
 

@@ -5,6 +5,7 @@
 
 #include "field/anderson_math.h"
 #include "field/device_records.h"
+#include "field/list_sizes.h"
 
 LAMBENT_BEGIN
 
@@ -23,25 +24,18 @@ const int kFirstGram = 4;
 const int kFirstProjection = 7;
 const int kSolveSums = 10;
 
-/// A number of groups, as indirect dispatches read it.
-struct GroupCounts {
-  uint x;
-  uint y;
-  uint z;
-};
-
 /// Where a solve stands. The host sets what is above the line, the device the rest.
 struct SolveState {
   int max_iterations;
   float tolerance;
   float largest_share;
   float max_albedo;
+  int texels;  ///< Of all its probes together.
   // Groups of the kernels of an iteration: 0 once it is done, so that those recorded to come do
   // nothing.
   GroupCounts over_texels;
   GroupCounts over_rays;
-  GroupCounts over_receive_blocks;
-  GroupCounts over_fit_blocks;
+  GroupCounts over_blocks;
   GroupCounts over_sums;
   GroupCounts over_step;
   // ---
@@ -87,7 +81,7 @@ struct BlendInArguments {
 struct SolveSumsArguments {
   SolveArrays arrays;
   WideArray sums;  ///< kSumLanes x kSolveSums.
-  int texels;      ///< Of all probes together.
+  int most_texels; ///< From one step's changes to the next's.
   uint last;       ///< 1: of the difference that the solve made, and of the image.
 };
 

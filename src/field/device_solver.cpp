@@ -10,8 +10,7 @@ namespace {
 
 /// Where the device writes the groups of an iteration's kernels.
 TransportGroups groups_in(const vulkan::Buffer& state) {
-  return {&state, offsetof(SolveState, over_rays), offsetof(SolveState, over_receive_blocks),
-          offsetof(SolveState, over_fit_blocks)};
+  return {&state, offsetof(SolveState, over_rays), offsetof(SolveState, over_blocks)};
 }
 
 }  // namespace
@@ -49,24 +48,38 @@ void DeviceSolver::blend_in(vulkan::Recorder& to, const DeviceProbes& list,
   if (step == kNextSolution) {
     to.run_indirect(kernel, arguments, state_, offsetof(SolveState, over_texels));
   } else {
-    to.run(kernel, arguments, field_.tile_texels(), list.count());
+    field_.run_over(to, kernel, arguments, list, kOverTexels);
   }
+  to.barrier();
+}
+
+/// Takes over what the device decided of the list.
+void DeviceSolver::take_chosen(vulkan::Recorder& to, const vulkan::Buffer& chosen) const {
+  const auto take = [&](std::size_t bytes, std::size_t from, std::size_t into) {
+    to.copy(chosen, state_, bytes, from, into);
+  };
+  const auto take_groups = [&](uint shape, std::size_t into) {
+    take(sizeof(GroupCounts), shape * sizeof(GroupCounts), into);
+  };
+  take_groups(kOverTexels, offsetof(SolveState, over_texels));
+  take_groups(kOverRays, offsetof(SolveState, over_rays));
+  take_groups(kOverIrradianceBlocks, offsetof(SolveState, over_blocks));
+  take(sizeof(uint), offsetof(ListState, texels), offsetof(SolveState, texels));
+  take(sizeof(float), offsetof(ListState, largest_share), offsetof(SolveState, largest_share));
   to.barrier();
 }
 
 void DeviceSolver::record_begin(vulkan::Recorder& to, const DeviceProbes& list,
                                 const SolveArrays& arrays, SolveState state) const {
-  const TransportSize size = field_.transport_size(list);
-  const auto x = static_cast<int>(field_.kernels().blend_in.group_size(0));
-  const auto y = static_cast<int>(field_.kernels().blend_in.group_size(1));
-  state.over_texels = {groups_of(field_.tile_texels(), x), groups_of(list.count(), y), 1};
-  state.over_rays = size.over_rays;
-  state.over_receive_blocks = size.over_receive_blocks;
-  state.over_fit_blocks = size.over_fit_blocks;
+  state.texels = list.count() * field_.tile_texels();
+  state.over_texels = field_.groups_over(list, kOverTexels);
+  state.over_rays = field_.groups_over(list, kOverRays);
+  state.over_blocks = field_.groups_over(list, kOverIrradianceBlocks);
   state.over_sums = {groups_of(kSumLanes, kGroupLanes), 1, 1};
   state.over_step = {1, 1, 1};
   to.update(state_, &state, sizeof(state));
   to.barrier();
+  if (list.chosen != nullptr) take_chosen(to, *list.chosen);
   blend_in(to, list, arrays, kBeginSolve);
 }
 

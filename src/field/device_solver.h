@@ -39,6 +39,7 @@ class DeviceSolver {
   SolveArrays arrays(const DeviceProbes& list, const vulkan::Buffer& shares) const;
   void record_begin(vulkan::Recorder& to, const DeviceProbes& list, const SolveArrays& arrays,
                     SolveState state) const;
+  void take_chosen(vulkan::Recorder& to, const vulkan::Buffer& chosen) const;
   void record_end(vulkan::Recorder& to, const DeviceProbes& list, const SolveArrays& arrays) const;
   void blend_in(vulkan::Recorder& to, const DeviceProbes& list, const SolveArrays& arrays,
                 uint step) const;

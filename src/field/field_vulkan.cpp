@@ -92,10 +92,10 @@ void FieldVulkan::read_light(WorkingIrradiance& light, WorkingIrradiance& told) 
 }
 
 void FieldVulkan::store_light(std::span<const int> probes, uint salt) {
-  const Buffer indices = host_buffer(*device_, probes, "probes to store");
-  device_->run([&](Recorder& to) {
-    field_.record_store_light(to, {indices.address()}, static_cast<int>(probes.size()), salt);
-  });
+  DeviceProbes list;
+  list.probes.assign(probes.begin(), probes.end());
+  list.indices = host_buffer(*device_, probes, "probes to store");
+  device_->run([&](Recorder& to) { field_.record_store_light(to, list, salt); });
 }
 
 template <class T>
@@ -197,7 +197,7 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
                                 {changes.address()});
     to.end_pass();
     to.begin_pass("blend");
-    field_.record_store_light(to, list.index_array(), list.count(), tracing.salt);
+    field_.record_store_light(to, list, tracing.salt);
     to.end_pass();
   });
   book(timestamps.read(), traced);

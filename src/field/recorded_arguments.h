@@ -34,17 +34,21 @@ LAMBENT_FN bool probe_rests(uint state, uint all) {
   return state == kProbeOff && all == 0u;
 }
 
-/// Rays of a list's probes: count x rays_per_probe. Those of probes that rest have a mask of 0.
+/// Rays of a list's probes: count x rays_per_probe. Those of probes that rest have a mask of 0, and
+/// so have those beyond the probes that the device chose.
 struct RecordedRaysArguments {
   GridArray grids;
   ProbeStates probes;
   IntArray list;
   Vec3Array directions;
   RayArray rays;
+  UintArray chosen;
   int count;
   int rays_per_probe;
   uint mask;
   uint all;
+  uint is_chosen;
+  uint unused;
 };
 
 /// Nearest hits through an engine's acceleration structure.
@@ -69,7 +73,10 @@ struct RecordedSharesArguments {
   UintArray offsets;  ///< Of the store: probes are now where their rays came from.
   IntArray list;
   FloatArray shares;
+  UintArray chosen;         ///< How many probes the list has where the device decided.
+  UintArray largest_share;  ///< A word: becomes the largest one's bits.
   int count;
+  uint is_chosen;  ///< 1: the device decided.
   float longest;  ///< Updates that an average remembers.
   uint all;
   uint anew;  ///< 1: what was averaged before counts for nothing.

@@ -13,8 +13,6 @@ namespace lambent::vulkan {
 namespace {
 
 constexpr int kMostFramesInFlight = 16;
-// Probes of an update: as many groups as every device can have in a dispatch.
-constexpr int kMostProbes = 65535;
 // Rays in a row of a launch: all devices take so many.
 constexpr std::uint32_t kLaunchWidth = 1u << 20;
 constexpr int kMostPlacingUpdates = 64;
@@ -39,7 +37,7 @@ Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSetting
   if (s.visibility != Visibility::moments) {
     return fail("", "visibility", "recorded fields trace no rays for it");
   }
-  if (s.max_bounces >= 0 && r.probes_per_update != 0) {
+  if (s.max_bounces >= 0 && (r.probes_per_update != 0 || r.rays_per_update != 0)) {
     return fail("", "bounces", "can be counted only where all probes are traced at once");
   }
   if (r.frames_in_flight < 1 || r.frames_in_flight > kMostFramesInFlight) {
@@ -47,6 +45,12 @@ Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSetting
   }
   if (r.probes_per_update < 0 || r.probes_per_update > kMostProbes) {
     return fail("", "probes per update", "must be 0 to 65535");
+  }
+  if (r.rays_per_update != 0) {
+    if (r.probes_per_update != 0) return fail("", "rays per update", "or probes, not both");
+    if (r.rays_per_update < kBlockProbes * s.rays_per_probe) {
+      return fail("", "rays per update", "must be those of eight probes at least, or 0");
+    }
   }
   const int placing = r.placing_updates;
   if (placing != 0 && (placing < 2 || placing > kMostPlacingUpdates)) {
@@ -69,10 +73,14 @@ Expected<RecordedField> RecordedField::make(std::shared_ptr<Device> device,
   std::vector<ProbeGrid> grids;
   for (const Volume& volume : *volumes) grids.push_back(volume.grid);
   const ProbeStore shape(grids, settings);
-  if (recorded.probes_per_update == 0 && shape.probes() > kMostProbes) {
+  const bool all_at_once = recorded.probes_per_update == 0 && recorded.rays_per_update == 0;
+  if (all_at_once && shape.probes() > kMostProbes) {
     return fail(
         "", "probes per update",
         "must be given where there are more than 65535: here " + std::to_string(shape.probes()));
+  }
+  if (recorded.rays_per_update > 0 && shape.probes() < kBlockProbes) {
+    return fail("", "rays per update", "must be 0 where there are fewer than eight probes");
   }
   return RecordedField(std::make_unique<State>(std::move(device), settings, recorded, shape));
 }
@@ -89,16 +97,33 @@ PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
   s.memory().write(s.turn, s.settings);
   return {static_cast<std::uint32_t>(s.turn.count),
           static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
-          s.turn.place != kPlaceLeave};
+          s.turn.place != kPlaceLeave, s.turn.on_device};
 }
 
 void RecordedField::record_rays(VkCommandBuffer commands) const {
   State& s = *state_;
-  const RecordedRaysArguments arguments = {
-      {s.field.grids().address()},       s.probe_states(),   s.memory().list.index_array(),
-      {s.memory().directions.address()}, {s.rays.address()}, s.turn.count,
-      s.settings.rays_per_probe,         s.ray_mask,         s.turn.all ? 1u : 0u};
+  const RecordedRaysArguments arguments = {{s.field.grids().address()},
+                                           s.probe_states(),
+                                           s.list().index_array(),
+                                           {s.memory().directions.address()},
+                                           {s.rays.address()},
+                                           s.chosen(offsetof(ListState, probes)),
+                                           s.turn.count,
+                                           s.settings.rays_per_probe,
+                                           s.ray_mask,
+                                           s.turn.all ? 1u : 0u,
+                                           s.turn.on_device ? 1u : 0u,
+                                           0u};
   record_pass(*s.device, commands, "rays", [&](Recorder& to) {
+    if (s.turn.history < 1.0f) {
+      const FadeSamplesArguments fade = {
+          {s.standing.address()}, s.field.probes(), s.turn.history};
+      to.run(s.kernels.fade_samples, fade, s.field.probes());
+      to.barrier();
+    }
+    if (s.turn.on_device) {
+      s.schedule->record_choose(to, s.probe_states(), s.turn.update, s.turn.all);
+    }
     to.run(s.kernels.rays, arguments, s.settings.rays_per_probe, s.turn.count);
   });
 }
@@ -119,6 +144,11 @@ void RecordedField::record_trace(VkCommandBuffer commands,
       count,
       0u};
   record_pass(*s.device, commands, "trace", [&](Recorder& to) {
+    if (s.turn.on_device) {
+      to.trace_indirect(s.tracer.closest, arguments, s.schedule->state(),
+                        kOverLaunch * sizeof(GroupCounts));
+      return;
+    }
     to.trace(s.tracer.closest, arguments, width, (count + width - 1) / width);
   });
 }
@@ -126,27 +156,30 @@ void RecordedField::record_trace(VkCommandBuffer commands,
 /// From what the engine told to surfels, and what they count for.
 void RecordedField::State::record_results(Recorder& to) {
   const UpdateMemory& m = memory();
-  const RecordedSharesArguments share = {probe_states(),       {field.offsets().address()},
-                                         m.list.index_array(), {shares.address()},
-                                         turn.count,           longest_average(settings),
-                                         turn.all ? 1u : 0u,   turn.starts_anew ? 1u : 0u};
+  const DeviceProbes& now = list();
+  const RecordedSharesArguments share = {probe_states(),
+                                         {field.offsets().address()},
+                                         now.index_array(),
+                                         {shares.address()},
+                                         chosen(offsetof(ListState, probes)),
+                                         chosen(offsetof(ListState, largest_share)),
+                                         turn.count,
+                                         turn.on_device ? 1u : 0u,
+                                         longest_average(settings),
+                                         turn.all ? 1u : 0u,
+                                         turn.starts_anew ? 1u : 0u};
   const RecordedSurfelsArguments surfel = {
-      m.list.index_array(), {rays.address()},        {results.address()},   field.surfels(),
-      turn.count,           settings.rays_per_probe, field.surfel_stride(), settings.max_albedo};
-  if (turn.history < 1.0f) {
-    const FadeSamplesArguments fade = {{standing.address()}, field.probes(), turn.history};
-    to.run(kernels.fade_samples, fade, field.probes());
-    to.barrier();
-  }
-  to.run(kernels.shares, share, turn.count);
-  to.run(kernels.surfels, surfel, settings.rays_per_probe, turn.count);
+      now.index_array(), {rays.address()},        {results.address()},   field.surfels(),
+      turn.count,        settings.rays_per_probe, field.surfel_stride(), settings.max_albedo};
+  field.run_over(to, kernels.shares, share, now, kOverLanes);
+  field.run_over(to, kernels.surfels, surfel, now, kOverRays);
   field.record_weights(to, {m.directions.address()}, settings.rays_per_probe,
                        {irradiance_weights.address()}, {distance_weights.address()});
 }
 
 void RecordedField::record_update(VkCommandBuffer commands) {
   State& s = *state_;
-  const DeviceProbes& list = s.memory().list;
+  const DeviceProbes& list = s.list();
   const uint salt = store_salt(s.turn.update, s.settings.seed);
   const auto pass = [&](const char* name, const auto& record) {
     record_pass(*s.device, commands, name, record);
@@ -166,19 +199,25 @@ void RecordedField::record_update(VkCommandBuffer commands) {
                                       s.settings.max_relights};
     s.solver.record(to, list, s.shares, s.turn.largest_share, {}, settings);
   });
+  if (s.schedule) {
+    pass("schedule", [&](Recorder& to) {
+      s.schedule->record_book(to, list, {s.shares.address()}, {s.solver.history().address()},
+                              s.turn.update);
+    });
+  }
   pass("blend", [&](Recorder& to) {
-    s.field.record_store_light(to, list.index_array(), list.count(), salt);
+    s.field.record_store_light(to, list, salt);
   });
 }
 
 void RecordedField::record_maintain(VkCommandBuffer commands) const {
   State& s = *state_;
   const MaintainArguments arguments = {
-      {s.field.grids().address()}, s.probe_states(),      s.memory().list.index_array(),
+      {s.field.grids().address()}, s.probe_states(),      s.list().index_array(),
       {s.rays.address()},          {s.results.address()}, s.turn.count,
       s.settings.rays_per_probe,   s.turn.place,          s.turn.all ? 1u : 0u};
   record_pass(*s.device, commands, "maintain", [&](Recorder& to) {
-    to.run(s.kernels.maintain, arguments, s.turn.count * s.kernels.maintain.group_size(0));
+    s.field.run_over(to, s.kernels.maintain, arguments, s.list(), kOverProbes);
   });
 }
 
@@ -190,6 +229,13 @@ BufferRange RecordedField::hits() const {
 }
 BufferRange RecordedField::results() const {
   return range_of(state_->results);
+}
+BufferRange RecordedField::ray_launch() const {
+  const State& s = *state_;
+  if (!s.turn.on_device) return {};
+  const Buffer& state = s.schedule->state();
+  const VkDeviceSize first = kOverLaunch * sizeof(GroupCounts);
+  return {state.handle(), state.offset() + first, sizeof(GroupCounts), state.address() + first};
 }
 BufferRange RecordedField::states() const {
   return range_of(state_->states);

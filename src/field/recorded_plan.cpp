@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "field/device_arguments.h"
 #include "field/recorded_arguments.h"
 #include "field/schedule.h"
 
@@ -16,11 +17,26 @@ constexpr int kBlindRounds = 2;
 // Probes in solid matter are looked at once in so many rounds.
 constexpr int kLookRounds = 8;
 
+// Under a budget, in every so many updates probes in solid matter are looked at that were not for
+// as long as a probe waits at most.
+constexpr std::uint32_t kLookUpdates = 16;
+
+int most_probes_of(const FieldSettings& settings, const RecordedFieldSettings& recorded,
+                   int probes) {
+  if (recorded.rays_per_update > 0) {
+    const int most =
+        std::min({recorded.rays_per_update / settings.rays_per_probe, probes, kMostProbes});
+    return most / kBlockProbes * kBlockProbes;
+  }
+  return recorded.probes_per_update > 0 ? std::min(recorded.probes_per_update, probes) : probes;
+}
+
 }  // namespace
 
 TurnPlan::TurnPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded, int probes)
     : probes_(probes),
-      most_(recorded.probes_per_update > 0 ? std::min(recorded.probes_per_update, probes) : probes),
+      most_(most_probes_of(settings, recorded, probes)),
+      budget_(recorded.rays_per_update > 0),
       placing_rounds_(settings.relocation ? recorded.placing_updates : 0),
       longest_(longest_average(settings)) {}
 
@@ -36,8 +52,29 @@ void TurnPlan::begin_round() {
   place_again_ = false;
 }
 
+bool TurnPlan::rounds_are_over() const {
+  const bool blind = most_ < probes_ && round_ < kBlindRounds;
+  return next_ == 0 && !place_again_ && !blind && place_in_round() == kPlaceLeave;
+}
+
+Turn TurnPlan::next_of_device(const UpdatePlan& update) {
+  Turn turn;
+  turn.count = most_;
+  turn.update = updates_;
+  turn.history = update.history;
+  turn.on_device = true;
+  turn.all = updates_ % kLookUpdates == 0;
+  turn.place = kPlaceLeave;
+  ++updates_;
+  return turn;
+}
+
 Turn TurnPlan::next(const UpdatePlan& update) {
   place_again_ = place_again_ || update.place_again;
+  if (budget_ && rounds_are_over()) {
+    least_samples_ = 0.0f;  // the device knows
+    return next_of_device(update);
+  }
   if (next_ == 0) begin_round();
   least_samples_ *= update.history;
 

@@ -2,10 +2,12 @@
 // All that a recorded field consists of.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include "field/device_field.h"
+#include "field/device_schedule.h"
 #include "field/device_solver.h"
 #include "field/recorded_arguments.h"
 #include "field/recorded_plan.h"
@@ -61,10 +63,17 @@ struct RecordedField::State {
         const ProbeStore& shape);
 
   UpdateMemory& memory() { return ring[turn.update % ring.size()]; }
+  const DeviceProbes& list() {
+    return turn.on_device ? schedule->list(memory().list.sets) : memory().list;
+  }
   std::uint32_t ray_count() const {
     return static_cast<std::uint32_t>(turn.count * settings.rays_per_probe);
   }
   ProbeStates probe_states() const { return {{standing.address()}, {states.address()}}; }
+  /// A word of what the device decided; none where it does not.
+  UintArray chosen(std::size_t offset) const {
+    return {schedule ? schedule->state().address() + offset : 0};
+  }
   void record_results(Recorder& to);
 
   std::shared_ptr<Device> device;
@@ -76,6 +85,7 @@ struct RecordedField::State {
   RecordedKernels kernels;
   const EngineTracer& tracer;
   LookupSet lookup_set;
+  std::unique_ptr<DeviceSchedule> schedule;  // null: by turns
   Turn turn;
   // All but the first are of an update's probes or rays
   Buffer standing, states, record;

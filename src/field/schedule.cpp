@@ -11,12 +11,6 @@ namespace {
 // From a class on to where the next one is as near, as a factor: the root of their ratio.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// The noise of a probe follows about so many of its last updates: what few rays meet, a shorter
-// memory would forget.
-constexpr float kNoiseMemory = 32.0f;
-// Noise below this is not believed after few updates: a probe that saw nothing bright yet may.
-constexpr float kMinNoise = 1e-4f;
-
 // Share of the new cost in what a ray is held to cost.
 constexpr double kCostShare = 0.2;
 // Assumed of a ray before any was timed [ms]: a slow processor's.
@@ -85,14 +79,10 @@ std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSetti
 }
 
 void learn_noise(float relative_square, float weight, ProbeRecord& record) {
-  if (record.samples > 0.0f) {
-    // A difference of two means has the sum of their variances
-    const float one = relative_square / (1.0f / weight + 1.0f / record.samples);
-    record.noise_samples = static_cast<std::uint16_t>(std::min(record.noise_samples + 1, 0xFFFF));
-    const float share =
-        std::max(1.0f / static_cast<float>(record.noise_samples), 1.0f / kNoiseMemory);
-    record.noise = std::max(record.noise + share * (one - record.noise), kMinNoise);
-  }
+  const KnownNoise known = {record.noise, record.noise_samples};
+  const KnownNoise learned = learned_noise(known, relative_square, weight, record.samples);
+  record.noise = learned.noise;
+  record.noise_samples = static_cast<std::uint16_t>(learned.samples);
   record.samples += weight;
 }
 

@@ -17,14 +17,11 @@
 
 #include "field/probe_record.h"
 #include "field/probe_store.h"
+#include "field/schedule_math.h"
 #include "field/surfels.h"
 #include "field/volumes.h"
 
 namespace lambent {
-
-/// Updates after which a probe is served in any case, where the budget allows: two seconds at 60
-/// Hz.
-inline constexpr std::uint32_t kMaxProbeAge = 128;
 
 /// Rays of a probe in an update with a budget, as many as its noise asks for. Few classes, so that
 /// many probes share one set of directions and its blend matrix.

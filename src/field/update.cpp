@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 64;
 
-// Noise of probes darker than this share of all is judged as if they were as bright: an eye that
-// has adapted to the scene sees no more of it.
-constexpr float kDarkShare = 0.02f;
-
 }  // namespace
 
 std::vector<int> IrradianceField::State::traced_probes() const {
@@ -118,9 +114,6 @@ std::vector<LightChange> IrradianceField::State::light_changes(
 /// Books what the probes' light says of their noise, and that they were served.
 void IrradianceField::State::book(const World& world, const TracedProbes& traced,
                                   std::span<const LightChange> changes) {
-  // What was blended in is a share of how far the rays were from what was held. Noise is held to
-  // matter in proportion to the root of what it is noise of (Rose, "The Sensitivity Performance of
-  // the Human Eye on an Absolute Scale", J. Opt. Soc. Am. 38(2), 1948)
   const float longest = longest_average(settings);
   double light_sum = 0.0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
@@ -128,8 +121,7 @@ void IrradianceField::State::book(const World& world, const TracedProbes& traced
     ProbeRecord& record = records[probe];
     const LightChange& change = changes[k];
     light_sum += change.now;
-    const float brightness = mean_light > 0.0f ? max(change.before, darkest()) / mean_light : 1.0f;
-    learn_noise(change.relative_square * brightness / (traced.shares[k] * traced.shares[k]),
+    learn_noise(told_square(change.relative_square, change.before, traced.shares[k], mean_light),
                 traced.weights[k], record);
     record.samples = min(record.samples, longest);
     record.served = static_cast<std::uint32_t>(updates) + 1;
@@ -142,9 +134,7 @@ void IrradianceField::State::book(const World& world, const TracedProbes& traced
   const float now = static_cast<float>(light_sum) / count;
   const ProbeCounts& states = agenda.states();
   const int live = store.probes() - states.off - states.sleeping;
-  const float share =
-      mean_light > 0.0f ? min(count / max(static_cast<float>(live), 1.0f), 1.0f) : 1.0f;
-  mean_light += share * (now - mean_light);
+  mean_light = learned_light(mean_light, now, count, static_cast<float>(live));
 }
 
 void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> groups,

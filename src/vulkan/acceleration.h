@@ -110,6 +110,7 @@ class InstanceStructure {
   /// before; a barrier is to follow. What an earlier build wrote is gone.
   void build(Recorder& recorder, std::span<const PlacedStructure> instances);
 
+  VkAccelerationStructureKHR handle() const { return structure_.handle(); }
   VkDeviceAddress address() const { return structure_.address(); }
   std::size_t bytes() const { return structure_.bytes() + instances_.bytes(); }
 

@@ -7,6 +7,7 @@
 #include "field/blend_math.h"
 #include "field/irradiance_encoding.h"
 #include "field/moments_encoding.h"
+#include "field/schedule_math.h"
 #include "field/tile.h"
 #include "raytracing/ray_records.h"
 
@@ -21,7 +22,7 @@ struct FieldMathArguments {
 
 const int kFieldMathInputs = 16;
 const int kFieldMathExact = 11;    // outputs that must agree to the bit, ...
-const int kFieldMathOutputs = 18;  // ... and those after them, up to rounding
+const int kFieldMathOutputs = 24;  // ... and those after them, up to rounding
 
 struct FieldMathResult {
   float number[kFieldMathOutputs];
@@ -78,6 +79,14 @@ LAMBENT_FN FieldMathResult field_math(vec4 a, vec4 b, vec4 c, vec4 d) {
   r.number[15] = blend_weight(normalize(vec3(a)), normalize(vec3(b)), 1.0f);
   r.number[16] = blend_weight(normalize(vec3(c)), normalize(vec3(d)), kDistanceExponent);
   r.number[17] = remaining_error(0.9f * c.w, d.w, a.x * a.x, 1.0f + b.x);
+  KnownNoise known = {2.0f * a.x, uint(40.0f * a.y)};
+  known = learned_noise(known, 3.0f * a.z, 0.2f + a.w, b.x < 0.1f ? 0.0f : 20.0f * b.y);
+  r.number[18] = known.noise;
+  r.number[19] = float(known.samples);
+  r.number[20] = told_square(c.x, c.y, 0.05f + c.z, c.w < 0.1f ? 0.0f : 3.0f * c.w);
+  r.number[21] = learned_light(d.x, d.y, 64.0f * d.z, 100.0f * d.w);
+  r.number[22] = noise_gain(probe_noise(0.2f * a.x, 0.2f * b.x), 30.0f * c.x, 25.0f);
+  r.number[23] = gain_per_noise(d.z);
   return r;
 }
 

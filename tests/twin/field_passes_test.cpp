@@ -309,10 +309,10 @@ TEST_F(FieldPasses, LightIsStoredAsOnTheProcessor) {
     std::vector<int> probes;
     for (int probe = 0; probe < store.probes(); probe += 3) probes.push_back(probe);
     vulkan::write<vec4>(device(), light, field.light());
-    const vulkan::Buffer indices = vulkan::upload(device(), probes, "probes");
-    device().run([&](vulkan::Recorder& to) {
-      field.record_store_light(to, {indices.address()}, static_cast<int>(probes.size()), 9u);
-    });
+    DeviceProbes list;
+    list.probes = probes;
+    list.indices = vulkan::upload(device(), probes, "probes");
+    device().run([&](vulkan::Recorder& to) { field.record_store_light(to, list, 9u); });
     ProbeStore stored = store;
     field.read_store(stored);
     std::vector<vec3> interior(field.tile_texels());

@@ -1,129 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields that engines record, against the processor's on the same rays. The engine is played by the
-// host: it traces and shades what the field asks for.
-#include "lambent/vulkan_field.h"
+// Fields that engines record, against the processor's on the same rays.
+#include "twin/recorded_field.h"
 
 #include <algorithm>
-#include <numeric>
 
-#include "field/field_record.h"
-#include "field/ray_results.h"
 #include "field/recorded_arguments.h"
 #include "field/recorded_plan.h"
-#include "field/surfels.h"
-#include "shaders/engine_lookup_comp.h"
-#include "support/field_scenes.h"
-#include "support/vulkan_device.h"
-#include "twin/engine_lookup.h"
-#include "vulkan/kernel.h"
-#include "vulkan/recorder.h"
 
 namespace lambent {
 namespace {
 
-using test::Stage;
-using vulkan::Buffer, vulkan::BufferRange, vulkan::Memory, vulkan::RecordedField,
-    vulkan::RecordedFieldSettings;
-
-const Stage& cornell() {
-  static const Stage stage("cornell");
-  return stage;
-}
-
-FieldSettings few_probes() {
-  FieldSettings settings;
-  settings.probe_count = {5, 4, 4};
-  settings.rays_per_probe = 72;
-  settings.relocation = false;
-  return settings;
-}
-
-RayResult told_of(const Ray& ray, const Hit& hit, const ShadedHit& shaded) {
-  if (hit.missed()) return ray_left(shaded.sky_radiance);
-  if (!shaded.counts) return ray_met_back_face(hit.distance, shaded.geometric_normal_ws);
-  return ray_met_surface(length(shaded.position_ws - ray.origin), shaded.normal_ws,
-                         shaded.geometric_normal_ws, shaded.albedo_over_pi * kPi,
-                         shaded.direct_irradiance, vec3(0.0f));
-}
-
-class RecordedFieldTest : public test::OnDevice {
- protected:
-  static RecordedField make(const FieldSettings& settings, const RecordedFieldSettings& recorded) {
-    return RecordedField::make(shared_device(), settings, cornell().bounds(), recorded).value();
-  }
-
-  static void copy(vulkan::Recorder& to, const BufferRange& from, const BufferRange& into) {
-    const VkBufferCopy region = {from.offset, into.offset, std::min(from.bytes, into.bytes)};
-    device().fn().vkCmdCopyBuffer(to.commands(), from.buffer, into.buffer, 1, &region);
-  }
-  static BufferRange range(const Buffer& buffer) {
-    return {buffer.handle(), buffer.offset(), buffer.bytes(), buffer.address()};
-  }
-  template <class T>
-  static std::vector<T> download(const BufferRange& from) {
-    const Buffer down(device(), from.bytes, Memory::readback, "down");
-    device().run([&](vulkan::Recorder& to) { copy(to, from, range(down)); });
-    return {down.as<T>().begin(), down.as<T>().end()};
-  }
-
-  /// An update, shaded by the host as the processor's field would.
-  static void update(RecordedField& field, const vulkan::UpdatePlan& plan = {}) {
-    const std::uint32_t number = field.updates();
-    const vulkan::PlannedUpdate planned = field.plan(plan);
-    device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
-    const auto records = download<RayRecord>(field.rays());
-    const RaySet set(field.settings(), static_cast<int>(planned.rays_per_probe), number);
-    const ShadeHitsSettings shading = surfel_shading(field.settings(), set);
-    const Buffer results(device(), planned.rays * sizeof(RayResult), Memory::upload, "results");
-    std::vector<Ray> rays;
-    for (std::uint32_t i = 0; i < planned.rays; ++i) {
-      rays.push_back(probe_ray(records[i].origin_ws, records[i].direction_ws));
-    }
-    std::vector<Hit> hits(rays.size());
-    std::vector<ShadedHit> shaded(rays.size());
-    cornell().world.tracer().closest_hits(rays, hits);
-    ShadeHitsScratch scratch;
-    const std::size_t each = planned.rays_per_probe;
-    for (std::size_t k = 0; k < planned.probes; ++k) {
-      shade_hits(cornell().world, {&rays[k * each], each}, {&hits[k * each], each}, shading,
-                 first_ray_index(static_cast<int>(k)), scratch, {&shaded[k * each], each});
-    }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      results.as<RayResult>()[i] = told_of(rays[i], hits[i], shaded[i]);
-    }
-    device().run([&](vulkan::Recorder& to) {
-      copy(to, range(results), field.results());
-      field.record_update(to.commands());
-      field.record_maintain(to.commands());
-    });
-  }
-
-  static std::vector<vec3> look_up(const RecordedField& field,
-                                   std::span<const FieldQuery> queries) {
-    const Buffer asked = vulkan::upload(device(), queries, "queries");
-    const Buffer found(device(), sizeof(vec3) * queries.size(), Memory::device, "found");
-    const auto record = download<FieldRecord>(field.lookup_buffers().record).front();
-    const auto count = static_cast<std::uint32_t>(queries.size());
-    const EngineLookupArguments arguments = {
-        record, {asked.address()}, {found.address()}, count, 0u};
-    const vulkan::Kernel kernel(device(), shaders::engine_lookup_comp(), "engine");
-    device().run([&](vulkan::Recorder& to) { to.run(kernel, arguments, count); });
-    return vulkan::download<vec3>(device(), found);
-  }
-
-  /// Relative root mean square of what two fields answer.
-  static double difference(std::span<const vec3> a, std::span<const vec3> b) {
-    double off = 0.0, all = 0.0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      off += dot(a[i] - b[i], a[i] - b[i]);
-      all += dot(b[i], b[i]);
-    }
-    return sqrt(off / all);
-  }
-};
+using test::cornell, test::recorded_settings, test::RecordedFieldTest;
+using vulkan::RecordedField, vulkan::RecordedFieldSettings;
 
 TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
-  const FieldSettings settings = few_probes();
+  const FieldSettings settings = recorded_settings();
   RecordedField field = make(settings, {});
   for (int i = 0; i < 3; ++i) update(field);
   const IrradianceField on_cpu = test::make_field(cornell(), settings, 3);
@@ -133,7 +24,7 @@ TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
 }
 
 TEST_F(RecordedFieldTest, OfPartsOfItsProbesInTurnComesToTheSameLight) {
-  const FieldSettings settings = few_probes();
+  const FieldSettings settings = recorded_settings();
   RecordedFieldSettings recorded;
   recorded.probes_per_update = 24;  // of 80: four updates a round, the last of eight probes
   RecordedField field = make(settings, recorded);
@@ -145,7 +36,7 @@ TEST_F(RecordedFieldTest, OfPartsOfItsProbesInTurnComesToTheSameLight) {
 }
 
 TEST_F(RecordedFieldTest, MovesProbesAtTheStartAndThenLeavesThem) {
-  FieldSettings settings = few_probes();
+  FieldSettings settings = recorded_settings();
   settings.relocation = true;
   RecordedFieldSettings recorded;
   recorded.placing_updates = 6;
@@ -166,7 +57,7 @@ TEST_F(RecordedFieldTest, MovesProbesAtTheStartAndThenLeavesThem) {
 }
 
 TEST_F(RecordedFieldTest, ForgetsWhatItIsToldTo) {
-  FieldSettings settings = few_probes();
+  FieldSettings settings = recorded_settings();
   settings.relight_tolerance = 1e-5f;
   RecordedField field = make(settings, {});
   for (int i = 0; i < 3; ++i) update(field);
@@ -183,13 +74,16 @@ TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   const auto refused = [](const FieldSettings& settings, const RecordedFieldSettings& recorded) {
     return !RecordedField::make(shared_device(), settings, cornell().bounds(), recorded);
   };
-  FieldSettings settings = few_probes();
+  FieldSettings settings = recorded_settings();
   EXPECT_TRUE(refused(settings, {.frames_in_flight = 0}));
   EXPECT_TRUE(refused(settings, {.placing_updates = 1}));
   EXPECT_TRUE(refused(settings, {.probes_per_update = -1}));
+  EXPECT_TRUE(refused(settings, {.rays_per_update = 7 * settings.rays_per_probe}));
+  EXPECT_TRUE(refused(settings, {.probes_per_update = 8, .rays_per_update = 10000}));
   settings.max_bounces = 2;
+  EXPECT_TRUE(refused(settings, {.rays_per_update = 10000}));
   EXPECT_TRUE(refused(settings, {.probes_per_update = 8}));
-  settings = few_probes();
+  settings = recorded_settings();
   settings.visibility = Visibility::exact;
   EXPECT_TRUE(refused(settings, {}));
   settings = {};

@@ -30,6 +30,7 @@ void main() {
   int b = int(gl_WorkGroupID.y * kGroupClusters + cluster_in_group());
   if (b >= args.block_count) return;
   ProbeBlock block = args.blocks.at[b];
+  if (block.count == 0) return;
   RaySetRecord set = args.list.sets.at[block.ray_set];
   const int texels = kDistanceTexels * kDistanceTexels;
   const int columns = (texels + kDistanceBlock - 1) / kDistanceBlock * kDistanceBlock;

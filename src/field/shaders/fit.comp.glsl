@@ -24,6 +24,7 @@ void main() {
   int b = int(gl_WorkGroupID.y * kGroupClusters + cluster_in_group());
   if (b >= args.block_count) return;
   ProbeBlock block = args.blocks.at[b];
+  if (block.count == 0) return;
   int unknown[kBlockProbes];
   [[unroll]] for (int p = 0; p < kBlockProbes; ++p) unknown[p] = 0;
   clear_sums();

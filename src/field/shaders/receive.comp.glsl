@@ -14,6 +14,7 @@ void main() {
   int b = int(gl_WorkGroupID.y * kGroupClusters + cluster_in_group());
   if (b >= args.block_count) return;
   ProbeBlock block = args.blocks.at[b];
+  if (block.count == 0) return;
   RaySetRecord set = args.list.sets.at[block.ray_set];
   clear_sums();
   for (int ray = 0; ray < set.rays; ray += kClusterLanes) {

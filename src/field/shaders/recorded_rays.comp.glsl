@@ -15,6 +15,10 @@ void main() {
   int ray = int(gl_GlobalInvocationID.x);
   int k = int(gl_GlobalInvocationID.y);
   if (k >= args.count || ray >= args.rays_per_probe) return;
+  if (args.is_chosen != 0u && k >= int(args.chosen.at[0])) {
+    args.rays.at[k * args.rays_per_probe + ray].mask = 0u;
+    return;
+  }
   int probe = args.list.at[k];
   ProbeGrid grid = args.grids.at[volume_of(args.grids, probe)];
   vec3 offset = decode_probe_offset(args.probes.standing.at[probe].offset);

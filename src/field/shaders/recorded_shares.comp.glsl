@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int k = int(gl_GlobalInvocationID.x);
-  if (k >= args.count) return;
+  if (k >= (args.is_chosen != 0u ? int(args.chosen.at[0]) : args.count)) return;
   int probe = args.list.at[k];
   if (probe_rests(args.probes.states.at[probe], args.all)) {
     args.shares.at[k] = 0.0;
@@ -21,6 +21,8 @@ void main() {
   float averaged = args.anew != 0u ? 0.0 : args.probes.standing.at[probe].samples;
   float samples = min(averaged, args.longest - 1.0) + 1.0;
   args.shares.at[k] = 1.0 / samples;
+  // Positive floats are in the order of their bits
+  if (args.is_chosen != 0u) atomicMax(args.largest_share.at[0], floatBitsToUint(1.0 / samples));
   args.probes.standing.at[probe].samples = samples;
   args.offsets.at[probe] = args.probes.standing.at[probe].offset;
 }

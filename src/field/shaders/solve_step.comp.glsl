@@ -63,8 +63,7 @@ void main() {
     GroupCounts none = GroupCounts(0u, 1u, 1u);
     state.over_texels = none;
     state.over_rays = none;
-    state.over_receive_blocks = none;
-    state.over_fit_blocks = none;
+    state.over_blocks = none;
     state.over_sums = none;
     state.over_step = none;
   }

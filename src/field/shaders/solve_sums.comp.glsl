@@ -17,11 +17,12 @@ void main() {
   const int per_tile = kIrradianceTexels * kIrradianceTexels;
   int iteration = args.arrays.state.at[0].iterations;
   int steps = min(iteration, kAndersonDepth);
-  int newest = args.texels * ((iteration + kAndersonDepth - 1) % kAndersonDepth);
+  int texels = args.arrays.state.at[0].texels;
+  int newest = args.most_texels * ((iteration + kAndersonDepth - 1) % kAndersonDepth);
   Wide sums[kSolveSums];
   for (int s = 0; s < kSolveSums; ++s) sums[s] = make_wide(0.0);
 
-  for (int i = lane; i < args.texels; i += kSumLanes) {
+  for (int i = lane; i < texels; i += kSumLanes) {
     vec4 image = args.arrays.image.at[i];
     sums[kImageSquare] = wide_add(sums[kImageSquare], make_wide(dot(image, image)));
     if (args.last != 0u) {
@@ -42,7 +43,7 @@ void main() {
       sums[kImageChangeSquare] =
           wide_add(sums[kImageChangeSquare], make_wide(dot(image_change, image_change)));
       for (int step = 0; step < steps; ++step) {
-        vec4 other = args.arrays.residual_changes.at[step * args.texels + i];
+        vec4 other = args.arrays.residual_changes.at[step * args.most_texels + i];
         sums[kFirstGram + step] =
             wide_add(sums[kFirstGram + step], make_wide(dot(residual_change, other)));
         sums[kFirstProjection + step] =

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: Apache-2.0
+// Schedules that a device decides: against a plain selection on the host, and what they do to a
+// recorded field.
+#include <numeric>
+
+#include "field/device_schedule.h"
+#include "field/schedule.h"
+#include "support/hand_made.h"
+#include "twin/field_update_cpu.h"
+#include "twin/recorded_field.h"
+#include "vulkan/acceleration.h"
+
+namespace lambent {
+namespace {
+
+using test::cornell, test::recorded_settings, test::RecordedFieldTest;
+using vulkan::Buffer, vulkan::Memory, vulkan::RecordedField, vulkan::RecordedFieldSettings;
+
+constexpr std::uint32_t kUpdate = 1000;  // counted from 0
+constexpr float kMeanNoise = 0.8f;
+
+/// Probes of which all sorts of things are known.
+struct Crowd {
+  explicit Crowd(const FieldSettings& of)
+      : settings(of), store(test::grids_for(of, cornell().bounds()), of) {
+    RandomStream random = make_random_stream(1, 2, 3);
+    const auto uniform = [&] { return next_uniform(random); };
+    for (int probe = 0; probe < store.probes(); ++probe) {
+      ProbeStanding stands{};
+      stands.samples = 120.0f * uniform() * uniform();
+      standing.push_back(stands);
+      states.push_back(uniform() < 0.1f ? kProbeOff : kProbeOn);
+      const uint age = static_cast<uint>(300.0f * uniform() * uniform());
+      service.push_back(
+          {{0.2f * uniform() * uniform(), 5u}, uniform() < 0.02f ? 0u : kUpdate - age});
+    }
+  }
+
+  /// As the kernel's, by the processor.
+  int bin_of(int probe, bool look) const {
+    const ProbeService& own = service[probe];
+    const bool off = states[probe] == kProbeOff;
+    if (off) {
+      const bool looked_at = look && waits_too_long(own.served, kUpdate + 1);
+      return looked_at ? worth_bin(0.0f, own.served, kUpdate + 1) : kNoPartBin;
+    }
+    const ProbeGrid& grid = store.grid_of(probe);
+    float sum = own.known.noise;
+    int count = 1;
+    for (int other = 0; other < store.probes(); ++other) {
+      const ivec3 apart = probe_coords(grid, other) - probe_coords(grid, probe);
+      if (dot(vec3(apart), vec3(apart)) != 1.0f || states[other] == kProbeOff) continue;
+      sum += service[other].known.noise;
+      ++count;
+    }
+    const float noise = probe_noise(own.known.noise, sum / static_cast<float>(count));
+    const float samples = standing[probe].samples;
+    float gain = noise_gain(noise, samples, longest_average(settings));
+    if (gain > 0.0f) gain = max(gain, kLeastNoise * kMeanNoise * gain_per_noise(samples));
+    return worth_bin(gain, own.served, kUpdate + 1);
+  }
+
+  FieldSettings settings;
+  ProbeStore store;
+  std::vector<ProbeStanding> standing;
+  std::vector<uint> states;
+  std::vector<ProbeService> service;
+};
+
+FieldSettings many_probes() {
+  FieldSettings settings;
+  settings.probe_count = {20, 7, 5};  // three chunks, the last one in part
+  settings.rays_per_probe = 32;
+  return settings;
+}
+
+class DeviceScheduleTest : public test::OnDevice {
+ protected:
+  struct Chosen {
+    ScheduleState state;
+    std::vector<uint> bins;
+    std::vector<int> probes;
+    std::vector<ProbeBlock> blocks;
+  };
+  static Chosen choose(const Crowd& crowd, int most, bool look) {
+    const DeviceField field(device(), crowd.settings, crowd.store);
+    DeviceSchedule schedule(field, most, crowd.settings.rays_per_probe);
+    const Buffer standing = vulkan::upload(device(), crowd.standing, "standing");
+    const Buffer states = vulkan::upload(device(), crowd.states, "states");
+    vulkan::write<ProbeService>(device(), crowd.service, schedule.service());
+    ScheduleState state{};
+    state.mean_noise = kMeanNoise;
+    vulkan::write<ScheduleState>(device(), std::span(&state, 1), schedule.state());
+    device().run([&](vulkan::Recorder& to) {
+      schedule.record_choose(to, {{standing.address()}, {states.address()}}, kUpdate, look);
+    });
+    Chosen chosen = {vulkan::download<ScheduleState>(device(), schedule.state()).front(),
+                     vulkan::download<uint>(device(), schedule.bins()),
+                     vulkan::download<int>(device(), schedule.list({}).indices),
+                     vulkan::download<ProbeBlock>(device(), schedule.list({}).blocks)};
+    chosen.probes.resize(chosen.state.list.probes);
+    return chosen;
+  }
+};
+
+TEST_F(DeviceScheduleTest, ChoosesWhatAPlainSortChooses) {
+  const Crowd crowd(many_probes());
+  for (const int most : {8, 96, 400, 696}) {
+    const bool look = most == 96;
+    const Chosen chosen = choose(crowd, most, look);
+    // A device's roots and divisions may lose the last bits: of a probe between two bins
+    int other = 0;
+    for (int probe = 0; probe < crowd.store.probes(); ++probe) {
+      const int bin = static_cast<int>(chosen.bins[probe]), expected = crowd.bin_of(probe, look);
+      EXPECT_LE(abs(bin - expected), 1) << probe;
+      other += bin != expected ? 1 : 0;
+    }
+    EXPECT_LE(other, 3);
+
+    std::vector<int> order(crowd.store.probes());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return chosen.bins[a] > chosen.bins[b]; });
+    const auto wanting = std::count_if(chosen.bins.begin(), chosen.bins.end(),
+                                       [](uint bin) { return bin >= kFirstGainBin; });
+    const int count = std::min(static_cast<int>((wanting + 7) / 8 * 8), most);
+    order.resize(count);
+    std::sort(order.begin(), order.end());
+    EXPECT_EQ(chosen.probes, order) << most;
+  }
+}
+
+TEST_F(DeviceScheduleTest, SizesTheKernelsThatFollow) {
+  const Crowd crowd(many_probes());
+  const int most = 400;
+  const Chosen chosen = choose(crowd, most, false);
+  const DeviceField field(device(), crowd.settings, crowd.store);
+  DeviceProbes same;
+  same.probes = chosen.probes;
+  same.most_rays = crowd.settings.rays_per_probe;
+  same.block_count = same.count() / kBlockProbes;
+  for (uint shape = 0; shape < kListShapes; ++shape) {
+    const GroupCounts expected = field.groups_over(same, shape);
+    const GroupCounts& groups = chosen.state.list.over[shape];
+    EXPECT_EQ(groups.x, expected.x) << shape;
+    EXPECT_EQ(groups.y, expected.y) << shape;
+    EXPECT_EQ(groups.z, 1u);
+  }
+  EXPECT_EQ(chosen.state.list.texels, chosen.probes.size() * field.tile_texels());
+  for (int b = 0; b < most / kBlockProbes; ++b) {
+    EXPECT_EQ(chosen.blocks[b].count, b < same.block_count ? kBlockProbes : 0);
+    EXPECT_EQ(chosen.blocks[b].first, b * kBlockProbes);
+  }
+}
+
+TEST_F(DeviceScheduleTest, LetsAllRestWhereAllAreSettled) {
+  Crowd crowd(many_probes());
+  for (ProbeStanding& standing : crowd.standing) standing.samples = 1000.0f;
+  for (ProbeService& service : crowd.service) service.served = kUpdate;
+  const Chosen chosen = choose(crowd, 96, false);
+  EXPECT_TRUE(chosen.probes.empty());
+  EXPECT_EQ(chosen.state.list.over[kOverRays].y, 0u);
+  EXPECT_EQ(chosen.state.list.over[kOverProbes].x, 0u);
+}
+
+class BudgetedFieldTest : public RecordedFieldTest {
+ protected:
+  /// Probes that the device decided on.
+  static std::uint32_t served(const RecordedField& field) {
+    const vulkan::BufferRange launch = field.ray_launch();
+    return launch.buffer == VK_NULL_HANDLE ? 0 : download<GroupCounts>(launch).front().y;
+  }
+};
+
+TEST_F(BudgetedFieldTest, ComesToTheSameLightWithAQuarterOfTheRaysAndThenRests) {
+  FieldSettings settings = recorded_settings();
+  settings.hysteresis = 0.9f;  // averages of ten updates
+  RecordedFieldSettings recorded;
+  recorded.rays_per_update = settings.rays_per_probe * settings.probe_count.x *
+                             settings.probe_count.y * settings.probe_count.z / 4;
+  RecordedField field = make(settings, recorded);
+  int updates = 0;
+  for (std::uint32_t now = 1; now > 0; ++updates) {
+    ASSERT_LT(updates, 70) << "probes that are settled do not rest";
+    update(field);
+    now = updates < 10 ? 1 : served(field);  // two rounds of five updates first
+    EXPECT_LE(now, 16u);                     // whole blocks within 20 probes
+  }
+  EXPECT_GE(updates, 5 * 10);
+  const IrradianceField on_cpu = test::make_field(cornell(), settings, 10);
+  const std::vector<FieldQuery> queries = test::seen_points(cornell());
+  // Noise of other rays: the last 10 x 72 a probe on both sides
+  EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), 0.08);
+
+  // A change wakes them
+  update(field, {.history = 0.1f});
+  EXPECT_EQ(served(field), 16u);
+}
+
+TEST_F(BudgetedFieldTest, TracesNoMoreThanItsProbesDecidedOn) {
+  FieldSettings settings = recorded_settings();
+  settings.hysteresis = 0.5f;  // averages of two updates
+  RecordedFieldSettings recorded;
+  recorded.rays_per_update = 24 * settings.rays_per_probe;
+  RecordedField field = make(settings, recorded);
+  // Two rounds, of which the second starts anew, and three times 24 of 80 probes
+  for (int i = 0; i < 4 + 4 + 3; ++i) update(field);
+  const vulkan::PlannedUpdate planned = field.plan();
+  EXPECT_TRUE(planned.on_device);
+  EXPECT_EQ(planned.probes, 24u);
+
+  // A ball that surrounds the room
+  const Mesh ball = test::sphere(1000.0f, 6, 0);
+  const Buffer positions =
+      vulkan::upload(device(), ball.positions, "positions", vulkan::kGeometryUsage);
+  const Buffer triangles =
+      vulkan::upload(device(), ball.triangles, "triangles", vulkan::kGeometryUsage);
+  const vulkan::TriangleGeometry geometry = {positions.address(), triangles.address(),
+                                             static_cast<std::uint32_t>(ball.positions.size()),
+                                             static_cast<std::uint32_t>(ball.triangles.size())};
+  const auto structures = vulkan::TriangleBuilder(device()).build(std::span(&geometry, 1));
+  const vulkan::PlacedStructure placed = {.structure = structures[0].address()};
+  vulkan::InstanceStructure scene(device());
+  device().run([&](vulkan::Recorder& to) {
+    scene.build(to, std::span(&placed, 1));
+    to.barrier();
+    const vulkan::BufferRange hits = field.hits();
+    device().fn().vkCmdFillBuffer(to.commands(), hits.buffer, hits.offset, hits.bytes, 0u);
+    field.record_rays(to.commands());
+    field.record_trace(to.commands(), scene.handle());
+  });
+  const auto rays = download<RayRecord>(field.rays());
+  const auto hits = download<HitRecord>(field.hits());
+  ASSERT_EQ(served(field), 8u);
+  for (std::uint32_t i = 0; i < planned.rays; ++i) {
+    const bool asked = i < 8 * planned.rays_per_probe;
+    EXPECT_EQ(rays[i].mask, asked ? 0xFFu : 0u);
+    EXPECT_EQ(hits[i].distance > 500.0f, asked);
+  }
+}
+
+}  // namespace
+}  // namespace lambent
