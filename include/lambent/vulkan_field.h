@@ -100,7 +100,7 @@ struct UpdatePlan {
 
 /// What an update came to.
 struct PlannedUpdate {
-  std::uint32_t probes = 0;  ///< That are traced; where the device decides, at most.
+  std::uint32_t probes = 0;          ///< That are traced; where the device decides, at most.
   std::uint32_t rays_per_probe = 0;  ///< A probe's rays follow one another.
   std::uint32_t rays = 0;            ///< In all.
   bool moves_probes = false;         ///< record_maintain may move some.

@@ -151,18 +151,26 @@ ListSize DeviceField::list_size(uint shape, int most_rays) const {
     return ListSize{groups_of(edge * edge, columns), kGroupLanes / kClusterLanes, 1u};
   };
   switch (shape) {
-    case kOverRays: return squares(kernels_.gather, most_rays);
-    case kOverTexels: return squares(kernels_.blend_in, tile_texels());
+    case kOverRays:
+      return squares(kernels_.gather, most_rays);
+    case kOverTexels:
+      return squares(kernels_.blend_in, tile_texels());
     case kOverIrradianceGutters:
       return squares(kernels_.gutters, gutter_texels(settings_.irradiance_texels));
     case kOverDistanceGutters:
       return squares(kernels_.gutters, gutter_texels(settings_.distance_texels));
-    case kOverClusters: return {0u, kGroupLanes / kClusterLanes, 0u};
-    case kOverIrradianceBlocks: return products(settings_.irradiance_texels, kIrradianceBlock);
-    case kOverDistanceBlocks: return products(settings_.distance_texels, kDistanceBlock);
-    case kOverLanes: return {0u, kGroupLanes, 0u};
-    case kOverProbes: return {0u, 1u, 0u};
-    default: return {static_cast<uint>(most_rays), 1u, 0u};
+    case kOverClusters:
+      return {0u, kGroupLanes / kClusterLanes, 0u};
+    case kOverIrradianceBlocks:
+      return products(settings_.irradiance_texels, kIrradianceBlock);
+    case kOverDistanceBlocks:
+      return products(settings_.distance_texels, kDistanceBlock);
+    case kOverLanes:
+      return {0u, kGroupLanes, 0u};
+    case kOverProbes:
+      return {0u, 1u, 0u};
+    default:
+      return {static_cast<uint>(most_rays), 1u, 0u};
   }
 }
 

@@ -75,8 +75,7 @@ void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& prob
                                         look ? 1u : 0u};
   const ScheduleChooseArguments choose = {
       state, chunks, list_.block_array(), {sizes_.address()}, chunks_, list_.count()};
-  const ScheduleListArguments list = {
-      state, chunks, {bins_.address()}, list_.index_array(), all};
+  const ScheduleListArguments list = {state, chunks, {bins_.address()}, list_.index_array(), all};
   to.run(worth_, worth, all);
   to.barrier();
   to.run(choose_, choose, kChunkProbes);
@@ -90,11 +89,17 @@ void DeviceSchedule::record_book(vulkan::Recorder& to, const DeviceProbes& list,
   const uint chosen = list.chosen != nullptr ? 1u : 0u;
   const ScheduleStateArray state = {state_.address()};
   const Vec3Array changes = {changes_.address()};
-  const ScheduleBookArguments book = {state,   {service_.address()}, list.index_array(), shares,
-                                      changes, list.count(),         chosen,             update + 1,
+  const ScheduleBookArguments book = {state,
+                                      {service_.address()},
+                                      list.index_array(),
+                                      shares,
+                                      changes,
+                                      list.count(),
+                                      chosen,
+                                      update + 1,
                                       0u};
-  const ScheduleMeansArguments means = {state,   {chunk_records_.address()}, shares, changes,
-                                        chunks_, list.count(),               chosen, 0u};
+  const ScheduleMeansArguments means = {
+      state, {chunk_records_.address()}, shares, changes, chunks_, list.count(), chosen, 0u};
   field_.record_compare_light(to, list, before, /*darkest=*/0.0f, changes);
   field_.run_over(to, book_, book, list, kOverLanes);
   to.barrier();

@@ -80,9 +80,9 @@ struct BlendInArguments {
 
 struct SolveSumsArguments {
   SolveArrays arrays;
-  WideArray sums;  ///< kSumLanes x kSolveSums.
-  int most_texels; ///< From one step's changes to the next's.
-  uint last;       ///< 1: of the difference that the solve made, and of the image.
+  WideArray sums;   ///< kSumLanes x kSolveSums.
+  int most_texels;  ///< From one step's changes to the next's.
+  uint last;        ///< 1: of the difference that the solve made, and of the image.
 };
 
 struct SolveStepArguments {

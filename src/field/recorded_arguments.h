@@ -77,7 +77,7 @@ struct RecordedSharesArguments {
   UintArray largest_share;  ///< A word: becomes the largest one's bits.
   int count;
   uint is_chosen;  ///< 1: the device decided.
-  float longest;  ///< Updates that an average remembers.
+  float longest;   ///< Updates that an average remembers.
   uint all;
   uint anew;  ///< 1: what was averaged before counts for nothing.
 };

@@ -116,8 +116,7 @@ void RecordedField::record_rays(VkCommandBuffer commands) const {
                                            0u};
   record_pass(*s.device, commands, "rays", [&](Recorder& to) {
     if (s.turn.history < 1.0f) {
-      const FadeSamplesArguments fade = {
-          {s.standing.address()}, s.field.probes(), s.turn.history};
+      const FadeSamplesArguments fade = {{s.standing.address()}, s.field.probes(), s.turn.history};
       to.run(s.kernels.fade_samples, fade, s.field.probes());
       to.barrier();
     }
@@ -205,9 +204,7 @@ void RecordedField::record_update(VkCommandBuffer commands) {
                               s.turn.update);
     });
   }
-  pass("blend", [&](Recorder& to) {
-    s.field.record_store_light(to, list, salt);
-  });
+  pass("blend", [&](Recorder& to) { s.field.record_store_light(to, list, salt); });
 }
 
 void RecordedField::record_maintain(VkCommandBuffer commands) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recorded field whose engine is played by the host: it traces and shades what the field asks for.
+// A recorded field whose engine is played by the host: it traces and shades what the field asks
+// for.
 #pragma once
 
 #include <algorithm>

@@ -111,5 +111,34 @@ TEST(TurnPlan, ServesEachProbeOnceARound) {
   }
 }
 
+TEST(TurnPlan, LeavesItToTheDeviceOnceRoundsAreOver) {
+  const FieldSettings settings;
+  RecordedFieldSettings recorded;
+  recorded.rays_per_update = 30 * settings.rays_per_probe;
+  recorded.placing_updates = 3;
+  vulkan::TurnPlan plan(settings, recorded, 100);
+  EXPECT_EQ(plan.most_probes(), 24);
+  const auto expect_rounds = [&](int rounds) {
+    for (int i = 0; i < rounds * 5; ++i) {
+      const vulkan::Turn turn = plan.next({});
+      EXPECT_FALSE(turn.on_device);
+      EXPECT_EQ(turn.first, 24 * (i % 5));
+      EXPECT_EQ(turn.count, i % 5 == 4 ? 4 : 24);
+    }
+  };
+  const auto expect_device = [&] {
+    const vulkan::Turn turn = plan.next({});
+    EXPECT_TRUE(turn.on_device);
+    EXPECT_EQ(turn.count, 24);
+    EXPECT_EQ(turn.place, kPlaceLeave);
+    EXPECT_FALSE(turn.starts_anew);
+  };
+  expect_rounds(3);
+  for (int i = 0; i < 20; ++i) expect_device();
+  EXPECT_EQ(plan.next({.place_again = true}).place, kPlaceFirstStep);
+  for (int i = 1; i < 3 * 5; ++i) EXPECT_FALSE(plan.next({}).on_device);
+  expect_device();
+}
+
 }  // namespace
 }  // namespace lambent

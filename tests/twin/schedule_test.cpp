@@ -5,6 +5,7 @@
 
 #include "field/device_schedule.h"
 #include "field/schedule.h"
+#include "field/tile_light.h"
 #include "support/hand_made.h"
 #include "twin/field_update_cpu.h"
 #include "twin/recorded_field.h"
@@ -161,6 +162,73 @@ TEST_F(DeviceScheduleTest, LetsAllRestWhereAllAreSettled) {
   EXPECT_TRUE(chosen.probes.empty());
   EXPECT_EQ(chosen.state.list.over[kOverRays].y, 0u);
   EXPECT_EQ(chosen.state.list.over[kOverProbes].x, 0u);
+}
+
+TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
+  const FieldSettings settings = many_probes();
+  const Crowd crowd(settings);
+  const DeviceField field(device(), settings, crowd.store);
+  const std::size_t texels = field.tile_texels();
+  DeviceSchedule schedule(field, 696, settings.rays_per_probe);
+  DeviceProbes list;
+  for (int probe = 1; probe < crowd.store.probes(); probe += 3) list.probes.push_back(probe);
+  list.indices = vulkan::upload(device(), list.probes, "probes");
+  RandomStream random = make_random_stream(4, 5, 6);
+  WorkingIrradiance light(crowd.store.probes() * texels), before(list.probes.size() * texels);
+  const auto fill = [&](WorkingIrradiance& tiles) {
+    // One tile in ten is dark
+    for (std::size_t i = 0; i < tiles.size(); i += texels) {
+      const float scale = next_uniform(random) < 0.1f ? 0.0f : next_uniform(random);
+      for (std::size_t t = 0; t < texels; ++t) tiles[i + t] = vec4(scale * next_uniform(random));
+    }
+  };
+  fill(light);
+  fill(before);
+  std::vector<float> shares;
+  for (int k = 0; k < list.count(); ++k) {
+    // Some rest, some held nothing
+    shares.push_back(k % 10 == 0 ? 0.0f : k % 10 == 1 ? 1.0f : 0.05f + 0.4f * next_uniform(random));
+  }
+  constexpr float kMeanLight = 0.3f;
+  ScheduleState state{};
+  state.mean_light = kMeanLight;
+  state.live = 600;
+  vulkan::write<vec4>(device(), light, field.light());
+  vulkan::write<ProbeService>(device(), crowd.service, schedule.service());
+  vulkan::write<ScheduleState>(device(), std::span(&state, 1), schedule.state());
+  const Buffer share_buffer = vulkan::upload(device(), shares, "shares");
+  const Buffer before_buffer = vulkan::upload<vec4>(device(), before, "before");
+  device().run([&](vulkan::Recorder& to) {
+    schedule.record_book(to, list, {share_buffer.address()}, {before_buffer.address()}, kUpdate);
+  });
+  const auto booked = vulkan::download<ProbeService>(device(), schedule.service());
+  const auto after = vulkan::download<ScheduleState>(device(), schedule.state()).front();
+
+  std::vector<ProbeService> expected = crowd.service;
+  float sum = 0.0f, count = 0.0f;
+  for (int k = 0; k < list.count(); ++k) {
+    if (shares[k] == 0.0f) continue;
+    ProbeService& service = expected[list.probes[k]];
+    const TileLight now(&light[list.probes[k] * texels], texels), was(&before[k * texels], texels);
+    sum += mean_luminance(now);
+    count += 1.0f;
+    ProbeRecord record;
+    record.noise = service.known.noise;
+    record.noise_samples = static_cast<std::uint16_t>(service.known.samples);
+    record.samples = 1.0f / shares[k] - 1.0f;
+    const float square = relative_square(now, was, kDarkShare * kMeanLight);
+    learn_noise(told_square(square, mean_luminance(was), shares[k], kMeanLight), 1.0f, record);
+    service = {{record.noise, record.noise_samples}, kUpdate + 1};
+  }
+  for (int probe = 0; probe < crowd.store.probes(); ++probe) {
+    const ProbeService& is = booked[probe];
+    const ProbeService& should = expected[probe];
+    // Sums over a tile in another order
+    EXPECT_NEAR(is.known.noise, should.known.noise, 1e-4f * should.known.noise) << probe;
+    EXPECT_EQ(is.known.samples, should.known.samples) << probe;
+    EXPECT_EQ(is.served, should.served) << probe;
+  }
+  EXPECT_NEAR(after.mean_light, learned_light(kMeanLight, sum / count, count, 600.0f), 1e-5f);
 }
 
 class BudgetedFieldTest : public RecordedFieldTest {

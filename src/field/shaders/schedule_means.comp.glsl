@@ -28,6 +28,7 @@ void main() {
   for (int other = 1; other < kGroupLanes; ++other) sum += partial[other];
   args.state.at[0].mean_noise = sum.w > 0.0 ? sum.z / sum.w : 0.0;
   if (sum.y == 0.0) return;
+  float live = float(args.state.at[0].live);
   args.state.at[0].mean_light =
-      learned_light(args.state.at[0].mean_light, sum.x / sum.y, sum.y, float(args.state.at[0].live));
+      learned_light(args.state.at[0].mean_light, sum.x / sum.y, sum.y, live);
 }
