@@ -74,7 +74,8 @@ IrradianceField& IrradianceField::operator=(IrradianceField&&) noexcept = defaul
 
 Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
                                                 const Bounds& scene_bounds) {
-  if (const Expected<void> fine = check_settings(settings); !fine) return tl::unexpected(fine.error());
+  if (const Expected<void> fine = check_settings(settings); !fine)
+    return tl::unexpected(fine.error());
   const Expected<std::vector<Volume>> volumes = plan_volumes(settings, scene_bounds);
   if (!volumes) return tl::unexpected(volumes.error());
   return IrradianceField(std::make_unique<State>(settings, *volumes));
