@@ -18,14 +18,14 @@ constexpr std::uint32_t kGatherRays = 1u << 18;
 
 }  // namespace
 
-/// Looks the field up, on the device where that holds it and needs no rays for it.
+/// Looks the field up, on the device where that holds it.
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count,
                                 const Buffer& irradiance) {
   const FieldDevice* there = field.on_device();
   if (there != nullptr && there->is_on(request_.world)) {
-    add(name, [there, &queries, &irradiance, count](Recorder& to) {
-      there->record_lookups(to, queries.address(), count, irradiance.address());
+    add(name, [this, there, &queries, &irradiance, count](Recorder& to) {
+      there->record_lookups(to, &request_.world, queries.address(), count, irradiance.address());
     });
     return;
   }

@@ -137,14 +137,82 @@ struct GuttersArguments {
   int words_per_texel;
 };
 
-/// Finds the surfels' lookups. Records of surfels and lookups: all probes x stride (x lookups).
-struct FindLookupsArguments {
-  StoreArrays store;
+/// Points that look the field up, in rows: the surfels of a list's probes, a row a probe, or
+/// queries, `stride` of them a row. Point i has kLookups lookups; a surfel's place i among those of
+/// all probes is probe x stride + ray, a query's its place in the array.
+struct LookupPoints {
   ProbeList list;
   SurfelArray surfels;
-  LookupArray lookups;
-  int probes;
+  QueryArray queries;
+  int rows;
   int stride;
+  int count;   ///< Of queries; 0: they are surfels.
+  uint exact;  ///< 1: all corners are asked for by rays; 0: those that are in doubt.
+};
+
+/// Finds points' lookups by distances.
+struct FindLookupsArguments {
+  StoreArrays store;
+  LookupPoints points;
+  LookupArray lookups;
+};
+
+/// Rays between the corners of cells, by the probes that are their lowest. `rays`: cells x
+/// kCellPairs.
+struct SightRaysArguments {
+  StoreArrays store;
+  IntArray cells;
+  RayArray rays;
+  int count;
+};
+
+/// What they found: two words a probe; see sight_bit.
+struct SightBitsArguments {
+  IntArray cells;
+  UintArray occluded;
+  UintArray sights;
+  int count;
+};
+
+// A counter of rays: the size of an indirect dispatch of them, and how many were counted in all.
+const int kRaysAsked = 0;
+const int kRaysEver = 3;
+const int kCounterWords = 4;
+
+/// The rays that a point asks, one after the other; for each of its lookups eight bits, by corners.
+struct CornerQuestions {
+  uint first_ray;
+  uint asked;
+};
+LAMBENT_DEVICE_ARRAY(QuestionArray, CornerQuestions, 4)
+
+/// Asks rays for corners of lookups that were found by distances. `questions`: rows x stride.
+struct AskCornersArguments {
+  StoreArrays store;
+  LookupPoints points;
+  LookupArray lookups;
+  UintArray sights;
+  UintArray counter;
+  QuestionArray questions;
+  RayArray rays;
+};
+
+/// Weighs lookups by the answers.
+struct AnswerCornersArguments {
+  StoreArrays store;
+  LookupPoints points;
+  LookupArray lookups;
+  QuestionArray questions;
+  UintArray occluded;
+};
+
+/// Irradiance for queries whose lookups were found. `lookups`: count x kLookups.
+struct ReadLookupsArguments {
+  StoreArrays store;
+  QueryArray queries;
+  LookupArray lookups;
+  Vec3Array irradiance;
+  int count;
 };
 
 // What rays bring back: all light, direct and sky light, the sky's alone.

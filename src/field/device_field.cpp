@@ -65,6 +65,9 @@ DeviceField::DeviceField(const vulkan::Device& device, const FieldSettings& sett
   fit_ = vulkan::upload(device, padded_fit(settings.irradiance_texels), "tile fit");
   light_ = vulkan::Buffer(device, texels * sizeof(vec4), Memory::device, "light");
   told_ = vulkan::Buffer(device, texels * sizeof(vec4), Memory::device, "told");
+  if (settings.visibility != Visibility::moments) {
+    sights_ = std::make_unique<DeviceSights>(device, settings, probes_, volumes_, lookups_);
+  }
   device.run([&](vulkan::Recorder& to) {
     to.fill(light_, 0u);
     to.fill(told_, 0u);
@@ -124,6 +127,7 @@ void DeviceField::reserve_surfels(int rays) {
   surfels_ = std::move(surfels);
   lookup_records_ = std::move(lookups);
   stride_ = rays;
+  if (sights_) sights_->reserve(rays);
 }
 
 void DeviceField::write_surfels(std::span<const int> probes, std::span<const ProbeTrace> traces) {

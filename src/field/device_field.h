@@ -10,6 +10,7 @@
 
 #include "field/device_arguments.h"
 #include "field/device_kernels.h"
+#include "field/device_sights.h"
 #include "field/probe_store.h"
 #include "field/relight.h"
 #include "field/surfels.h"
@@ -140,8 +141,16 @@ class DeviceField {
   /// between the two, as follow_edits does. Makes room before it records.
   void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
   void record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint salt);
-  /// As find_surfel_lookups, by distances.
-  void record_lookups(vulkan::Recorder& to, const DeviceProbes& list) const;
+  /// As ProbeSights::look, of a field that sees by rays; `cells` as of cells_around.
+  void record_look(vulkan::Recorder& to, const DeviceTracer& tracer, IntArray cells,
+                   int count) const;
+  /// As find_surfel_lookups. `tracer`: of the rays that the settings' visibility asks, with the
+  /// scene's textures bound; null: by distances.
+  void record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
+                      const DeviceTracer* tracer = nullptr) const;
+  /// Copies the number of rays that lookups asked since the last time into the buffer (one word);
+  /// it stays as it is where none does.
+  void take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const;
 
   /// As TransportOperator::apply, apply_direct and apply_sky.
   void record_transport(vulkan::Recorder& to, const DeviceProbes& list,
@@ -165,9 +174,9 @@ class DeviceField {
   /// list's probes held.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
                             float darkest, Vec3Array changes) const;
-  /// As lookup_irradiance, by distances.
+  /// As lookup_irradiance; `tracer` as of record_lookups.
   void record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
-                     Vec3Array irradiance) const;
+                     Vec3Array irradiance, const DeviceTracer* tracer = nullptr) const;
 
  private:
   /// Rays that some probes traced last.
@@ -183,13 +192,16 @@ class DeviceField {
                           UintArray blocked) const;
   void record_gutters(vulkan::Recorder& to, UintArray words, IntArray probes, int count, int texels,
                       int words_per_texel) const;
-  ProbeList arrays(const DeviceProbes& list) const;
+  void record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
+                             Vec3Array irradiance, const DeviceTracer& tracer) const;
+  ProbeList arrays(const DeviceProbes& list, int first = 0) const;
 
   const vulkan::Device& device_;
   FieldSettings settings_;
   int probes_, volumes_, lookups_;
   int words_per_irradiance_texel_, words_per_distance_texel_;
   const FieldKernels& kernels_;
+  std::unique_ptr<DeviceSights> sights_;  // null: nothing is seen by rays
   vulkan::Buffer grids_, offsets_, irradiance_, distance_, corners_, fit_;
   vulkan::Buffer light_, told_;
   vulkan::Buffer surfels_, lookup_records_;  // probes x stride_ (x lookups_)

@@ -6,6 +6,8 @@
 #include <mutex>
 #include <string>
 
+#include "shaders/answer_corners_comp.h"
+#include "shaders/ask_corners_comp.h"
 #include "shaders/blend_distances_comp.h"
 #include "shaders/blend_in_comp.h"
 #include "shaders/blend_weights_comp.h"
@@ -18,11 +20,14 @@
 #include "shaders/make_surfels_comp.h"
 #include "shaders/move_distances_comp.h"
 #include "shaders/probe_rays_comp.h"
+#include "shaders/read_lookups_comp.h"
 #include "shaders/receive_comp.h"
 #include "shaders/scatter_tiles_comp.h"
 #include "shaders/see_distances_comp.h"
 #include "shaders/see_surfels_comp.h"
 #include "shaders/send_back_comp.h"
+#include "shaders/sight_bits_comp.h"
+#include "shaders/sight_rays_comp.h"
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
@@ -43,11 +48,12 @@ std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, in
 namespace {
 
 /// Kernels by their constants.
+template <class Kernels>
 class KernelShelf {
  public:
   explicit KernelShelf(const vulkan::Device& device) : device_(device) {}
 
-  const FieldKernels& get(const FieldSettings& settings, int volumes, int lookups) {
+  const Kernels& get(const FieldSettings& settings, int volumes, int lookups) {
     std::array<std::uint32_t, 6> key{};
     for (const vulkan::Constant& constant : tile_constants(settings, volumes, lookups)) {
       key[constant.id] = constant.value;
@@ -55,20 +61,25 @@ class KernelShelf {
     const std::lock_guard lock(mutex_);
     const auto found = kernels_.find(key);
     if (found != kernels_.end()) return found->second;
-    return kernels_.emplace(key, FieldKernels(device_, settings, volumes, lookups)).first->second;
+    return kernels_.emplace(key, Kernels(device_, settings, volumes, lookups)).first->second;
   }
 
  private:
   const vulkan::Device& device_;
   std::mutex mutex_;
-  std::map<std::array<std::uint32_t, 6>, FieldKernels> kernels_;
+  std::map<std::array<std::uint32_t, 6>, Kernels> kernels_;
 };
 
 }  // namespace
 
 const FieldKernels& FieldKernels::of(const vulkan::Device& device, const FieldSettings& settings,
                                      int volumes, int lookups) {
-  return device.kept<KernelShelf>().get(settings, volumes, lookups);
+  return device.kept<KernelShelf<FieldKernels>>().get(settings, volumes, lookups);
+}
+
+const SightKernels& SightKernels::of(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups) {
+  return device.kept<KernelShelf<SightKernels>>().get(settings, volumes, lookups);
 }
 
 FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
@@ -97,6 +108,19 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   see_surfels = make(shaders::see_surfels_comp(), "see_surfels");
   send_back = make(shaders::send_back_comp(), "send_back");
   move_distances = make(shaders::move_distances_comp(), "move_distances");
+}
+
+SightKernels::SightKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+                           int lookups) {
+  const std::array constants = tile_constants(settings, volumes, lookups);
+  const auto make = [&](vulkan::Spirv spirv, const char* name) {
+    return vulkan::Kernel(device, spirv, name, constants);
+  };
+  sight_rays = make(shaders::sight_rays_comp(), "sight_rays");
+  sight_bits = make(shaders::sight_bits_comp(), "sight_bits");
+  ask_corners = make(shaders::ask_corners_comp(), "ask_corners");
+  answer_corners = make(shaders::answer_corners_comp(), "answer_corners");
+  read_lookups = make(shaders::read_lookups_comp(), "read_lookups");
 }
 
 }  // namespace lambent

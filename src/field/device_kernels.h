@@ -31,4 +31,15 @@ struct FieldKernels {
   vulkan::Kernel see_surfels, move_distances, send_back;
 };
 
+/// Those of visibility by rays, which few fields need.
+struct SightKernels {
+  static const SightKernels& of(const vulkan::Device& device, const FieldSettings& settings,
+                                int volumes, int lookups);
+
+  SightKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+               int lookups);
+
+  vulkan::Kernel sight_rays, sight_bits, ask_corners, answer_corners, read_lookups;
+};
+
 }  // namespace lambent

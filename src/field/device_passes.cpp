@@ -11,14 +11,17 @@ namespace {
 // Points in a row of a lookup's dispatch: rows are whole groups, and few enough.
 constexpr std::uint32_t kLookupRow = 1u << 20;
 
-/// Part of a list's array of indices.
-IntArray indices_from(const DeviceProbes& list, int first) {
-  return {list.indices.address() + static_cast<std::size_t>(first) * sizeof(int)};
-}
+// Queries in a row of points that look the field up: so that a group's follow one another.
+constexpr int kQueryRow = 8;
 
 template <class Array>
 Array from(const vulkan::Buffer& buffer, std::size_t first, std::size_t size) {
   return {buffer.address() + first * size};
+}
+
+/// Part of a list's array of indices.
+IntArray indices_from(const DeviceProbes& list, int first) {
+  return from<IntArray>(list.indices, static_cast<std::size_t>(first), sizeof(int));
 }
 
 /// Runs so many groups of a kernel, or as many as the device says.
@@ -35,9 +38,11 @@ void run_groups(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Argume
 
 }  // namespace
 
-ProbeList DeviceField::arrays(const DeviceProbes& list) const {
+ProbeList DeviceField::arrays(const DeviceProbes& list, int first) const {
   const RaySetArray own = {sets_.address()};
-  return {list.index_array(), {list.ray_sets.address()}, list.sets.address != 0 ? list.sets : own};
+  return {indices_from(list, first),
+          from<IntArray>(list.ray_sets, static_cast<std::size_t>(first), sizeof(int)),
+          list.sets.address != 0 ? list.sets : own};
 }
 
 StoreArrays DeviceField::store() const {
@@ -120,12 +125,27 @@ void DeviceField::record_gutters(vulkan::Recorder& to, UintArray words, IntArray
   to.barrier();
 }
 
-void DeviceField::record_lookups(vulkan::Recorder& to, const DeviceProbes& list) const {
-  const FindLookupsArguments arguments = {
-      store(),      arrays(list), {surfels_.address()}, {lookup_records_.address()},
-      list.count(), stride_};
+void DeviceField::record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
+                                 const DeviceTracer* tracer) const {
+  const auto points = [&](int first, int rows) {
+    return LookupPoints{arrays(list, first),
+                        {surfels_.address()},
+                        {},
+                        rows,
+                        stride_,
+                        0,
+                        sights_ && sights_->exact() ? 1u : 0u};
+  };
+  const LookupArray lookups{lookup_records_.address()};
+  const FindLookupsArguments arguments = {store(), points(0, list.count()), lookups};
   to.run(kernels_.find_lookups, arguments, list.most_rays, list.count());
   to.barrier();
+  if (!sights_ || tracer == nullptr) return;
+  const int rows = sights_->points() / stride_;
+  for (int first = 0; first < list.count(); first += rows) {
+    const int some = std::min(rows, list.count() - first);
+    sights_->record_weighing(to, *tracer, store(), points(first, some), lookups, list.most_rays);
+  }
 }
 
 void DeviceField::reserve_transport(const DeviceProbes& list) {
@@ -196,13 +216,52 @@ void DeviceField::record_compare_light(vulkan::Recorder& to, const DeviceProbes&
 }
 
 void DeviceField::record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
-                                Vec3Array irradiance) const {
+                                Vec3Array irradiance, const DeviceTracer* tracer) const {
   if (count == 0) return;
+  if (sights_ && tracer != nullptr) {
+    record_lookup_by_rays(to, queries, count, irradiance, *tracer);
+    return;
+  }
   const std::uint32_t width = std::min(count, kLookupRow);
   const LookupArguments arguments = {store(), queries, irradiance, static_cast<int>(count),
                                      static_cast<int>(kLookupRow)};
   to.run(kernels_.lookup, arguments, width, groups_of(static_cast<int>(count), kLookupRow));
   to.barrier();
+}
+
+/// The same where rays tell which probes are seen, some points at a time.
+void DeviceField::record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries,
+                                        std::uint32_t count, Vec3Array irradiance,
+                                        const DeviceTracer& tracer) const {
+  const auto most = static_cast<std::uint32_t>(sights_->points() / kQueryRow * kQueryRow);
+  for (std::uint32_t first = 0; first < count; first += most) {
+    const auto some = static_cast<int>(std::min(most, count - first));
+    const QueryArray asked{queries.address + first * sizeof(QueryRecord)};
+    const LookupPoints points = {{},
+                                 {},
+                                 asked,
+                                 static_cast<int>(groups_of(some, kQueryRow)),
+                                 kQueryRow,
+                                 some,
+                                 sights_->exact() ? 1u : 0u};
+    const FindLookupsArguments found = {store(), points, sights_->lookups()};
+    to.run(kernels_.find_lookups, found, kQueryRow, points.rows);
+    to.barrier();
+    sights_->record_weighing(to, tracer, store(), points, sights_->lookups(), kQueryRow);
+    sights_->record_reading(
+        to,
+        {store(), asked, sights_->lookups(), {irradiance.address + first * sizeof(vec3)}, some});
+  }
+}
+
+void DeviceField::record_look(vulkan::Recorder& to, const DeviceTracer& tracer, IntArray cells,
+                              int count) const {
+  assert(sights_);
+  sights_->record_look(to, tracer, store(), cells, count);
+}
+
+void DeviceField::take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const {
+  if (sights_) sights_->take_ray_count(to, count);
 }
 
 }  // namespace lambent

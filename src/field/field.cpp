@@ -108,7 +108,7 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
                                  const World* world) const {
   assert(queries.size() == result.size());
   const State& s = *state_;
-  if (s.device) return s.device->irradiance(queries, result);
+  if (s.device) return s.device->irradiance(queries, world, result);
   const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
     lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},

@@ -77,6 +77,8 @@ class FieldDevice {
   /// stored distances by as much as those changed, and finds the lookups of all traced probes'
   /// surfels. What the world's edits do not touch comes out as it was.
   virtual DeviceTraced retrace(const World& world, std::span<const int> probes, uint salt) = 0;
+  /// As ProbeSights::look, of a field with hybrid visibility; `cells` as of cells_around.
+  virtual std::uint64_t look(const World& world, std::span<const int> cells) = 0;
   /// Finds the lookups of some probes' surfels. Returns the rays that their visibility took.
   virtual std::uint64_t find_lookups(const World& world, std::span<const int> probes) = 0;
   /// Has probes forget their surfels.
@@ -96,18 +98,20 @@ class FieldDevice {
 
   /// As SendBack of importance.h.
   virtual std::vector<float> send_back(std::span<const float> received, float least) = 0;
-  /// Irradiance for each query [W/m^2], by the probes' distances.
-  virtual void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const = 0;
-  /// Records lookups: `count` queries to as many irradiances [W/m^2], at
-  /// these addresses (QueryRecord and vec3).
-  virtual void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries,
+  /// Irradiance for each query [W/m^2]. `world` is what visibility traces rays in; null, or not on
+  /// this device: visibility is by distances.
+  virtual void irradiance(std::span<const FieldQuery> queries, const World* world,
+                          std::span<vec3> result) const = 0;
+  /// Records lookups: `count` queries to as many irradiances [W/m^2], at these addresses
+  /// (QueryRecord and vec3). Binds the world's textures.
+  virtual void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
                               std::uint32_t count, std::uint64_t irradiance) const = 0;
 
   virtual std::size_t surfel_bytes() const = 0;
 };
 
-/// An empty field of the store's shape on the device that the world is on; null where passes there
-/// cannot do what the settings ask for.
+/// An empty field of the store's shape on the device that the world is on; null where the library
+/// knows no devices.
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store);
 

@@ -64,7 +64,7 @@ struct IrradianceField::State {
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
   std::vector<ProbeRecord> records;
-  ProbeSights sights;               ///< Kept for hybrid visibility alone.
+  ProbeSights sights;               ///< Kept for hybrid visibility alone; see look_across_cells.
   std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
   WorkingIrradiance light;          ///< That the store holds, before it was encoded.
   WorkingIrradiance told;           ///< What of it the last rays told on their own.
@@ -94,7 +94,7 @@ struct IrradianceField::State {
 
   /// Has the passes of this update run where the world is. What moves from the one to the other
   /// takes its light along; its surfels are found anew.
-  void move_to(const World& world);
+  void move_to(const World& world, UpdateStatistics& statistics);
   /// Brings light and told, or the store's tiles, up to date.
   void fetch_light();
   void fetch_store() const;
@@ -132,6 +132,9 @@ struct IrradianceField::State {
                std::span<vec4> tiles) const;
   /// Says what each probe is for, with what moves where it is now.
   void classify(const World& world);
+  /// For hybrid visibility: finds which probes of the cells around some see each other. Returns the
+  /// rays traced.
+  std::uint64_t look_across_cells(const World& world, std::span<const int> probes);
   VisibilityRays visibility(const World& world) const {
     return {settings.visibility, &world.tracer(), &sights};
   }

@@ -18,9 +18,6 @@ using vulkan::Recorder;
 // Rays in memory at a time: enough to fill any device, few enough to stay small (about 40 MB).
 constexpr int kMostRays = 1 << 18;
 
-// Queries of the host answered at a time, likewise.
-constexpr std::size_t kQueriesAtATime = 1 << 20;
-
 // The sum of what is sent back, in whole numbers: rounding to the nearest adds up to less than what
 // is left to 2^32.
 constexpr double kMostSent = 2147483648.0;
@@ -43,6 +40,19 @@ std::vector<DeviceGroup> groups_of_rays(const DeviceField& field, const DevicePr
   }
   return groups;
 }
+
+/// Rays that passes trace beside those of probes.
+struct RayCounts {
+  explicit RayCounts(const vulkan::Device& device)
+      : shadows(device, sizeof(uint), vulkan::Memory::readback, "shadow rays"),
+        lookups(device, sizeof(uint), vulkan::Memory::readback, "rays of lookups") {}
+
+  std::uint64_t sum() const {
+    return std::uint64_t{shadows.as<uint>().front()} + lookups.as<uint>().front();
+  }
+
+  Buffer shadows, lookups;
+};
 
 /// Fills in what a pass took, by its name.
 void book(const std::vector<vulkan::DevicePassTime>& times, DeviceTraced& traced) {
@@ -160,7 +170,7 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
   field_.reserve_seen(list);
   field_.reserve_transport(list);
   solver_.reserve(list);
-  const Buffer shadow_rays(*device_, sizeof(uint), vulkan::Memory::readback, "shadow rays");
+  const RayCounts counts(*device_);
 
   const float largest = *std::max_element(shares.begin(), shares.end());
   vulkan::Timestamps timestamps(*device_,
@@ -168,12 +178,13 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
     record_tracing(to, *tracing.world.on_device(), list, /*seen=*/true);
-    shading_.take_ray_count(to, shadow_rays);
+    shading_.take_ray_count(to, counts.shadows);
     to.begin_pass("blend");
     field_.record_blend_distances(to, list, {share_buffer.address()}, tracing.salt);
     to.end_pass();
     to.begin_pass("shade");
-    field_.record_lookups(to, list);
+    field_.record_lookups(to, list, &tracing.world.on_device()->tracer());
+    field_.take_ray_count(to, counts.lookups);
     to.end_pass();
     to.begin_pass("relight");
     if (tracing.max_bounces >= 0) {
@@ -190,7 +201,7 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
     to.end_pass();
   });
   book(timestamps.read(), traced);
-  traced.shadow_rays = shadow_rays.as<uint>().front();
+  traced.shadow_rays = counts.sum();
   traced.solve = solver_.result();
   const std::span<const LightChange> found = changes.as<LightChange>();
   for (const std::size_t position : list.position) traced.changes.push_back(found[position]);
@@ -221,35 +232,25 @@ DeviceTraced FieldVulkan::retrace(const World& world, std::span<const int> probe
   }
   reserve_rays(most_rays, list.probes.size());
   vulkan::write<uint>(*device_, first_indices, first_indices_);
-  const Buffer shadow_rays(*device_, sizeof(uint), vulkan::Memory::readback, "shadow rays");
+  const RayCounts counts(*device_);
   vulkan::Timestamps timestamps(*device_,
                                 static_cast<std::uint32_t>(2 * most_groups) + kTimedPasses);
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
     field_.record_distances_before(to, list);
     record_tracing(to, *world.on_device(), list, /*seen=*/false);
-    shading_.take_ray_count(to, shadow_rays);
+    shading_.take_ray_count(to, counts.shadows);
     to.begin_pass("blend");
     field_.record_move_distances(to, list, salt);
     to.end_pass();
     to.begin_pass("shade");
-    field_.record_lookups(to, everyone);
+    field_.record_lookups(to, everyone, &world.on_device()->tracer());
+    field_.take_ray_count(to, counts.lookups);
     to.end_pass();
   });
   book(timestamps.read(), traced);
-  traced.shadow_rays = shadow_rays.as<uint>().front();
+  traced.shadow_rays = counts.sum();
   return traced;
-}
-
-std::uint64_t FieldVulkan::find_lookups(const World&, std::span<const int> probes) {
-  std::vector<int> traced;
-  for (const int probe : probes) {
-    if (field_.rays_of(probe)) traced.push_back(probe);
-  }
-  if (traced.empty()) return 0;
-  const DeviceProbes list = field_.list(traced);
-  device_->run([&](Recorder& to) { field_.record_lookups(to, list); });
-  return 0;
 }
 
 DeviceSolve FieldVulkan::solve(std::span<const int> probes, std::span<const float> shares,
@@ -351,30 +352,6 @@ std::vector<float> FieldVulkan::send_back(std::span<const float> received, float
     sent[i] = static_cast<float>(taken.as<std::uint32_t>()[i]) / scale;
   }
   return sent;
-}
-
-void FieldVulkan::irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const {
-  for (std::size_t first = 0; first < queries.size(); first += kQueriesAtATime) {
-    const std::size_t count = std::min(kQueriesAtATime, queries.size() - first);
-    const Buffer asked = host_buffer(*device_, queries.subspan(first, count), "queries");
-    const Buffer answers(*device_, count * sizeof(vec3), vulkan::Memory::readback, "answers");
-    device_->run([&](Recorder& to) {
-      record_lookups(to, asked.address(), static_cast<std::uint32_t>(count), answers.address());
-    });
-    std::copy_n(answers.as<vec3>().begin(), count, result.begin() + first);
-  }
-}
-
-void FieldVulkan::record_lookups(Recorder& recorder, std::uint64_t queries, std::uint32_t count,
-                                 std::uint64_t irradiance) const {
-  field_.record_lookup(recorder, {queries}, count, {irradiance});
-}
-
-std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
-                                               const ProbeStore& store) {
-  // Lookups that ask rays are found on the host, which asks the device for the rays
-  if (settings.visibility != Visibility::moments) return nullptr;
-  return std::make_unique<FieldVulkan>(world, settings, store);
 }
 
 }  // namespace lambent

@@ -29,6 +29,7 @@ class FieldVulkan final : public FieldDevice {
 
   DeviceTraced trace(const DeviceTracing& tracing) override;
   DeviceTraced retrace(const World& world, std::span<const int> probes, uint salt) override;
+  std::uint64_t look(const World& world, std::span<const int> cells) override;
   std::uint64_t find_lookups(const World& world, std::span<const int> probes) override;
   void forget_surfels(std::span<const int> probes) override { field_.set_rays(probes, nullptr); }
 
@@ -40,9 +41,10 @@ class FieldVulkan final : public FieldDevice {
   std::vector<double> direct_light(std::span<const int> probes) override;
 
   std::vector<float> send_back(std::span<const float> received, float least) override;
-  void irradiance(std::span<const FieldQuery> queries, std::span<vec3> result) const override;
-  void record_lookups(vulkan::Recorder& recorder, std::uint64_t queries, std::uint32_t count,
-                      std::uint64_t irradiance) const override;
+  void irradiance(std::span<const FieldQuery> queries, const World* world,
+                  std::span<vec3> result) const override;
+  void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
+                      std::uint32_t count, std::uint64_t irradiance) const override;
 
   std::size_t surfel_bytes() const override { return field_.surfel_bytes(); }
 

@@ -10,22 +10,30 @@
 //       linear irradiance [W/m^2], bilinear
 // In C++ it is included in the body of a struct that has these as members.
 
+/// Where a probe stands.
+LAMBENT_FN vec3 placed_probe(ProbeGrid grid, ivec3 coords) {
+  return grid_position(grid, vec3(coords) + fetch_offset(probe_index(grid, coords)));
+}
+
+/// The cosine between a surface's normal and the direction to a probe.
+LAMBENT_FN float probe_cosine(vec3 probe_ws, vec3 position_ws, vec3 normal_ws) {
+  vec3 to_probe = probe_ws - position_ws;
+  return dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
+}
+
 /// How much a probe counts for a point with a normal, before trilinear interpolation. `biased_ws`
 /// is where visibility is asked.
 LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, vec3 normal_ws,
                                vec3 biased_ws) {
-  int probe = probe_index(grid, coords);
-  vec3 probe_ws = grid_position(grid, vec3(coords) + fetch_offset(probe));
+  vec3 probe_ws = placed_probe(grid, coords);
 
   // Ask the probe how far it sees along the direction to the biased point
   vec3 from_probe = biased_ws - probe_ws;
   float dist = max(length(from_probe), kMinProbeDistance);
-  vec2 moments = fetch_moments(grid, probe, from_probe);
+  vec2 moments = fetch_moments(grid, probe_index(grid, coords), from_probe);
 
   // Weigh it by visibility and by its side of the surface
-  vec3 to_probe = probe_ws - position_ws;
-  float cos_probe = dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
-  return probe_weight(cos_probe, moments, dist);
+  return probe_weight(probe_cosine(probe_ws, position_ws, normal_ws), moments, dist);
 }
 
 /// Irradiance at a point with a normal, seen from `to_viewer_ws`, as the probes of one volume have

@@ -48,6 +48,13 @@ std::vector<int> IrradianceField::State::place(const World& world, std::span<con
   return moved;
 }
 
+std::uint64_t IrradianceField::State::look_across_cells(const World& world,
+                                                        std::span<const int> probes) {
+  if (settings.visibility != Visibility::hybrid) return 0;
+  const std::vector<int> cells = cells_around(store, probes);
+  return device ? device->look(world, cells) : sights.look(world.tracer(), store, cells);
+}
+
 void IrradianceField::State::settle_in(const World& world, std::span<const int> moved,
                                        UpdateStatistics& statistics) {
   // Without surfels they follow no edit any more
@@ -61,12 +68,11 @@ void IrradianceField::State::settle_in(const World& world, std::span<const int> 
     device->set_places(store);
     device->forget_surfels(moved);
     device->set_distances(store, moved);
+    statistics.shadow_rays += look_across_cells(world, moved);
     statistics.shadow_rays += device->find_lookups(world, traced);
     return;
   }
-  if (settings.visibility == Visibility::hybrid) {
-    statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, moved));
-  }
+  statistics.shadow_rays += look_across_cells(world, moved);
   statistics.shadow_rays += find_surfel_lookups(
       store, visibility(world), probes_reading(moved, traced, store, traces), traces);
 }

@@ -68,7 +68,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   std::vector<int> all(records.size());
   std::iota(all.begin(), all.end(), 0);
   find_reaches(world, all);
-  if (settings.visibility == Visibility::hybrid) sights.look(world.tracer(), store, all);
+  look_across_cells(world, all);
 }
 
 /// A volume as a file holds it: probes in the order of the grid, wherever they are in memory.

@@ -35,7 +35,7 @@ void IrradianceField::State::inherit(std::span<const int> probes, std::span<cons
         queries[t] = {places_ws[k], direction, direction};
       }
       if (device) {
-        device->irradiance(queries, irradiance);
+        device->irradiance(queries, nullptr, irradiance);
       } else {
         lookup_irradiance(store, {}, queries, irradiance);
       }

@@ -170,10 +170,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   for (const TraceGroup& group : groups) {
     statistics.shadow_rays += shade_surfels(world, store, group, settings, traces);
   }
-  if (settings.visibility == Visibility::hybrid) {
-    statistics.shadow_rays +=
-        sights.look(world.tracer(), store, cells_around(store, traced.probes));
-  }
+  statistics.shadow_rays += look_across_cells(world, traced.probes);
   statistics.shadow_rays += find_surfel_lookups(store, visibility(world), traced.probes, traces);
   statistics.shade_ms += watch.lap();
 
@@ -214,7 +211,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   State& s = *state_;
   UpdateStatistics statistics;
   Stopwatch watch;
-  s.move_to(world);
+  s.move_to(world, statistics);
   std::uint64_t budget = request.ray_budget;
   if (request.time_budget_ms > 0.0) {
     const std::uint64_t learned = s.ray_cost.rays_within(request.time_budget_ms);

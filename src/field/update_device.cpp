@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The part of an update that runs on a device, and what it takes to come there and back.
+#include <numeric>
 #include <utility>
 
 #include "core/stopwatch.h"
@@ -8,7 +9,7 @@
 
 namespace lambent {
 
-void IrradianceField::State::move_to(const World& world) {
+void IrradianceField::State::move_to(const World& world, UpdateStatistics& statistics) {
   const bool on_device = world.on_device() != nullptr;
   if (on_device && device && device->is_on(world)) return;
   if (!on_device && !device) return;
@@ -26,11 +27,16 @@ void IrradianceField::State::move_to(const World& world) {
   agenda.changed_all();
   edits = {};
   late_sleepers.clear();
-  if (!on_device) return;
-  device = make_field_device(world, settings, store);
-  if (!device) return;
-  device->write_store(store);
-  device->write_light(light, told);
+  if (on_device) device = make_field_device(world, settings, store);
+  if (device) {
+    device->write_store(store);
+    device->write_light(light, told);
+  }
+  // Nothing has been placed before the first update
+  if (updates == 0) return;
+  std::vector<int> all(records.size());
+  std::iota(all.begin(), all.end(), 0);
+  statistics.shadow_rays += look_across_cells(world, all);
 }
 
 void IrradianceField::State::fetch_light() {
@@ -47,7 +53,10 @@ void IrradianceField::State::fetch_store() const {
 
 void IrradianceField::State::trace_on_device(const World& world, std::span<const TraceGroup> groups,
                                              UpdateStatistics& statistics) {
+  Stopwatch watch;
   const TracedProbes traced = shares_of(groups);
+  statistics.shadow_rays += look_across_cells(world, traced.probes);
+  statistics.shade_ms += watch.lap();
   if (!light_behind) device->write_light(light, told);
   const DeviceTraced found = device->trace(
       {world, groups, traced.shares, relight_settings(), settings.max_bounces, darkest(), salt()});

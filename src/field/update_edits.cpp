@@ -124,9 +124,7 @@ void IrradianceField::State::follow_slice(const World& world, std::span<const Wo
   const std::vector<double> direct_before = direct_light(probes);
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
-  if (settings.visibility == Visibility::hybrid && shapes_differ) {
-    statistics.shadow_rays += sights.look(world.tracer(), store, cells_around(store, probes));
-  }
+  if (shapes_differ) statistics.shadow_rays += look_across_cells(world, probes);
   const FollowedEdits followed = follow_surfels(world, changes, probes, all);
   statistics.probe_rays += followed.probe_rays;
   statistics.shadow_rays += followed.shadow_rays;

@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "core/parallel.h"
-#include "field/lookup.h"
+#include "field/visibility_math.h"
 
 namespace lambent {
 namespace {
@@ -14,11 +14,14 @@ namespace {
 constexpr int kCorners = kCellCorners;
 constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
 constexpr std::size_t kCellsPerTask = 64;
-constexpr std::size_t kPairs = kCorners * (kCorners - 1) / 2;
 
-// Where a probe's distances let so small a share through, and the probe that matters most does not
-// see it, it is hidden; a larger share is worth a ray.
-constexpr float kWorthARay = 0.05f;
+Ray to_ray(const RayRecord& ray) {
+  return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
+}
+
+std::uint64_t sight(int corner, int other) {
+  return std::uint64_t{1} << sight_bit(corner, other);
+}
 
 /// A ray that decides whether a corner counts.
 struct Question {
@@ -38,9 +41,7 @@ class CornerRays {
     const vec3 start =
         biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
     const int probe = base + store_.corner_table()[table].probe[corner];
-    const vec3 way = store_.probe_position_ws(probe) - start;
-    const float distance = max(length(way), kMinProbeDistance);
-    rays_.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
+    rays_.push_back(to_ray(sight_ray(start, store_.probe_position_ws(probe))));
     questions_.push_back({index, corner});
   }
 
@@ -63,41 +64,27 @@ class CornerRays {
   std::vector<std::uint8_t> occluded_;
 };
 
-/// Scales weights to a sum of 1. False where there are none.
-bool normalize_weights(CornerWeights& weights) {
-  float sum = 0.0f;
-  for (const float weight : weights.weight) sum += weight;
-  if (!(sum > 0.0f)) return false;
-  for (float& weight : weights.weight) weight /= sum;
-  return true;
-}
-
 /// A ray to each corner that could count.
 std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer& tracer,
                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   CornerRays rays(store, volume);
   std::vector<CornerTerms> terms(queries.size());
+  std::vector<CornerWeights> seen(queries.size());
   corner_terms(store, volume, queries, terms);
   for (std::size_t i = 0; i < queries.size(); ++i) {
+    seen[i] = {terms[i].base, terms[i].table, {}};
     for (int k = 0; k < kCorners; ++k) {
-      if (terms[i].trilinear[k] * terms[i].wrap[k] <= 0.0f) continue;
-      terms[i].visibility[k] = 1.0f;
-      rays.ask(queries[i], terms[i].base, terms[i].table, i, k);
+      seen[i].weight[k] = seen_weight(terms[i].trilinear[k], terms[i].wrap[k]);
+      if (seen[i].weight[k] > 0.0f) rays.ask(queries[i], terms[i].base, terms[i].table, i, k);
     }
   }
-  const std::uint64_t traced = rays.answer(tracer, [&](const Question& question) {
-    terms[question.query].visibility[question.corner] = 0.0f;
-  });
+  const std::uint64_t traced =
+      rays.answer(tracer, [&](const Question& q) { seen[q.query].weight[q.corner] = 0.0f; });
 
   // Where no probe is seen, distances decide
   corner_weights(store, volume, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    CornerWeights seen{terms[i].base, terms[i].table, {}};
-    for (int k = 0; k < kCorners; ++k) {
-      if (terms[i].wrap[k] * terms[i].visibility[k] <= 0.0f) continue;
-      seen.weight[k] = terms[i].trilinear[k] * combined_weight(terms[i].wrap[k], 1.0f);
-    }
-    if (normalize_weights(seen)) result[i] = seen;
+    if (scale_weights(seen[i], 1.0f) != 0) result[i] = seen[i];
   }
   return traced;
 }
@@ -111,14 +98,11 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const std::uint64_t cell = by.sights->of_cell(result[i].base);
     if (cell == kAllSeen) continue;
-    float(&weight)[kCorners] = result[i].weight;
-    const auto first = std::max_element(weight, weight + kCorners) - weight;
-    const std::uint64_t seen = cell >> (8 * first);
+    const auto seen = static_cast<uint>(cell >> sight_bit(heaviest_corner(result[i]), 0));
+    const CornerDoubts doubts = doubtful_corners(result[i], seen, 1.0f);
     for (int k = 0; k < kCorners; ++k) {
-      if (((seen >> k) & 1u) != 0 || weight[k] <= 0.0f) continue;
-      if (weight[k] < kWorthARay) {
-        weight[k] = 0.0f;
-      } else {
+      if (((doubts.hidden >> k) & 1u) != 0) result[i].weight[k] = 0.0f;
+      if (((doubts.asked >> k) & 1u) != 0) {
         rays.ask(queries[i], result[i].base, result[i].table, i, k);
       }
     }
@@ -128,7 +112,7 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
     result[question.query].weight[question.corner] = 0.0f;
   });
   // The most important corner always remains
-  for (const std::size_t i : checked) normalize_weights(result[i]);
+  for (const std::size_t i : checked) scale_weights(result[i], 1.0f);
   return traced;
 }
 
@@ -139,7 +123,7 @@ ProbeSights::ProbeSights(int probes) : cells_(probes, kAllSeen) {}
 std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store,
                                 std::span<const int> probes) {
   std::atomic<std::uint64_t> traced = 0;
-  const std::size_t batch = batch_of(tracer, kPairs, kCellsPerTask);
+  const std::size_t batch = batch_of(tracer, kCellPairs, kCellsPerTask);
   parallel_chunks(probes.size(), batch, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
     std::vector<std::uint64_t> pairs;
@@ -156,10 +140,9 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
       for (int i = 0; i < kCorners; ++i) {
         const vec3 start = store.probe_position_ws(base + offsets.probe[i]);
         for (int k = i + 1; k < kCorners; ++k) {
-          const vec3 way = store.probe_position_ws(base + offsets.probe[k]) - start;
-          const float distance = max(length(way), kMinProbeDistance);
-          rays.push_back({start, 0.0f, way / distance, distance, kRayOfProbe});
-          pairs.push_back(std::uint64_t{1} << (8 * i + k) | std::uint64_t{1} << (8 * k + i));
+          const vec3 other = store.probe_position_ws(base + offsets.probe[k]);
+          rays.push_back(to_ray(sight_ray(start, other)));
+          pairs.push_back(sight(i, k) | sight(k, i));
           cells.push_back(base);
         }
       }
@@ -175,19 +158,19 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
 }
 
 std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes) {
-  std::vector<int> cells;
+  std::vector<std::uint8_t> has_one(store.probes(), 0);
   for (const int probe : probes) {
     const ProbeGrid& grid = store.grid_of(probe);
-    const ivec3 coords = probe_coords(grid, probe);
+    const ivec3 coords = probe_coords(grid, probe), last = grid.count - ivec3(2);
     for (int k = 0; k < kCorners; ++k) {
       const ivec3 base = coords - cell_corner(k);
-      if (glm::all(glm::greaterThanEqual(base, ivec3(0)))) {
-        cells.push_back(probe_index(grid, base));
-      }
+      if (base == clamp(base, ivec3(0), last)) has_one[probe_index(grid, base)] = 1;
     }
   }
-  std::sort(cells.begin(), cells.end());
-  cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  std::vector<int> cells;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (has_one[probe] != 0) cells.push_back(probe);
+  }
   return cells;
 }
 

@@ -50,6 +50,14 @@ class Twins {
     ASSERT_TRUE(there.update());
   }
 
+  /// Away from the lattice that cascades keep to: whether a probe on a wall sees it is chance.
+  void leave_lattice() {
+    for (Instance& instance : scene.instances) {
+      instance.world_from_object[3] += vec4(0.037f, 0.041f, 0.043f, 0.0f);
+    }
+    edited();
+  }
+
   void update(const UpdateRequest& request = {}) {
     on_cpu = cpu->update(here, request);
     on_device = device_field->update(there, request);
@@ -152,11 +160,7 @@ TEST_F(FieldOverTime, FollowsTheViewerAlike) {
   settings.probe_spacing = 0.15f;
   settings.rays_per_probe = 32;
   Twins twins("cornell", settings, shared_device());
-  // Away from the lattice that cascades keep to: whether a probe on a wall sees it is chance
-  for (Instance& instance : twins.scene.instances) {
-    instance.world_from_object[3] += vec4(0.037f, 0.041f, 0.043f, 0.0f);
-  }
-  twins.edited();
+  twins.leave_lattice();
   UpdateRequest request;
   for (int i = 0; i < 4; ++i) {
     request.viewer_ws = vec3(0.2f + 0.1f * static_cast<float>(i), 0.25f, 0.3f);
@@ -167,10 +171,48 @@ TEST_F(FieldOverTime, FollowsTheViewerAlike) {
 }
 
 TEST_F(FieldOverTime, SeesByRaysAlike) {
+  for (const Visibility visibility : {Visibility::hybrid, Visibility::exact}) {
+    FieldSettings settings = small();
+    settings.visibility = visibility;
+    Twins twins("two-rooms", settings, shared_device());
+    for (int i = 0; i < 2; ++i) twins.update();
+    EXPECT_NE(twins.device_field->on_device(), nullptr);
+    EXPECT_LE(twins.difference(), kTolerance);
+    EXPECT_NEAR(static_cast<double>(twins.on_device.shadow_rays),
+                static_cast<double>(twins.on_cpu.shadow_rays),
+                kTolerance * static_cast<double>(twins.on_cpu.shadow_rays));
+  }
+}
+
+TEST_F(FieldOverTime, SeesMovedBoxesByRaysAlike) {
   FieldSettings settings = small();
   settings.visibility = Visibility::hybrid;
-  Twins twins("two-rooms", settings, shared_device());
+  Twins twins("cornell", settings, shared_device());
+  twins.scene.instances.back().dynamic = true;
+  twins.edited();
   for (int i = 0; i < 2; ++i) twins.update();
+  twins.scene.instances.back().world_from_object[3].x += 0.15f;
+  twins.edited();
+  for (int i = 0; i < 2; ++i) {
+    twins.update();
+    EXPECT_LE(twins.difference(), kTolerance);
+  }
+}
+
+TEST_F(FieldOverTime, SeesByRaysInCascadesAlike) {
+  FieldSettings settings;
+  settings.cascades = 2;
+  settings.probe_count = {4, 4, 4};
+  settings.probe_spacing = 0.31f;
+  settings.rays_per_probe = 32;
+  settings.visibility = Visibility::hybrid;
+  Twins twins("two-rooms", settings, shared_device());
+  twins.leave_lattice();
+  UpdateRequest request;
+  for (int i = 0; i < 3; ++i) {
+    request.viewer_ws = vec3(0.2f + 0.3f * static_cast<float>(i), 0.25f, 0.3f);
+    twins.update(request);
+  }
   EXPECT_LE(twins.difference(), kTolerance);
 }
 

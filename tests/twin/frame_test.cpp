@@ -91,6 +91,12 @@ TEST_F(Frame, OfTheAtriumIsTheSame) {
   expect_alike(render_both(small("atrium")));
 }
 
+TEST_F(Frame, SeenByRaysIsTheSame) {
+  Job job = small("two-rooms");
+  job.field.visibility = Visibility::hybrid;
+  expect_alike(render_both(job));
+}
+
 TEST_F(Frame, WithGatheredLightIsTheSame) {
   Job job = small("cornell");
   job.frame.width = 24;
