@@ -15,3 +15,13 @@ function(lambent_compile_options target)
     target_link_options(${target} PUBLIC -fsanitize=${LAMBENT_SANITIZE})
   endif()
 endfunction()
+
+# Headers that most files of a target include, compiled once, where LAMBENT_PRECOMPILE says so. Builds without show what
+# a file forgets to include. With `CLANG` for that compiler alone: through precompiled headers GCC 12 warns of its own
+# library.
+function(lambent_precompile target)
+  cmake_parse_arguments(PARSE_ARGV 1 argument "CLANG" "" "")
+  if(LAMBENT_PRECOMPILE AND (NOT argument_CLANG OR CMAKE_CXX_COMPILER_ID MATCHES Clang))
+    target_precompile_headers(${target} PRIVATE ${argument_UNPARSED_ARGUMENTS})
+  endif()
+endfunction()

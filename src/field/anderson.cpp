@@ -2,20 +2,20 @@
 #include "field/anderson.h"
 
 #include <Eigen/Dense>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "core/parallel.h"
+#include "field/anderson_math.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kTexelsPerTask = 16384;
 
-// Steps that the iteration looks back on: more gain little and cost memory.
-constexpr std::size_t kDepth = 3;
-// Keeps the small system solvable when steps are almost parallel; relative to the largest squared
-// step.
+constexpr std::size_t kDepth = kAndersonDepth;
+// As kAndersonRidge, to more digits.
 constexpr double kRidge = 1e-10;
 
 }  // namespace
@@ -50,6 +50,7 @@ void AndersonMemory::push(WorkingIrradiance residual_change, WorkingIrradiance i
 
 void AndersonMemory::extrapolate(const WorkingIrradiance& residual, WorkingIrradiance& next) const {
   const auto steps = static_cast<Eigen::Index>(residual_changes_.size());
+  assert(static_cast<float>(kRidge) == kAndersonRidge);
   if (steps == 0) return;
   Eigen::MatrixXd gram(steps, steps);
   Eigen::VectorXd projection(steps);

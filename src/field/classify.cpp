@@ -30,7 +30,7 @@ ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position, cons
   ProbeReach reach;
   reach.in_solid_matter = in_solid_matter(sights);
   for (const Sight& sight : sights) {
-    if (sight.missed()) continue;
+    if (missed(sight)) continue;
     const vec3 cells = abs((position + sight.distance * sight.direction - home) / spacing);
     if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kReachSlack) reach.lights_surface = true;
   }

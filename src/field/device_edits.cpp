@@ -20,6 +20,10 @@ void DeviceField::record_see_surfels(vulkan::Recorder& to, const DeviceProbes& l
   to.barrier();
 }
 
+void DeviceField::record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list) {
+  record_see_surfels(to, list, {seen_.address()}, {blocked_.address()});
+}
+
 void DeviceField::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
   const int stride = round_up(list.most_rays, kClusterLanes);
@@ -30,7 +34,7 @@ void DeviceField::record_distances_before(vulkan::Recorder& to, const DeviceProb
 }
 
 void DeviceField::record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint salt) {
-  record_see_surfels(to, list, {seen_.address()}, {blocked_.address()});
+  record_seen_surfels(to, list);
   const int edge = settings_.distance_texels;
   const MoveDistancesArguments arguments = {store(),
                                             arrays(list),

@@ -108,7 +108,6 @@ void DeviceField::read_store(ProbeStore& store) const {
                 vulkan::download<uint>(device_, distance_));
 }
 
-/// Makes room for so many surfels a probe; those that there are stay.
 void DeviceField::reserve_surfels(int rays) {
   if (rays <= stride_) return;
   const auto slots = static_cast<std::size_t>(probes_) * rays;
@@ -201,22 +200,37 @@ int DeviceField::slot_for(const std::shared_ptr<const RaySet>& rays) {
   return empty;
 }
 
-void DeviceField::fill_weights(RaySlot& slot) const {
-  const std::vector<vec3>& directions = slot.rays->directions;
-  const int rays = slot.rays->rays(), rows = round_up(rays, kClusterLanes);
-  slot.directions = vulkan::upload(device_, directions, "directions of rays");
-  const auto fill = [&](vulkan::Recorder& to, int edge, int block, float exponent,
-                        vulkan::Buffer& weights) {
-    const int columns = round_up(edge * edge, block);
-    weights = vulkan::Buffer(device_, sizeof(float) * rows * columns, vulkan::Memory::device,
-                             "weights of rays");
-    const BlendWeightsArguments arguments = {
-        {slot.directions.address()}, {weights.address()}, rays, columns, edge, exponent};
+std::size_t DeviceField::irradiance_weight_bytes(int rays) const {
+  return sizeof(float) * round_up(rays, kClusterLanes) * round_up(tile_texels(), kIrradianceBlock);
+}
+
+std::size_t DeviceField::distance_weight_bytes(int rays) const {
+  const int texels = settings_.distance_texels * settings_.distance_texels;
+  return sizeof(float) * round_up(rays, kClusterLanes) * round_up(texels, kDistanceBlock);
+}
+
+void DeviceField::record_weights(vulkan::Recorder& to, Vec3Array directions, int rays,
+                                 FloatArray irradiance, FloatArray distance) const {
+  const auto fill = [&](int edge, int block, float exponent, FloatArray weights) {
+    const int rows = round_up(rays, kClusterLanes), columns = round_up(edge * edge, block);
+    const BlendWeightsArguments arguments = {directions, weights, rays, columns, edge, exponent};
     to.run(kernels_.blend_weights, arguments, columns, rows);
   };
+  fill(settings_.irradiance_texels, kIrradianceBlock, 1.0f, irradiance);
+  fill(settings_.distance_texels, kDistanceBlock, kDistanceExponent, distance);
+  to.barrier();
+}
+
+void DeviceField::fill_weights(RaySlot& slot) const {
+  const int rays = slot.rays->rays();
+  slot.directions = vulkan::upload(device_, slot.rays->directions, "directions of rays");
+  slot.irradiance_weights = vulkan::Buffer(device_, irradiance_weight_bytes(rays),
+                                           vulkan::Memory::device, "weights of rays");
+  slot.distance_weights = vulkan::Buffer(device_, distance_weight_bytes(rays),
+                                         vulkan::Memory::device, "weights of rays");
   device_.run([&](vulkan::Recorder& to) {
-    fill(to, settings_.irradiance_texels, kIrradianceBlock, 1.0f, slot.irradiance_weights);
-    fill(to, settings_.distance_texels, kDistanceBlock, kDistanceExponent, slot.distance_weights);
+    record_weights(to, {slot.directions.address()}, rays, {slot.irradiance_weights.address()},
+                   {slot.distance_weights.address()});
   });
 }
 

@@ -26,6 +26,7 @@ struct DeviceProbes {
   int most_rays = 0;                  ///< Of any of them.
   int block_count = 0;
   vulkan::Buffer indices, ray_sets, blocks;
+  RaySetArray sets;  ///< What ray_sets point into; none where its address is 0: the field's own.
 
   int count() const { return static_cast<int>(probes.size()); }
   IntArray index_array() const { return {indices.address()}; }
@@ -71,6 +72,16 @@ class DeviceField {
   int lookups_per_surfel() const { return lookups_; }
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
 
+  // What the store consists of.
+  StoreArrays store() const;
+  const vulkan::Buffer& grids() const { return grids_; }
+  const vulkan::Buffer& offsets() const { return offsets_; }
+  const vulkan::Buffer& irradiance() const { return irradiance_; }
+  const vulkan::Buffer& distance() const { return distance_; }
+  /// Of all probes, so many each.
+  SurfelArray surfels() const { return {surfels_.address()}; }
+  int surfel_stride() const { return stride_; }
+
   // Up and down. None may be called while the device works with the field.
 
   /// Where probes stand: grids and offsets.
@@ -97,6 +108,17 @@ class DeviceField {
   /// A list of probes that have rays.
   DeviceProbes list(std::span<const int> probes) const;
 
+  // For rays that the caller keeps, in lists that the caller makes.
+
+  /// Makes room for so many surfels a probe; those that there are stay.
+  void reserve_surfels(int rays);
+  /// Bytes of the matrices of so many rays.
+  std::size_t irradiance_weight_bytes(int rays) const;
+  std::size_t distance_weight_bytes(int rays) const;
+  /// Fills the matrices of rays.
+  void record_weights(vulkan::Recorder& to, Vec3Array directions, int rays, FloatArray irradiance,
+                      FloatArray distance) const;
+
   // Passes.
 
   /// As trace_probe_rays: the rays of a group, count x rays.
@@ -111,6 +133,8 @@ class DeviceField {
                              const DeviceGroup& group, HitArray hits);
   void record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list, FloatArray shares,
                               uint salt);
+  /// The first part of all of a list's rays, from their surfels.
+  void record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list);
   /// Makes room for what a list's rays see: before the former are recorded.
   void reserve_seen(const DeviceProbes& list);
   /// Moves the stored distances of a list's probes by as much as those of their surfels changed
@@ -164,7 +188,6 @@ class DeviceField {
   int slot_for(const std::shared_ptr<const RaySet>& rays);
   void fill_weights(RaySlot& slot) const;
   void write_sets();
-  void reserve_surfels(int rays);
   void record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list, FloatArray seen,
                           UintArray blocked) const;
   void record_gutters(vulkan::Recorder& to, UintArray words, IntArray probes, int count, int texels,
@@ -172,7 +195,6 @@ class DeviceField {
   void record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                              Vec3Array irradiance, const DeviceTracer& tracer) const;
   ProbeList arrays(const DeviceProbes& list, int first = 0) const;
-  StoreArrays store() const;
 
   const vulkan::Device& device_;
   FieldSettings settings_;

@@ -34,9 +34,7 @@
 #include "vulkan/device.h"
 
 namespace lambent {
-namespace {
 
-/// The constants of shaders/tiles.glsl.
 std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, int volumes,
                                                int lookups) {
   return {{{0, static_cast<std::uint32_t>(settings.irradiance_texels)},
@@ -46,6 +44,8 @@ std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, in
            {4, static_cast<std::uint32_t>(volumes)},
            {5, static_cast<std::uint32_t>(lookups)}}};
 }
+
+namespace {
 
 /// Kernels by their constants.
 template <class Kernels>

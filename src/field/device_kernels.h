@@ -2,6 +2,8 @@
 // The kernels of a field's passes, made for the settings of one field.
 #pragma once
 
+#include <array>
+
 #include "lambent/field.h"
 #include "vulkan/kernel.h"
 
@@ -10,6 +12,10 @@ namespace lambent {
 // A surfel reads at most so many volumes; where more have a share in it, those asked first answer
 // for all. Cascades hand over to the next but one only within a cell or two.
 inline constexpr int kMaxSurfelLookups = 4;
+
+/// The constants of shaders/tiles.glsl.
+std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, int volumes,
+                                               int lookups);
 
 struct FieldKernels {
   /// Those for these settings, made once and kept by the device.

@@ -39,9 +39,10 @@ void run_groups(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Argume
 }  // namespace
 
 ProbeList DeviceField::arrays(const DeviceProbes& list, int first) const {
+  const RaySetArray own = {sets_.address()};
   return {indices_from(list, first),
           from<IntArray>(list.ray_sets, static_cast<std::size_t>(first), sizeof(int)),
-          {sets_.address()}};
+          list.sets.address != 0 ? list.sets : own};
 }
 
 StoreArrays DeviceField::store() const {

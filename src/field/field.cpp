@@ -27,7 +27,9 @@ std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes) {
   return grids;
 }
 
-Expected<void> check(const FieldSettings& s) {
+}  // namespace
+
+Expected<void> check_settings(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
   };
@@ -48,8 +50,6 @@ Expected<void> check(const FieldSettings& s) {
   if (!std::isfinite(s.texture_lod_bias)) return fail("", "texture LOD bias", "must be finite");
   return {};
 }
-
-}  // namespace
 
 IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
     : settings(field_settings),
@@ -74,7 +74,8 @@ IrradianceField& IrradianceField::operator=(IrradianceField&&) noexcept = defaul
 
 Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
                                                 const Bounds& scene_bounds) {
-  if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());
+  if (const Expected<void> fine = check_settings(settings); !fine)
+    return tl::unexpected(fine.error());
   const Expected<std::vector<Volume>> volumes = plan_volumes(settings, scene_bounds);
   if (!volumes) return tl::unexpected(volumes.error());
   return IrradianceField(std::make_unique<State>(settings, *volumes));

@@ -12,6 +12,7 @@ struct FieldRecord {
   int volumes;
   int unused;
 };
+LAMBENT_DEVICE_ARRAY(FieldRecordArray, FieldRecord, 8)
 
 LAMBENT_END
 #endif

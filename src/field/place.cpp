@@ -154,7 +154,7 @@ void IrradianceField::State::find_reaches(const World& world, std::span<const in
         probe_reach(around, store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
     if (!learn_distances) return;
     std::vector<SeenDistance> seen;
-    for (const Sight& sight : around) seen.push_back({sight.distance, sight.back_face});
+    for (const Sight& sight : around) seen.push_back({sight.distance, sight.back_face != 0});
     std::vector<vec2> moments(blend.texels());
     blend.moments(seen, max_probe_distance(grid), moments);
     store.blend_moments(probe, moments, 1.0f, salt());

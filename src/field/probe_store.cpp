@@ -12,6 +12,9 @@
 namespace lambent {
 namespace {
 
+// Keeps the random numbers of the store's dither apart from those of other passes.
+constexpr uint kStoreSalt = 0x53544F52u;
+
 std::size_t tile_texels(int texels) {
   return static_cast<std::size_t>(texels + 2) * (texels + 2);
 }
@@ -77,6 +80,10 @@ Value bilinear(const vec3& direction, int texels, Texel texel) {
 }
 
 }  // namespace
+
+uint store_salt(uint update, uint seed) {
+  return hash_pcg3d(uvec3(update, seed, kStoreSalt)).x;
+}
 
 ProbeStore::ProbeStore(std::span<const ProbeGrid> grids, const FieldSettings& settings)
     : grids_(grids.begin(), grids.end()),

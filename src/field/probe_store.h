@@ -14,6 +14,9 @@
 
 namespace lambent {
 
+/// Of the dither of an update's stores.
+uint store_salt(uint update, uint seed);
+
 /// Tiles of the probes of all volumes, probe after probe; a tile is (texels + 2)^2 texels, row
 /// after row, gutter included.
 class ProbeStore {

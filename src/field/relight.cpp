@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/simd.h"
+#include "field/anderson_math.h"
 #include "field/blend_math.h"
 #include "field/tile.h"
 
@@ -18,8 +19,8 @@ constexpr std::size_t kProbesPerTask = 16;
 constexpr std::size_t kProbesPerCopy = 512;
 constexpr std::size_t kTexelsPerTask = 16384;
 
-// The error estimate never assumes faster convergence than this, whatever two steps seem to say.
-constexpr double kMinContraction = 0.1;
+// As kMinContraction, to more digits.
+constexpr double kLeastContraction = 0.1;
 
 /// Calls body(k, first texel in the field, first texel among the probes') for each of the
 /// operator's probes.
@@ -251,6 +252,7 @@ RelightResult relight(const TransportOperator& transport, std::span<const float>
   if (size == 0) return result;
   const double share = *std::max_element(shares.begin(), shares.end());
   const double bound = share * settings.max_albedo;
+  assert(static_cast<float>(kLeastContraction) == kMinContraction);
   double observed = 0.0;
   double contraction = bound;
 
@@ -271,7 +273,7 @@ RelightResult relight(const TransportOperator& transport, std::span<const float>
       add_scaled(image_change, -1.0f, residual_change, change);
       const double change_norm = norm(change);
       if (change_norm > 0.0) observed = std::max(observed, norm(image_change) / change_norm);
-      contraction = std::min(bound, std::max(observed, kMinContraction));
+      contraction = std::min(bound, std::max(observed, kLeastContraction));
       memory.push(std::move(residual_change), std::move(image_change));
     }
 

@@ -18,43 +18,12 @@ namespace {
 
 // Enough that a wall half a cell away is met by several rays that face it.
 constexpr int kSights = 128;
-// Steps of one walk. Most probes stand well after two, those in corners after four.
-constexpr int kMaxSteps = 8;
 constexpr std::size_t kProbesPerTask = 16;
-
-// Probes stand in front of surfaces by this share of the smallest spacing. Nearer, their distances
-// towards grazing directions are too coarse to tell the near side of a wall from the far one
-// (behind a closed wall of 5 cm, probes 1 m apart: 0.14 % of the open door's light, against 0.58 %
-// at 0.1); farther, surfaces lie outside the probes' hull.
-constexpr float kSurfaceMargin = 0.15f;
-
-// Within this share of the margin a probe stands where it should: it never moves to and fro.
-constexpr float kMarginTolerance = 0.25f;
-
-// A surface's height is measured by rays that meet it at most this obliquely (cosine): it must pass
-// under the probe, not just lie in the same plane far away.
-constexpr float kMinFacingCosine = 0.7f;
-
-// Surfaces whose normals' cosine is below this count as facing different ways, as in a corner.
-constexpr float kMaxCornerCosine = 0.5f;
-
-// A corner's planes are at least this steep to each other, so that stepping along one's normal
-// without leaving the other divides by no less.
-constexpr float kMinSteepness = 0.5f;
-
-// Being in solid matter that can be left is worse than any place outside [margins].
-constexpr float kMatterUnrest = 100.0f;
 
 // Rays pass so many moving surfaces before they count as lost in them, and go on this share of the
 // way behind each.
 constexpr int kMaxMovingSurfaces = 8;
 constexpr float kPastSurface = 1e-5f;
-
-/// A surface that passes under the probe.
-struct Plane {
-  vec3 normal;   // unit, towards the probe
-  float height;  // of the probe over it [m]
-};
 
 bool is_moving(const Hit& hit, std::span<const std::uint8_t> moving) {
   return !hit.missed() && hit.instance < moving.size() && moving[hit.instance] != 0;
@@ -82,97 +51,61 @@ void look_through(const RayTracer& tracer, std::span<const std::uint8_t> moving,
   }
 }
 
-bool within_reach(const vec3& position, const vec3& home, const vec3& spacing) {
-  const vec3 cells = abs((position - home) / spacing);
-  return max(cells.x, max(cells.y, cells.z)) <= kMaxProbeOffset;
-}
-
-/// To just outside the solid matter, as near to home as rays have found a way.
-vec3 way_out(std::span<const Sight> sights, const vec3& position, const vec3& home,
-             const vec3& spacing, float margin) {
-  vec3 best = position;
-  float nearest = kInfiniteDistance;
-  for (const Sight& sight : sights) {
-    if (!sight.back_face) continue;
-    const vec3 outside = position + sight.distance * sight.direction - margin * sight.normal;
-    const float away = length(outside - home);
-    if (away >= nearest || !within_reach(outside, home, spacing)) continue;
-    nearest = away;
-    best = outside;
+/// What a probe sees, as relocate.inl.h asks for it.
+class Surroundings {
+ public:
+  explicit Surroundings(std::span<const Sight> sights) : sights_(sights) {
+    for (const Sight& sight : sights) {
+      if (passes_below(sight)) planes_.push_back(plane_below(sight));
+    }
+    std::stable_sort(planes_.begin(), planes_.end(),
+                     [](const PlaneBelow& a, const PlaneBelow& b) { return a.height < b.height; });
   }
-  return best;
-}
 
-/// The surfaces that pass under the probe, the nearest first.
-std::vector<Plane> planes_below(std::span<const Sight> sights) {
-  std::vector<Plane> planes;
-  for (const Sight& sight : sights) {
-    const float cosine = -dot(sight.direction, sight.normal);
-    if (sight.back_face || sight.missed() || cosine < kMinFacingCosine) continue;
-    planes.push_back({sight.normal, sight.distance * cosine});
+#include "field/relocate.inl.h"
+
+ private:
+  int sight_count() const {
+    return static_cast<int>(sights_.size());
   }
-  std::stable_sort(planes.begin(), planes.end(),
-                   [](const Plane& a, const Plane& b) { return a.height < b.height; });
-  return planes;
-}
-
-/// How far a probe may rise over a plane: to the middle between it and what is opposite [m].
-float room_above(std::span<const Plane> planes, const Plane& below) {
-  for (const Plane& plane : planes) {
-    if (dot(plane.normal, below.normal) > -kMaxCornerCosine) continue;
-    return max(0.0f, 0.5f * (plane.height - below.height));
+  const Sight& sight_at(int index) const {
+    return sights_[index];
   }
-  return kInfiniteDistance;
-}
+  int plane_count() const {
+    return static_cast<int>(planes_.size());
+  }
+  const PlaneBelow& plane_at(int rank) const {
+    return planes_[rank];
+  }
 
-/// Walks from where a probe stands towards better places and leaves it at the one it wants to leave
-/// least; then walks again from there, until no place is clearly better than the first: walking
-/// again would change nothing. As each walk that moves it leaves it with less unrest, it comes to
-/// rest even among clutter, where every step leads to another.
+  std::span<const Sight> sights_;
+  std::vector<PlaneBelow> planes_;
+};
+
+/// The walk of a probe.
 class Walk {
  public:
-  Walk(int probe, const ProbeStore& store) : probe_(probe) { begin(store); }
+  Walk(int probe, const ProbeStore& store)
+      : probe_(probe), walk_(begin_walk(store.probe_offset(probe))) {}
 
   int probe() const { return probe_; }
-  bool at_rest() const { return at_rest_; }
+  bool at_rest() const { return walk_.at_rest != 0; }
 
   /// One step, by what the probe sees from where it stands.
   void step(std::span<const Sight> sights, ProbeStore& store) {
     const ProbeGrid& grid = store.grid_of(probe_);
-    const float margin = kSurfaceMargin * smallest_spacing(grid);
     // Along the axes of the grid, seen from where the probe belongs
-    const vec3 position = store.probe_offset(probe_) * grid.spacing;
+    const vec3 offset = store.probe_offset(probe_), position = offset * grid.spacing;
     const vec3 better = better_position(sights, position, vec3(0.0f), grid.spacing);
-
-    // Compute how much the probe wants to leave, in margins
-    float unrest = length(better - position) / margin;
-    if (better != position && in_solid_matter(sights)) unrest += kMatterUnrest;
-    if (steps_ == 0 || unrest <= least_) {
-      best_ = store.probe_offset(probe_);
-      // Away from the first place only for something clearly better
-      least_ = steps_ == 0 ? unrest - kMarginTolerance : unrest;
-    }
-    if (better != position) {
-      store.set_probe_offset(probe_, better / grid.spacing);
-      if (++steps_ <= kMaxSteps) return;
-    }
-    store.set_probe_offset(probe_, best_);
-    at_rest_ = best_ == first_;
-    if (!at_rest_) begin(store);
+    const float unrest = probe_unrest(position, better, kSurfaceMargin * smallest_spacing(grid),
+                                      in_solid_matter(sights) ? 1u : 0u);
+    const vec3 there = better == position ? offset : better / grid.spacing;
+    store.set_probe_offset(probe_, step_walk(walk_, offset, there, unrest));
   }
 
  private:
-  void begin(const ProbeStore& store) {
-    first_ = best_ = store.probe_offset(probe_);
-    least_ = kInfiniteDistance;
-    steps_ = 0;
-  }
-
   int probe_;
-  int steps_ = 0;
-  vec3 first_, best_;
-  float least_ = kInfiniteDistance;
-  bool at_rest_ = false;
+  ProbeWalk walk_;
 };
 
 /// Walks with some probes at once, so that their rays go in large batches.
@@ -233,52 +166,25 @@ void look_around(const Scene& scene, const RayTracer& tracer, std::span<const Vi
     for (std::size_t i = begin; i < end; ++i) {
       const mat3& axes = viewpoints[i / directions.size()].axes;
       const vec3& direction = rays[i].direction;
-      sights[i] = {direction * axes, kInfiniteDistance, -direction * axes, false};
+      sights[i] = {direction * axes, kInfiniteDistance, -direction * axes, 0u};
       if (hits[i].missed() || is_moving(hits[i], moving)) continue;
       const Surface surface = surface_at(scene, rays[i], hits[i]);
       sights[i].distance = hits[i].distance;
       sights[i].normal = surface.geometric_normal_ws * axes;
-      sights[i].back_face = !surface.front_face && !surface.double_sided;
+      sights[i].back_face = !surface.front_face && !surface.double_sided ? 1u : 0u;
     }
   });
 }
 
 bool in_solid_matter(std::span<const Sight> sights) {
   const auto back_faces = std::count_if(sights.begin(), sights.end(),
-                                        [](const Sight& sight) { return sight.back_face; });
-  return static_cast<float>(back_faces) > kMaxBackFaceShare * static_cast<float>(sights.size());
+                                        [](const Sight& sight) { return sight.back_face != 0; });
+  return stands_in_matter(static_cast<int>(back_faces), static_cast<int>(sights.size())) != 0;
 }
 
 vec3 better_position(std::span<const Sight> sights, const vec3& from, const vec3& home,
                      const vec3& spacing) {
-  const float smallest = min(spacing.x, min(spacing.y, spacing.z));
-  const float margin = kSurfaceMargin * smallest;
-  if (in_solid_matter(sights)) return way_out(sights, from, home, spacing, margin);
-
-  // Step to just in front of the nearest surface, then along it to the next one that faces another
-  // way, and along both to a third
-  vec3 position = from;
-  vec3 axes[3];
-  int count = 0;
-  const std::vector<Plane> planes = planes_below(sights);
-  for (const Plane& plane : planes) {
-    if (count == 3 || plane.height > smallest) break;
-    vec3 along = plane.normal;
-    bool faces_another_way = true;
-    for (int a = 0; a < count; ++a) {
-      if (abs(dot(axes[a], plane.normal)) > kMaxCornerCosine) faces_another_way = false;
-      along -= dot(axes[a], along) * axes[a];
-    }
-    const float steepness = length(along);
-    if (!faces_another_way || steepness < kMinSteepness) continue;
-    along /= steepness;
-    const float rise = min(margin - plane.height, room_above(planes, plane));
-    const vec3 there = position + along * (rise / max(dot(along, plane.normal), kMinSteepness));
-    if (!within_reach(there, home, spacing)) continue;
-    axes[count++] = along;
-    if (abs(rise) > kMarginTolerance * margin) position = there;
-  }
-  return position;
+  return Surroundings(sights).better_place(from, home, spacing, in_solid_matter(sights) ? 1u : 0u);
 }
 
 std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,

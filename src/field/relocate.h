@@ -8,20 +8,11 @@
 #include <vector>
 
 #include "field/probe_store.h"
+#include "field/relocate_math.h"
 #include "lambent/scene.h"
 #include "raytracing/raytracer.h"
 
 namespace lambent {
-
-/// What one ray from a probe met of the scene that keeps still, in the frame of the probe's grid.
-struct Sight {
-  vec3 direction;  ///< Of the ray, unit.
-  float distance;  ///< [m]; infinite: nothing.
-  vec3 normal;     ///< Of the triangle, unit, towards the probe.
-  bool back_face;  ///< Met the back of a single-sided surface.
-
-  bool missed() const { return distance == kInfiniteDistance; }
-};
 
 /// World-space directions a probe looks in: the same for all probes at all times, so that probes
 /// come to rest.

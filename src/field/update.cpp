@@ -12,15 +12,11 @@
 #include "field/importance.h"
 #include "field/tile_light.h"
 #include "lambent/world.h"
-#include "shared/random.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kProbesPerTask = 64;
-
-// Keeps the random numbers of the store's dither apart from those of other passes.
-constexpr uint kStoreSalt = 0x53544F52u;
 
 // Noise of probes darker than this share of all is judged as if they were as bright: an eye that
 // has adapted to the scene sees no more of it.
@@ -53,7 +49,7 @@ RelightResult IrradianceField::State::solve(std::span<const int> probes,
 }
 
 uint IrradianceField::State::salt() const {
-  return hash_pcg3d(uvec3(static_cast<uint>(updates), settings.seed, kStoreSalt)).x;
+  return store_salt(static_cast<uint>(updates), settings.seed);
 }
 
 void IrradianceField::State::store_light(std::span<const int> probes) {

@@ -48,6 +48,9 @@ FieldGrid field_grid(const ProbeGrid& grid);
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
                                            const Bounds& scene_bounds);
 
+/// Whether all but the volumes is within the range that FieldSettings says.
+Expected<void> check_settings(const FieldSettings& settings);
+
 /// Whether a volume is one that can follow: straight, of enough probes, and in place.
 bool can_follow(const ProbeGrid& grid);
 

@@ -89,8 +89,8 @@ Expected<std::shared_ptr<Device>> open_device(const DeviceRequest& request) {
   info.pNext = &features.core;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
-  info.enabledExtensionCount = static_cast<std::uint32_t>(std::size(kRequiredExtensions));
-  info.ppEnabledExtensionNames = kRequiredExtensions;
+  info.enabledExtensionCount = static_cast<std::uint32_t>(kRequiredExtensions.size());
+  info.ppEnabledExtensionNames = kRequiredExtensions.data();
   const VkResult made =
       instance->fn().vkCreateDevice(device->physical_device_, &info, nullptr, &device->device_);
   device->instance_ = instance->release();
@@ -107,7 +107,7 @@ Expected<std::shared_ptr<Device>> open_device(const DeviceRequest& request) {
   return device;
 }
 
-Expected<std::shared_ptr<Device>> Device::adopt(const LentDevice& lent) {
+Expected<std::shared_ptr<Device>> adopt_device(const LentDevice& lent) {
   std::shared_ptr<Device> device(new Device);
   Functions& f = device->functions_;
   f.vkGetInstanceProcAddr =

@@ -14,6 +14,9 @@
 #include "lambent/vulkan.h"
 #include "vulkan/functions.h"
 
+// After Vulkan's headers without prototypes
+#include "lambent/vulkan_field.h"
+
 namespace lambent::vulkan {
 
 class Recorder;
@@ -21,39 +24,6 @@ class Recorder;
 /// Throws std::runtime_error that names the call, where a call that only a broken or exhausted
 /// device fails did fail.
 void check(VkResult result, const char* call);
-
-/// Extensions that every pass needs, besides Vulkan 1.2.
-inline constexpr const char* kRequiredExtensions[] = {"VK_KHR_acceleration_structure",
-                                                      "VK_KHR_ray_tracing_pipeline",
-                                                      "VK_KHR_deferred_host_operations"};
-
-/// What an engine lends: its device must have been created with kRequiredExtensions and the
-/// features of `required_features`, and outlives all that is made on it.
-struct LentDevice {
-  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
-  VkInstance instance = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;  ///< Takes compute.
-  std::uint32_t queue_family = 0;
-};
-
-/// The features that passes need, as a chain for VkDeviceCreateInfo::pNext.
-struct RequiredFeatures {
-  RequiredFeatures();
-  RequiredFeatures(const RequiredFeatures&) = delete;
-  RequiredFeatures& operator=(const RequiredFeatures&) = delete;
-
-  VkPhysicalDeviceFeatures2 core;
-  VkPhysicalDeviceVulkan12Features vulkan12;
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure;
-  VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_pipeline;
-
-  /// Turns on what passes need.
-  void request();
-  /// Names of what passes need and these, as filled in by the driver, lack.
-  std::vector<std::string> missing() const;
-};
 
 /// Numbers that passes adapt to.
 struct DeviceLimits {
@@ -69,9 +39,6 @@ struct DeviceLimits {
 
 class Device : public std::enable_shared_from_this<Device> {
  public:
-  /// Takes over a lent device without owning it. Fails where something that is needed is missing.
-  static Expected<std::shared_ptr<Device>> adopt(const LentDevice& lent);
-
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -107,6 +74,7 @@ class Device : public std::enable_shared_from_this<Device> {
 
  private:
   friend Expected<std::shared_ptr<Device>> open_device(const DeviceRequest&);
+  friend Expected<std::shared_ptr<Device>> adopt_device(const LentDevice&);
   struct Messages;
   Device();
   void* keep(std::type_index type, const std::function<std::shared_ptr<void>()>& make) const;

@@ -166,6 +166,7 @@ RayKernel::RayKernel(const Device& device, const RayShaders& shaders, const std:
     std::memcpy(table_.host() + g * stride, handles.data() + g * bytes, bytes);
     regions_[g] = {table_.address() + g * stride, stride, stride};
   }
+  if (shaders.any_record) regions_[2].stride = 0;
 }
 
 RayKernel::~RayKernel() {

@@ -48,6 +48,8 @@ class Kernel {
 /// group. Closest and any hit may be empty.
 struct RayShaders {
   Spirv generation, miss, closest_hit, any_hit;
+  /// The hit group is that of all instances, whatever record of a table they name.
+  bool any_record = false;
 };
 
 /// A ray tracing pipeline and its shader binding table.

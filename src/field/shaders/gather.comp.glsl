@@ -58,5 +58,6 @@ void main() {
     }
   }
   float counts = there && surfel.kind != kSurfelBackFace ? 1.0 : 0.0;
-  args.radiance.at[k * args.radiance_stride + ray] = there ? vec4(share * arrives, counts) : vec4(0.0);
+  vec4 radiance = there ? vec4(share * arrives, counts) : vec4(0.0);
+  args.radiance.at[k * args.radiance_stride + ray] = radiance;
 }

@@ -47,7 +47,8 @@ vec3 fetch_irradiance(int probe, vec3 direction) {
   int width = kIrradianceTexels + 2;
   int first = probe * (width * width) + fetch.corner.y * width + fetch.corner.x;
   vec3 top = mix(irradiance_at(first), irradiance_at(first + 1), fetch.fraction.x);
-  vec3 bottom = mix(irradiance_at(first + width), irradiance_at(first + width + 1), fetch.fraction.x);
+  vec3 bottom =
+      mix(irradiance_at(first + width), irradiance_at(first + width + 1), fetch.fraction.x);
   return mix(top, bottom, fetch.fraction.y);
 }
 

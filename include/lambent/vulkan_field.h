@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// A field that an engine records into command buffers of its own, on its own Vulkan device, with
+// its own rays and its own shading: docs/integration.md. The only public header that needs Vulkan's
+// headers; where there are none it declares nothing.
+#pragma once
+
+#if __has_include(<vulkan/vulkan_core.h>)
+#include <vulkan/vulkan_core.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/field.h"
+#include "lambent/vulkan.h"
+
+namespace lambent::vulkan {
+
+/// Device extensions that an engine turns on, besides Vulkan 1.2.
+inline constexpr std::array kRequiredExtensions = {"VK_KHR_acceleration_structure",
+                                                   "VK_KHR_ray_tracing_pipeline",
+                                                   "VK_KHR_deferred_host_operations"};
+
+/// The features that an engine turns on, as a chain for VkDeviceCreateInfo::pNext that begins with
+/// `core`. What the engine wants besides is set in these structs or chained behind the last, whose
+/// pNext is null.
+struct RequiredFeatures {
+  RequiredFeatures();
+  RequiredFeatures(const RequiredFeatures&) = delete;
+  RequiredFeatures& operator=(const RequiredFeatures&) = delete;
+
+  VkPhysicalDeviceFeatures2 core;
+  VkPhysicalDeviceVulkan12Features vulkan12;
+  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure;
+  VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_pipeline;  ///< The last.
+
+  /// Turns on what is needed.
+  void request();
+  /// Names of what is needed and these, as filled in by the driver, lack. Of fresh ones: of all
+  /// that is needed.
+  std::vector<std::string> missing() const;
+};
+
+/// What an engine lends. The device was made with kRequiredExtensions and RequiredFeatures, and
+/// outlives all that is made on it.
+struct LentDevice {
+  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;  ///< Null: the system's loader.
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  /// Takes compute. Used while something is made on the device, never while it records: nobody else
+  /// may submit to it meanwhile.
+  VkQueue queue = VK_NULL_HANDLE;
+  std::uint32_t queue_family = 0;
+};
+
+/// Takes a lent device over without owning it. Fails where something that is needed is missing.
+Expected<std::shared_ptr<Device>> adopt_device(const LentDevice& lent);
+
+/// Part of a buffer.
+struct BufferRange {
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceSize offset = 0;      ///< [bytes]
+  VkDeviceSize bytes = 0;       ///< [bytes]
+  VkDeviceAddress address = 0;  ///< Of its first byte.
+};
+
+struct RecordedFieldSettings {
+  /// Updates whose command buffers may be unfinished while the next one is planned and recorded, 1
+  /// to 16. Each costs some ten kilobytes.
+  int frames_in_flight = 2;
+  /// Probes that an update traces, in turn; 0: all. Costs of an update are in proportion, its
+  /// memory for rays, hits and results too (128 bytes a ray).
+  int probes_per_update = 0;
+  /// Times that a probe is traced, from the start or from UpdatePlan::place_again on, after which
+  /// it may move to where it stands better; 2 to 64, or 0: none moves. Most stand well after
+  /// three, those in corners after five. One that moved averages anew.
+  int placing_updates = 8;
+  /// Mask of the probes' rays: record_trace meets instances whose mask shares a bit.
+  std::uint8_t ray_mask = 0xFF;
+};
+
+/// What an update is to do besides tracing the probes whose turn it is.
+struct UpdatePlan {
+  /// What all probes averaged so far counts for this share of what it did, 0 to 1: 1 where nothing
+  /// changed, some 0.1 where lights or large objects did, 0 where all is another.
+  float history = 1.0f;
+  /// Has probes look for better places again, from their next turn on: once what keeps still was
+  /// rebuilt.
+  bool place_again = false;
+};
+
+/// What an update came to.
+struct PlannedUpdate {
+  std::uint32_t probes = 0;          ///< That are traced.
+  std::uint32_t rays_per_probe = 0;  ///< A probe's rays follow one another.
+  std::uint32_t rays = 0;            ///< In all.
+  bool moves_probes = false;         ///< record_maintain may move some.
+};
+
+/// What shaders look the field up in. The same for the field's whole life.
+struct LookupBuffers {
+  BufferRange grids;       ///< ProbeGrid, one a volume.
+  BufferRange offsets;     ///< A word a probe.
+  BufferRange irradiance;  ///< Tile after tile.
+  BufferRange distance;    ///< Likewise.
+  /// A FieldRecord (field/field_record.h) that names the four: what field/shaders/field_lookup.glsl
+  /// takes.
+  BufferRange record;
+};
+
+/// A field in the memory of an engine's device. What its passes take is made with it: recording
+/// makes nothing, waits for nothing and reads nothing back. An update is, once a frame or less:
+///
+///   plan             which probes, which rays; on the host
+///   record_rays      the probes' rays, into rays()
+///   record_trace     what they meet in the engine's acceleration structure, into hits(); or the
+///                    engine's own way to find out
+///   (the engine)     what that brings back, into results(), by a shader of the engine's
+///   record_update    from that to the light that lookups find
+///   record_maintain  what probes are for and where they stand from their next rays on; may be left
+///                    out
+///
+/// in this order, into one command buffer or several that are submitted in it, to one queue family.
+///
+/// Barriers. Each record_* ends with a memory barrier from all commands to all commands, and
+/// begins with one: all that it writes is visible to what the engine records after it, and all that
+/// was submitted before it to the same queue is visible to it, as is what was waited for with a
+/// semaphore. So on one queue the engine owes no barrier but between its own commands. What each
+/// one touches, for engines that use several queues or track resources themselves:
+///
+///   record_rays      reads the lookup buffers, writes rays()      compute shaders
+///   record_trace     reads rays() and the structure,              ray tracing shaders
+///                    writes hits()
+///   record_update    reads rays() and results(),                  compute shaders, transfer,
+///                    writes the lookup buffers                    indirect commands
+///   record_maintain  reads rays() and results(), writes states()  compute shaders
+///
+/// Lookups may run at any time but during record_update: between two updates' they find whole ones.
+///
+/// Frames in flight. Updates run on the device one after the other. While so many updates as
+/// RecordedFieldSettings::frames_in_flight are unfinished, plan must not be called: an engine waits
+/// for the fence of the frame whose command buffer it is about to fill again, as it does anyway.
+///
+/// Not thread-safe. The device must not use the field any more when it is destroyed.
+class RecordedField {
+ public:
+  /// A field that holds no light yet, for a place of these bounds [m]. Submits to the device's
+  /// queue, and waits. Fails on settings out of range, and on those that recorded fields do not
+  /// follow: cascades, visibility by rays, counted bounces where not all probes are traced at once.
+  /// Throws std::runtime_error where the device's memory runs out.
+  static Expected<RecordedField> make(std::shared_ptr<Device> device, const FieldSettings& settings,
+                                      const Bounds& bounds,
+                                      const RecordedFieldSettings& recorded = {});
+  ~RecordedField();
+  RecordedField(RecordedField&&) noexcept;
+  RecordedField& operator=(RecordedField&&) noexcept;
+
+  /// Begins an update.
+  PlannedUpdate plan(const UpdatePlan& update = {});
+
+  /// RayRecord (raytracing/ray_records.h), one a ray. A mask of 0: need not be traced.
+  void record_rays(VkCommandBuffer commands) const;
+  /// HitRecord, one a ray, by a ray tracing pipeline of Lambent's. `instance` is the custom index.
+  /// Knows no materials: rays stop where triangles are see-through.
+  void record_trace(VkCommandBuffer commands, VkAccelerationStructureKHR structure) const;
+  void record_update(VkCommandBuffer commands);
+  void record_maintain(VkCommandBuffer commands) const;
+
+  /// Of the update that was planned last, in the same buffers always.
+  BufferRange rays() const;
+  BufferRange hits() const;
+  /// RayResult (field/ray_results.h), one a ray: what the engine writes.
+  BufferRange results() const;
+
+  LookupBuffers lookup_buffers() const;
+  /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are
+  /// traced but every eighth turn.
+  BufferRange states() const;
+  /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages:
+  /// what field/ports/lookup.hlsl and lookup.wgsl read.
+  VkDescriptorSetLayout lookup_set_layout() const;
+  VkDescriptorSet lookup_set() const;
+
+  const FieldSettings& settings() const;
+  int probes() const;
+  /// Updates planned so far.
+  std::uint32_t updates() const;
+
+ private:
+  struct State;
+  explicit RecordedField(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lambent::vulkan
+#endif

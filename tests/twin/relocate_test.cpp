@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the kernel that maintains probes has them stand, against the processor's on the same
+// sights.
+#include "field/relocate.h"
+
+#include <algorithm>
+
+#include "field/recorded_state.h"
+#include "field/volumes.h"
+#include "shared/random.h"
+#include "support/box_scenes.h"
+#include "support/field_scenes.h"
+#include "support/vulkan_device.h"
+
+namespace lambent {
+namespace {
+
+using vulkan::Buffer, vulkan::Memory;
+
+// Steps of stored offsets that rounding may move one by, and the share of probes that it may make
+// decide otherwise: for another one of two surfaces as near, say.
+constexpr int kOffsetTolerance = 1;
+constexpr double kMostOtherwise = 0.02;
+
+/// Boxes strewn through each other: all kinds of corners, and probes in solid matter.
+Scene clutter() {
+  RandomStream random = make_random_stream(7, 8, 9);
+  std::vector<Mesh> boxes;
+  for (int i = 0; i < 120; ++i) {
+    const vec3 low = 4.0f * vec3(next_uniform2(random), next_uniform(random));
+    const vec3 size = 0.1f + 0.8f * vec3(next_uniform2(random), next_uniform(random));
+    boxes.push_back(test::box_mesh(low, low + size));
+  }
+  return test::scene_of(std::move(boxes));
+}
+
+RayResult told_of(const Sight& sight, const mat3& axes) {
+  if (missed(sight)) return ray_left(vec3(0.0f));
+  const vec3 normal = axes * sight.normal;
+  if (sight.back_face != 0) return ray_met_back_face(sight.distance, normal);
+  return ray_met_surface(sight.distance, normal, normal, vec3(0.5f), vec3(0.0f), vec3(0.0f));
+}
+
+/// Probes on both sides.
+class Relocated {
+ public:
+  Relocated(const vulkan::Device& device, const test::Stage& stage)
+      : device_(device),
+        stage_(stage),
+        store_(grid(), settings_),
+        probes_(store_.probes()),
+        kernels_(device, settings_, 1),
+        grids_(vulkan::upload(device, store_.grids(), "grids")),
+        standing_(device, probes_ * sizeof(ProbeStanding), Memory::upload, "standing"),
+        states_(device, probes_ * sizeof(uint), Memory::readback, "states"),
+        list_(device, probes_ * sizeof(int), Memory::upload, "list"),
+        rays_(device, rays() * sizeof(RayRecord), Memory::upload, "rays"),
+        results_(device, rays() * sizeof(RayResult), Memory::upload, "results") {
+    for (std::size_t k = 0; k < probes_; ++k) {
+      list_.as<int>()[k] = static_cast<int>(k);
+      standing_.as<ProbeStanding>()[k].samples = 1.0f;
+    }
+  }
+
+  /// A step of both from where the processor's probes stand. Returns how many decide otherwise.
+  int step(uint place) {
+    look();
+    const MaintainArguments arguments = {{grids_.address()},
+                                         {{standing_.address()}, {states_.address()}},
+                                         {list_.address()},
+                                         {rays_.address()},
+                                         {results_.address()},
+                                         static_cast<int>(probes_),
+                                         static_cast<int>(sight_directions().size()),
+                                         place,
+                                         1u};
+    device_.run([&](vulkan::Recorder& to) {
+      to.run(kernels_.maintain, arguments,
+             static_cast<std::uint32_t>(probes_) * kernels_.maintain.group_size(0));
+    });
+    int otherwise = 0;
+    for (std::size_t k = 0; k < probes_; ++k) otherwise += step_on_cpu(k, place) ? 0 : 1;
+    return otherwise;
+  }
+
+  std::size_t probes() const { return probes_; }
+  int moved() const { return moved_; }
+  int in_matter() const { return in_matter_; }
+
+ private:
+  std::size_t rays() const { return probes_ * sight_directions().size(); }
+
+  /// A grid askew, so that frames matter.
+  static ProbeGrid grid() {
+    const float c = cos(0.4f), s = sin(0.4f);
+    return still_grid({vec3(0.6f, 0.1f, 0.9f), vec3(0.5f, 0.6f, 0.55f), ivec3(5, 6, 5),
+                       mat3(vec3(c, 0.0f, -s), vec3(0.0f, 1.0f, 0.0f), vec3(s, 0.0f, c))});
+  }
+
+  void look() {
+    std::vector<Viewpoint> viewpoints;
+    for (std::size_t k = 0; k < probes_; ++k) {
+      viewpoints.push_back({store_.probe_position_ws(static_cast<int>(k)), store_.grid(0).axes});
+    }
+    sights_.resize(rays());
+    look_around(stage_.scene, stage_.world.tracer(), viewpoints, {}, sights_);
+    const std::span<const vec3> directions = sight_directions();
+    for (std::size_t i = 0; i < rays(); ++i) {
+      rays_.as<RayRecord>()[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,
+                                  directions[i % directions.size()], 1.0f, kRayMeetsAll};
+      results_.as<RayResult>()[i] = told_of(sights_[i], store_.grid(0).axes);
+    }
+  }
+
+  /// Whether a probe's step comes out as the device's. The device's goes on from the processor's.
+  bool step_on_cpu(std::size_t k, uint place) {
+    const auto probe = static_cast<int>(k);
+    const std::size_t n = sight_directions().size();
+    const std::span<const Sight> around(&sights_[k * n], n);
+    ProbeStanding& standing = standing_.as<ProbeStanding>()[k];
+    const vec3 spacing = store_.grid(0).spacing, offset = store_.probe_offset(probe);
+    ProbeWalk& walk = walks_[k];
+    if (place == kPlaceFirstStep) walk = begin_walk(offset);
+    const uint blocked = in_solid_matter(around) ? 1u : 0u;
+    if (walk.at_rest == 0) {
+      const vec3 position = offset * spacing;
+      const vec3 better = better_position(around, position, vec3(0.0f), spacing);
+      const float margin = kSurfaceMargin * smallest_spacing(store_.grid(0));
+      const float unrest = probe_unrest(position, better, margin, blocked);
+      vec3 next = step_walk(walk, offset, better == position ? offset : better / spacing, unrest);
+      if (place == kPlaceEnd) next = walk.best;
+      store_.set_probe_offset(probe, next);
+    }
+    const bool has_moved = store_.probe_offset(probe) != offset;
+    const vec3 off = abs(decode_probe_offset(standing.offset) - store_.probe_offset(probe));
+    const float step = kMaxProbeOffset / kOffsetSteps;
+    bool same = std::max({off.x, off.y, off.z}) <= (kOffsetTolerance + 0.5f) * step;
+    same = same && states_.as<uint>()[k] == (blocked != 0 ? kProbeOff : kProbeOn);
+    same = same && (standing.samples == 0.0f) == has_moved;
+    moved_ += has_moved ? 1 : 0;
+    in_matter_ += blocked != 0 ? 1 : 0;
+    standing = {1.0f, store_.offset_words()[k], walk};
+    return same;
+  }
+
+  const vulkan::Device& device_;
+  const test::Stage& stage_;
+  FieldSettings settings_;
+  ProbeStore store_;
+  std::size_t probes_;
+  vulkan::RecordedKernels kernels_;
+  Buffer grids_, standing_, states_, list_, rays_, results_;
+  std::vector<Sight> sights_;
+  std::vector<ProbeWalk> walks_ = std::vector<ProbeWalk>(probes_);
+  int moved_ = 0, in_matter_ = 0;
+};
+
+using RelocationKernel = test::OnDevice;
+
+TEST_F(RelocationKernel, HasProbesStandWhereTheProcessorDoes) {
+  const test::Stage stage(clutter());
+  Relocated probes(device(), stage);
+  int otherwise = 0, steps = 0;
+  for (const uint place : {kPlaceFirstStep, kPlaceStep, kPlaceStep, kPlaceStep, kPlaceEnd}) {
+    otherwise += probes.step(place);
+    ++steps;
+  }
+  EXPECT_LE(otherwise, kMostOtherwise * static_cast<double>(probes.probes()) * steps);
+  EXPECT_GT(probes.moved(), 50);
+  EXPECT_GT(probes.in_matter(), 10);
+}
+
+}  // namespace
+}  // namespace lambent
