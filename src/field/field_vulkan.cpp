@@ -340,13 +340,17 @@ std::vector<float> FieldVulkan::send_back(std::span<const float> received, float
   if (sending.empty()) return sent;
   const DeviceProbes list = field_.list(sending);
   const Buffer given = host_buffer(*device_, received, "importance");
-  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance sent");
+  const Buffer sums(*device_, received.size_bytes(), vulkan::Memory::device, "importance sent");
+  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance taken");
   // Whole numbers are added up, so that the order does not matter: what is sent is no more than
   // what was received
   const double most = std::accumulate(received.begin(), received.end(), 0.0);
   const auto scale = static_cast<float>(kMostSent / most);
   device_->run([&](Recorder& to) {
-    field_.record_send_back(to, list, {given.address()}, {taken.address()}, scale);
+    to.fill(sums, 0u);
+    to.barrier();
+    field_.record_send_back(to, list, {given.address()}, {sums.address()}, scale);
+    to.copy(sums, taken, received.size_bytes());
   });
   for (std::size_t i = 0; i < sent.size(); ++i) {
     sent[i] = static_cast<float>(taken.as<std::uint32_t>()[i]) / scale;
