@@ -124,7 +124,9 @@ struct LookupBuffers {
 ///   record_maintain  what probes are for and where they stand from their next rays on; may be left
 ///                    out
 ///
-/// in this order, into one command buffer or several that are submitted in it, to one queue family.
+/// in this order, into one command buffer or several that are submitted in it, to one queue family:
+/// primary ones, outside render passes. Pipelines, descriptor sets and push constants that were
+/// bound before a call are not bound any more after it.
 ///
 /// Barriers. Each record_* ends with a memory barrier from all commands to all commands, and
 /// begins with one: all that it writes is visible to what the engine records after it, and all that
