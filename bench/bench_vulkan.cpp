@@ -10,8 +10,10 @@
 
 #include "bench/workload.h"
 #include "field/device_solver.h"
+#include "field/visibility.h"
 #include "field/volumes.h"
 #include "lambent/vulkan.h"
+#include "raytracing/vulkan/device_world.h"
 #include "vulkan/device.h"
 
 namespace lambent::bench {
@@ -22,9 +24,12 @@ constexpr int kRays = 144;
 constexpr glm::ivec3 kProbeCount{16, 16, 16};
 
 /// Null where there is none.
-const vulkan::Device* device() {
+std::shared_ptr<vulkan::Device> shared_device() {
   static const auto opened = vulkan::open_device();
-  return opened ? opened->get() : nullptr;
+  return opened ? *opened : nullptr;
+}
+const vulkan::Device* device() {
+  return shared_device().get();
 }
 
 /// Times what is recorded, once it has run for the first time.
@@ -164,6 +169,46 @@ void vulkan_lookup(benchmark::State& state) {
   state.counters["lookups"] = static_cast<double>(queries.size());
 }
 
+/// The same, where rays decide which probes are seen.
+void lookup_by_rays(benchmark::State& state, Visibility visibility) {
+  if (device() == nullptr) return state.SkipWithError("no Vulkan device");
+  const Workload& work = workload();
+  static const World there(work.scene, shared_device());
+  const DeviceWorld& world = *there.on_device();
+  FieldSettings settings = work.field.settings();
+  settings.visibility = visibility;
+  const ProbeStore& store = work.field.store();
+  const DeviceField field(world.device(), settings, store);
+  std::vector<int> probes(store.probes());
+  std::iota(probes.begin(), probes.end(), 0);
+  const std::vector<int> cells = cells_around(store, probes);
+  const std::vector<FieldQuery> queries = pixel_queries(work);
+  const vulkan::Buffer lowest = vulkan::upload(world.device(), cells, "cells");
+  const vulkan::Buffer in = vulkan::upload(world.device(), queries, "queries");
+  const vulkan::Buffer out(world.device(), queries.size() * sizeof(vec3), vulkan::Memory::device,
+                           "E");
+  world.device().run([&](vulkan::Recorder& to) {
+    to.bind_textures(world.scene().textures());
+    field.record_look(to, world.tracer(), {lowest.address()}, static_cast<int>(cells.size()));
+  });
+  const vulkan::Buffer rays(world.device(), sizeof(uint), vulkan::Memory::readback, "rays");
+  time_on_device(state, [&](vulkan::Recorder& to) {
+    to.bind_textures(world.scene().textures());
+    field.record_lookup(to, {in.address()}, static_cast<std::uint32_t>(queries.size()),
+                        {out.address()}, &world.tracer());
+    field.take_ray_count(to, rays);
+  });
+  state.counters["lookups"] = static_cast<double>(queries.size());
+  state.counters["rays"] = rays.as<uint>().front();
+}
+
+void vulkan_lookup_hybrid(benchmark::State& state) {
+  lookup_by_rays(state, Visibility::hybrid);
+}
+void vulkan_lookup_exact(benchmark::State& state) {
+  lookup_by_rays(state, Visibility::exact);
+}
+
 void timed(benchmark::internal::Benchmark* bench) {
   bench->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kMillisecond);
 }
@@ -173,6 +218,8 @@ BENCHMARK(vulkan_blend_usual_tiles)->Apply(timed);
 BENCHMARK(vulkan_relight)->Apply(timed);
 BENCHMARK(vulkan_find_lookups)->Apply(timed);
 BENCHMARK(vulkan_lookup)->Apply(timed);
+BENCHMARK(vulkan_lookup_hybrid)->Apply(timed);
+BENCHMARK(vulkan_lookup_exact)->Apply(timed);
 
 }  // namespace
 }  // namespace lambent::bench

@@ -74,9 +74,9 @@ lambent_mesa_version() {
 }
 
 # Installs a Vulkan driver that runs on any processor, and the validation layer, so that tests of the Vulkan backend
-# need no GPU. Where that cannot be done, says so and returns 0: those tests are skipped then.
+# need no GPU. Where that cannot be done, says so and returns 1: those tests are skipped then.
 lambent_install_vulkan_driver() {
-  command -v apt-get >/dev/null || return 0
+  command -v apt-get >/dev/null || return 1
   local as_root=() installed from=()
   ((EUID == 0)) || as_root=(sudo)
   installed=$(lambent_mesa_version Installed)
@@ -92,5 +92,6 @@ lambent_install_vulkan_driver() {
     ! "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive \
       apt-get install -q -y --no-install-recommends "${from[@]}" mesa-vulkan-drivers; then
     echo "lambent: no Vulkan driver could be installed: tests of the Vulkan backend are skipped" >&2
+    return 1
   fi
 }

@@ -213,7 +213,8 @@ class IrradianceField {
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
   /// what lights and emissive surfaces send straight. Both spans have the same length. Queries
   /// outside all volumes are answered by the nearest probes of the last. Runs on all cores.
-  /// `world` is what FieldSettings::visibility traces rays in; null: visibility is by distances.
+  /// `world` is what FieldSettings::visibility traces rays in. Visibility is by distances where it
+  /// is null, or not on the device that holds the field.
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                   const World* world = nullptr) const;
 

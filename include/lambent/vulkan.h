@@ -33,7 +33,7 @@ Expected<std::vector<DeviceDescription>> devices();
 struct DeviceRequest {
   /// Index among devices(); -1: the first that can be opened, hardware before software.
   int index = -1;
-  /// Turns on the validation layer, where it is installed; what it finds is kept
+  /// Turns on the validation layer, which must be installed; what it finds is kept
   /// (validation_messages). Costs speed.
   bool validation = false;
 };

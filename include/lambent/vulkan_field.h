@@ -130,7 +130,9 @@ struct LookupBuffers {
 ///   record_maintain  what probes are for and where they stand from their next rays on; may be left
 ///                    out
 ///
-/// in this order, into one command buffer or several that are submitted in it, to one queue family.
+/// in this order, into one command buffer or several that are submitted in it, to one queue family:
+/// primary ones, outside render passes. Pipelines, descriptor sets and push constants that were
+/// bound before a call are not bound any more after it.
 ///
 /// Barriers. Each record_* ends with a memory barrier from all commands to all commands, and
 /// begins with one: all that it writes is visible to what the engine records after it, and all that
@@ -190,7 +192,7 @@ class RecordedField {
 
   LookupBuffers lookup_buffers() const;
   /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are
-  /// traced but every eighth turn.
+  /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.
   BufferRange states() const;
   /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages:
   /// what field/ports/lookup.hlsl and lookup.wgsl read.

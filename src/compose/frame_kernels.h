@@ -2,6 +2,8 @@
 // Kernels of frames, and memory that one frame after the other uses.
 #pragma once
 
+#include <mutex>
+
 #include "compose/frame_records.h"
 #include "compose/pixel_math.h"
 #include "raytracing/vulkan/hit_shading.h"
@@ -11,9 +13,11 @@
 
 namespace lambent {
 
-/// Kept by the device (Device::kept); one frame at a time.
+/// Kept by the device (Device::kept); one frame at a time, which holds the lock.
 struct FrameKernels {
   explicit FrameKernels(const vulkan::Device& device);
+
+  std::mutex in_use;
 
   vulkan::Kernel camera_rays, pixel_queries, gather_rays, ray_queries, gather_sum, replace_light,
       view_geometry, compose;

@@ -19,6 +19,7 @@ FramePassesVulkan::FramePassesVulkan(const FrameRequest& request)
       world_(*request.world.on_device()),
       device_(world_.device()),
       kernels_(device_.kept<FrameKernels>()),
+      turn_(kernels_.in_use),
       timestamps_(device_, kTimedPasses) {
   const std::size_t pixels =
       static_cast<std::size_t>(request.settings.width) * request.settings.height;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,11 @@ class FramePassesVulkan final : public FramePasses {
   void run_steps();
   void reserve_pixels(std::size_t pixels);
   void trace_pixels(Recorder& to, const CameraRaysArguments& arguments);
-  /// Records positions, normals and depths of so many pixels, into buffers made large enough.
-  RsmViewOnDevice add_geometry(const char* name, int width, int height, Buffer (&geometry)[3]);
+  /// Makes room for the positions, normals and depths of a picture's pixels, ...
+  RsmViewOnDevice reserve_geometry(int width, int height, Buffer (&geometry)[3]);
+  /// ... and has those of `count` traced ones written from pixel `first` on.
+  void add_geometry(const char* name, const RsmViewOnDevice& view, std::uint32_t first,
+                    std::uint32_t count);
   /// Makes room for so many elements; memory that grew holds nothing.
   template <class T>
   void reserve(std::size_t count, const char* name, Buffer& buffer) const {
@@ -59,6 +63,7 @@ class FramePassesVulkan final : public FramePasses {
   const DeviceWorld& world_;
   const vulkan::Device& device_;
   FrameKernels& kernels_;
+  std::unique_lock<std::mutex> turn_;  // frames on a device take turns
   vulkan::Timestamps timestamps_;
   Buffer shadow_rays_[2];  // of pixels, and of what gathering rays met
   std::vector<Step> steps_;

@@ -16,6 +16,9 @@ namespace {
 // Rays gathered at a time: enough to fill any device, few enough to stay small (about 60 MB).
 constexpr std::uint32_t kGatherRays = 1u << 18;
 
+// Pixels of the view that maps light which are traced at a time, as many as of a frame's band.
+constexpr std::uint32_t kViewPixels = 1u << 18;
+
 }  // namespace
 
 /// Looks the field up, on the device where that holds it.
@@ -144,28 +147,31 @@ void FramePassesVulkan::glossy() {
   look_up("glossy", *request_.sources.field, kernels_.queries, pixels_, kernels_.mirror_irradiance);
 }
 
-RsmViewOnDevice FramePassesVulkan::add_geometry(const char* name, int width, int height,
-                                                Buffer (&geometry)[3]) {
-  const auto pixels = static_cast<std::uint32_t>(width) * height;
+RsmViewOnDevice FramePassesVulkan::reserve_geometry(int width, int height, Buffer (&geometry)[3]) {
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
   reserve<vec3>(pixels, "view positions", geometry[0]);
   reserve<vec3>(pixels, "view normals", geometry[1]);
   reserve<float>(pixels, "view depths", geometry[2]);
-  const RsmViewOnDevice view{
+  return {
       width, height, {{geometry[0].address()}, {geometry[1].address()}, {geometry[2].address()}}};
-  add(name, [this, pixels, view](Recorder& to) {
+}
+
+void FramePassesVulkan::add_geometry(const char* name, const RsmViewOnDevice& view,
+                                     std::uint32_t first, std::uint32_t count) {
+  add(name, [this, view, first, count](Recorder& to) {
     const CameraRecord camera = camera_record(request_.camera, 1, 1);
-    const ViewGeometryArguments arguments = {{kernels_.points.address()},
-                                             {kernels_.surfaces.address()},
-                                             view.arrays.positions_ws,
-                                             view.arrays.normals_ws,
-                                             view.arrays.depths,
-                                             camera.position_ws,
-                                             normalize(camera.axes[2]),
-                                             pixels,
-                                             0u};
-    to.run(kernels_.view_geometry, arguments, pixels);
+    const ViewGeometryArguments arguments = {
+        {kernels_.points.address()},
+        {kernels_.surfaces.address()},
+        {view.arrays.positions_ws.address + first * sizeof(vec3)},
+        {view.arrays.normals_ws.address + first * sizeof(vec3)},
+        {view.arrays.depths.address + first * sizeof(float)},
+        camera.position_ws,
+        normalize(camera.axes[2]),
+        count,
+        0u};
+    to.run(kernels_.view_geometry, arguments, count);
   });
-  return view;
 }
 
 void FramePassesVulkan::rsm() {
@@ -174,18 +180,22 @@ void FramePassesVulkan::rsm() {
   const int width = (settings.width + by.downscale - 1) / by.downscale;
   const int height = (settings.height + by.downscale - 1) / by.downscale;
   const auto pixels = static_cast<std::uint32_t>(width) * height;
-  reserve_pixels(pixels);
-  add("rsm.view", [=, this](Recorder& to) {
-    trace_pixels(to, {{kernels_.rays.address()},
-                      camera_record(request_.camera, width, height),
-                      static_cast<uint>(width),
-                      0u,
-                      pixels,
-                      0u,
-                      1u,
-                      settings.seed});
-  });
-  small_ = add_geometry("rsm.view", width, height, kernels_.small_geometry);
+  reserve_pixels(std::min(pixels, kViewPixels));
+  small_ = reserve_geometry(width, height, kernels_.small_geometry);
+  for (std::uint32_t first = 0; first < pixels; first += kViewPixels) {
+    const std::uint32_t count = std::min(kViewPixels, pixels - first);
+    add("rsm.view", [=, this](Recorder& to) {
+      trace_pixels(to, {{kernels_.rays.address()},
+                        camera_record(request_.camera, width, height),
+                        static_cast<uint>(width),
+                        first,
+                        count,
+                        0u,
+                        1u,
+                        settings.seed});
+    });
+    add_geometry("rsm.view", small_, first, count);
+  }
   run_steps();
 
   const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
@@ -210,7 +220,8 @@ void FramePassesVulkan::rsm_upsample() {
   reserve<vec3>(pixels_, "irradiance", kernels_.irradiance);
   reserve<vec3>(takes_out ? pixels_ : 1, "taken out", kernels_.taken_out);
   const RsmViewOnDevice band =
-      add_geometry("rsm.upsample", request_.settings.width, band_.rows, kernels_.band_geometry);
+      reserve_geometry(request_.settings.width, band_.rows, kernels_.band_geometry);
+  add_geometry("rsm.upsample", band, 0u, pixels_);
   add("", [this, band](Recorder& to) {
     kernels_.rsm.record_upsampling(to, small_, *request_.sources.rsm, band, band_.first_row,
                                    {kernels_.from_maps.address()});

@@ -111,7 +111,7 @@ class FieldDevice {
 };
 
 /// An empty field of the store's shape on the device that the world is on; null where the library
-/// knows no devices.
+/// knows no devices, or there are more probes than passes there can take (2^18).
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store);
 

@@ -117,6 +117,25 @@ void FieldVulkan::reserve_rays(std::size_t rays, std::size_t probes) {
   reserve<uint>(*device_, probes, "ray indices", first_indices_);
 }
 
+/// Makes room for the rays of a list, and counts them. Returns the passes whose time is taken.
+std::uint32_t FieldVulkan::prepare_rays(const DeviceProbes& list, DeviceTraced& traced) {
+  std::vector<uint> first_indices;
+  for (const int probe : list.probes) {
+    first_indices.push_back(static_cast<uint>(first_ray_index(probe)));
+  }
+  std::size_t most_rays = 0;
+  std::uint32_t groups = 0;
+  for (const DeviceGroup& group : groups_of_rays(field_, list)) {
+    const auto rays = static_cast<std::size_t>(group.count) * group.rays;
+    traced.probe_rays += rays;
+    most_rays = std::max(most_rays, rays);
+    ++groups;
+  }
+  reserve_rays(most_rays, list.probes.size());
+  vulkan::write<uint>(*device_, first_indices, first_indices_);
+  return 2 * groups + kTimedPasses;
+}
+
 void FieldVulkan::record_tracing(Recorder& to, const DeviceWorld& world, const DeviceProbes& list,
                                  bool seen) {
   const DeviceStage stage{world.scene(), world.tracer()};
@@ -154,27 +173,14 @@ DeviceTraced FieldVulkan::trace(const DeviceTracing& tracing) {
   const Buffer share_buffer = host_buffer<float>(*device_, shares, "shares");
   Buffer changes(*device_, probes.size() * sizeof(LightChange), vulkan::Memory::readback,
                  "changes of light");
-  std::vector<uint> first_indices;
-  for (const int probe : list.probes) {
-    first_indices.push_back(static_cast<uint>(first_ray_index(probe)));
-  }
-  std::size_t most_rays = 0, most_groups = 0;
-  for (const DeviceGroup& group : groups_of_rays(field_, list)) {
-    const auto rays = static_cast<std::size_t>(group.count) * group.rays;
-    traced.probe_rays += rays;
-    most_rays = std::max(most_rays, rays);
-    ++most_groups;
-  }
-  reserve_rays(most_rays, probes.size());
-  vulkan::write<uint>(*device_, first_indices, first_indices_);
+  const std::uint32_t timed = prepare_rays(list, traced);
   field_.reserve_seen(list);
   field_.reserve_transport(list);
   solver_.reserve(list);
   const RayCounts counts(*device_);
 
   const float largest = *std::max_element(shares.begin(), shares.end());
-  vulkan::Timestamps timestamps(*device_,
-                                static_cast<std::uint32_t>(2 * most_groups) + kTimedPasses);
+  vulkan::Timestamps timestamps(*device_, timed);
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
     record_tracing(to, *tracing.world.on_device(), list, /*seen=*/true);
@@ -219,22 +225,9 @@ DeviceTraced FieldVulkan::retrace(const World& world, std::span<const int> probe
   DeviceTraced traced;
   if (traced_before.empty()) return traced;
   const DeviceProbes list = field_.list(traced_before), everyone = field_.list(all);
-  std::vector<uint> first_indices;
-  for (const int probe : list.probes) {
-    first_indices.push_back(static_cast<uint>(first_ray_index(probe)));
-  }
-  std::size_t most_rays = 0, most_groups = 0;
-  for (const DeviceGroup& group : groups_of_rays(field_, list)) {
-    const auto rays = static_cast<std::size_t>(group.count) * group.rays;
-    traced.probe_rays += rays;
-    most_rays = std::max(most_rays, rays);
-    ++most_groups;
-  }
-  reserve_rays(most_rays, list.probes.size());
-  vulkan::write<uint>(*device_, first_indices, first_indices_);
+  const std::uint32_t timed = prepare_rays(list, traced);
   const RayCounts counts(*device_);
-  vulkan::Timestamps timestamps(*device_,
-                                static_cast<std::uint32_t>(2 * most_groups) + kTimedPasses);
+  vulkan::Timestamps timestamps(*device_, timed);
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
     field_.record_distances_before(to, list);
@@ -340,13 +333,17 @@ std::vector<float> FieldVulkan::send_back(std::span<const float> received, float
   if (sending.empty()) return sent;
   const DeviceProbes list = field_.list(sending);
   const Buffer given = host_buffer(*device_, received, "importance");
-  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance sent");
+  const Buffer sums(*device_, received.size_bytes(), vulkan::Memory::device, "importance sent");
+  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance taken");
   // Whole numbers are added up, so that the order does not matter: what is sent is no more than
   // what was received
   const double most = std::accumulate(received.begin(), received.end(), 0.0);
   const auto scale = static_cast<float>(kMostSent / most);
   device_->run([&](Recorder& to) {
-    field_.record_send_back(to, list, {given.address()}, {taken.address()}, scale);
+    to.fill(sums, 0u);
+    to.barrier();
+    field_.record_send_back(to, list, {given.address()}, {sums.address()}, scale);
+    to.copy(sums, taken, received.size_bytes());
   });
   for (std::size_t i = 0; i < sent.size(); ++i) {
     sent[i] = static_cast<float>(taken.as<std::uint32_t>()[i]) / scale;

@@ -57,6 +57,7 @@ class FieldVulkan final : public FieldDevice {
   void record_tracing(vulkan::Recorder& to, const DeviceWorld& world, const DeviceProbes& list,
                       bool seen);
   void reserve_rays(std::size_t rays, std::size_t probes);
+  std::uint32_t prepare_rays(const DeviceProbes& list, DeviceTraced& traced);
 
   std::shared_ptr<vulkan::Device> device_;
   FieldSettings settings_;

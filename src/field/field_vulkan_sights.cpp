@@ -10,6 +10,10 @@
 namespace lambent {
 namespace {
 
+// Every device takes dispatches of 65,535 groups of eight probes; indices of texels stay within 31
+// bits.
+constexpr int kMostProbes = 1 << 18;
+
 using vulkan::Buffer;
 using vulkan::Recorder;
 
@@ -70,6 +74,7 @@ void FieldVulkan::record_lookups(Recorder& recorder, const World* world, std::ui
 
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store) {
+  if (store.probes() > kMostProbes) return nullptr;
   return std::make_unique<FieldVulkan>(world, settings, store);
 }
 

@@ -14,17 +14,25 @@ namespace {
 
 // A buffer of no bytes would have no address.
 constexpr std::size_t kLeastBytes = 16;
+// Uploads up to this size go where the device reads fast, if the host can write there: of such
+// memory there may be little.
+constexpr std::size_t kMostNearBytes = 1 << 20;
 // Fills and copies go by words.
 constexpr std::size_t kWord = 4;
 
 /// The memory type of a kind, among those a buffer can have: wished-for properties first, then what
 /// must be.
-std::uint32_t memory_type(const Device& device, std::uint32_t types, Memory memory) {
+std::uint32_t memory_type(const Device& device, std::uint32_t types, Memory memory,
+                          std::size_t bytes) {
   VkMemoryPropertyFlags needed = 0, wished = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
   if (memory != Memory::device) {
     needed = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     wished = needed;
     if (memory == Memory::readback) wished |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    // Small things that kernels read again and again
+    if (memory == Memory::upload && bytes <= kMostNearBytes) {
+      wished |= VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    }
   }
   for (const VkMemoryPropertyFlags flags : {wished, needed}) {
     for (std::uint32_t i = 0; i < device.memory().memoryTypeCount; ++i) {
@@ -60,7 +68,7 @@ Buffer::Buffer(const Device& device, std::size_t bytes, Memory memory, const std
     allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocation.pNext = &flags;
     allocation.allocationSize = needs.size;
-    allocation.memoryTypeIndex = memory_type(device, needs.memoryTypeBits, memory);
+    allocation.memoryTypeIndex = memory_type(device, needs.memoryTypeBits, memory, bytes);
     check(f.vkAllocateMemory(device.handle(), &allocation, nullptr, &memory_), "vkAllocateMemory");
     check(f.vkBindBufferMemory(device.handle(), buffer_, memory_, 0), "vkBindBufferMemory");
     VkBufferDeviceAddressInfo where{};

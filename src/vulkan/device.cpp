@@ -170,10 +170,14 @@ void Device::finish(std::uint32_t queue_family) {
   limits_.shader_group_base_alignment = rays.shaderGroupBaseAlignment;
   limits_.acceleration_scratch_alignment =
       structures.minAccelerationStructureScratchOffsetAlignment;
-  limits_.max_sampled_images = std::min(core.maxPerStageDescriptorSampledImages, kMaxTextures);
+  limits_.max_sampled_images =
+      std::min({core.maxPerStageDescriptorSampledImages, core.maxDescriptorSetSampledImages,
+                core.maxPerStageResources - kMaxSamplers, kMaxTextures});
   limits_.max_image_extent = core.maxImageDimension2D;
-  limits_.max_groups = core.maxComputeWorkGroupCount[0];
-  limits_.timestamp_period_ns = core.timestampComputeAndGraphics ? core.timestampPeriod : 0.0f;
+  limits_.max_groups = std::min(core.maxComputeWorkGroupCount[0], core.maxComputeWorkGroupCount[1]);
+  const std::uint32_t bits = timestamp_bits(f, physical_device_, queue_family);
+  limits_.timestamp_mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+  limits_.timestamp_period_ns = bits > 0 ? core.timestampPeriod : 0.0f;
 
   VkCommandPoolCreateInfo pool{};
   pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;

@@ -33,7 +33,8 @@ struct DeviceLimits {
   std::uint32_t acceleration_scratch_alignment = 0;
   std::uint32_t max_sampled_images = 0;  ///< In one descriptor array.
   std::uint32_t max_image_extent = 0;    ///< Texels an image is wide or high.
-  std::uint32_t max_groups = 0;          ///< Of a dispatch, along its first axis.
+  std::uint32_t max_groups = 0;          ///< Of a dispatch, along its first or second axis.
+  std::uint64_t timestamp_mask = 0;      ///< Of the bits that count.
   float timestamp_period_ns = 0.0f;      ///< 0: the queue has no timestamps.
 };
 
@@ -108,7 +109,7 @@ inline constexpr std::uint32_t kMaxArgumentBytes = 128;
 
 /// Textures and samplers that a scene's descriptor set can hold, and where they are bound.
 inline constexpr std::uint32_t kMaxTextures = 4096;
-inline constexpr std::uint32_t kMaxSamplers = 18;
+inline constexpr std::uint32_t kMaxSamplers = 9;
 inline constexpr std::uint32_t kTextureBinding = 0;
 inline constexpr std::uint32_t kSamplerBinding = 1;
 

@@ -49,7 +49,11 @@ Expected<Instance> Instance::make(bool validation) {
   application.apiVersion = VK_API_VERSION_1_2;
   std::vector<const char*> layers, extensions;
   const char* layer = nullptr;
-  if (validation && layer_is_installed(f)) {
+  if (validation) {
+    if (!layer_is_installed(f)) {
+      return fail("", "Vulkan", std::string(kValidationLayer) + " is not installed",
+                  Error::Kind::failed);
+    }
     layer = kValidationLayer;
     layers.push_back(layer);
   }

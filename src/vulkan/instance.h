@@ -13,8 +13,7 @@ namespace lambent::vulkan {
 /// An instance of our own. Destroyed with this object.
 class Instance {
  public:
-  /// Fails where there is no loader, or no driver of Vulkan 1.2. `validation`: where its layer is
-  /// installed.
+  /// Fails where there is no loader, no driver of Vulkan 1.2, or, with `validation`, no such layer.
   static Expected<Instance> make(bool validation);
   ~Instance();
   Instance(Instance&& other) noexcept;
@@ -38,6 +37,9 @@ bool has_extension(const Functions& functions, VkPhysicalDevice device, const ch
 /// The first queue family that takes compute work.
 std::optional<std::uint32_t> compute_queue_family(const Functions& functions,
                                                   VkPhysicalDevice device);
+/// Bits of a queue family's timestamps that count; 0: it has none.
+std::uint32_t timestamp_bits(const Functions& functions, VkPhysicalDevice device,
+                             std::uint32_t family);
 /// What a device is, and what it lacks.
 DeviceDescription describe(const Functions& functions, VkPhysicalDevice device);
 

@@ -46,8 +46,10 @@ std::vector<DevicePassTime> Timestamps::read() const {
             VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
         "vkGetQueryPoolResults");
   for (std::size_t i = 0; i < names_.size(); ++i) {
-    const double ms = static_cast<double>(ticks[2 * i + 1] - ticks[2 * i]) *
-                      device_->limits().timestamp_period_ns * kMsPerNs;
+    const std::uint64_t passed =
+        (ticks[2 * i + 1] - ticks[2 * i]) & device_->limits().timestamp_mask;
+    const double ms =
+        static_cast<double>(passed) * device_->limits().timestamp_period_ns * kMsPerNs;
     const auto known = std::find_if(times.begin(), times.end(), [&](const DevicePassTime& time) {
       return time.name == names_[i];
     });
@@ -76,6 +78,8 @@ void Recorder::begin_pass(const std::string& name) {
   }
   if (timestamps_ == nullptr || timestamps_->pool_ == VK_NULL_HANDLE) return;
   assert(timestamps_->names_.size() < timestamps_->capacity_);
+  timing_ = timestamps_->names_.size() < timestamps_->capacity_;
+  if (!timing_) return;
   device_.fn().vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
                                    timestamps_->pool_,
                                    static_cast<std::uint32_t>(2 * timestamps_->names_.size()));
@@ -83,7 +87,8 @@ void Recorder::begin_pass(const std::string& name) {
 }
 
 void Recorder::end_pass() {
-  if (timestamps_ != nullptr && timestamps_->pool_ != VK_NULL_HANDLE) {
+  if (timing_) {
+    timing_ = false;
     device_.fn().vkCmdWriteTimestamp(
         commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, timestamps_->pool_,
         static_cast<std::uint32_t>(2 * timestamps_->names_.size() - 1));
@@ -152,6 +157,8 @@ void Recorder::bind_rays(const RayKernel& kernel, const void* arguments, std::ui
 void Recorder::dispatch(const Kernel& kernel, const void* arguments, std::uint32_t bytes,
                         std::uint32_t x, std::uint32_t y, std::uint32_t z) {
   if (x == 0 || y == 0 || z == 0) return;
+  assert(groups(x, kernel.group_size(0)) <= device_.limits().max_groups &&
+         groups(y, kernel.group_size(1)) <= device_.limits().max_groups);
   bind_compute(kernel, arguments, bytes);
   device_.fn().vkCmdDispatch(commands_, groups(x, kernel.group_size(0)),
                              groups(y, kernel.group_size(1)), groups(z, kernel.group_size(2)));

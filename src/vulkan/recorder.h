@@ -111,6 +111,7 @@ class Recorder {
   const Device& device_;
   VkCommandBuffer commands_;
   Timestamps* timestamps_;
+  bool timing_ = false;  // the pass that is open
 };
 
 }  // namespace lambent::vulkan

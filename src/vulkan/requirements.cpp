@@ -24,7 +24,6 @@ void for_each_feature(Features& f, Visit visit) {
   visit("descriptorBindingPartiallyBound", f.vulkan12.descriptorBindingPartiallyBound);
   visit("shaderSampledImageArrayNonUniformIndexing",
         f.vulkan12.shaderSampledImageArrayNonUniformIndexing);
-  visit("shaderInt64", f.core.features.shaderInt64);
   visit("accelerationStructure", f.acceleration_structure.accelerationStructure);
   visit("rayTracingPipeline", f.ray_tracing_pipeline.rayTracingPipeline);
   visit("rayTracingPipelineTraceRaysIndirect",
@@ -37,6 +36,14 @@ std::vector<VkExtensionProperties> extensions_of(const Functions& f, VkPhysicalD
   std::vector<VkExtensionProperties> extensions(count);
   f.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
   return extensions;
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(const Functions& f, VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+  return families;
 }
 
 }  // namespace
@@ -75,14 +82,16 @@ bool has_extension(const Functions& f, VkPhysicalDevice device, const char* name
 }
 
 std::optional<std::uint32_t> compute_queue_family(const Functions& f, VkPhysicalDevice device) {
-  std::uint32_t count = 0;
-  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-  std::vector<VkQueueFamilyProperties> families(count);
-  f.vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
-  for (std::uint32_t i = 0; i < count; ++i) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(f, device);
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
     if ((families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) != 0) return i;
   }
   return std::nullopt;
+}
+
+std::uint32_t timestamp_bits(const Functions& f, VkPhysicalDevice device, std::uint32_t family) {
+  const std::vector<VkQueueFamilyProperties> families = queue_families(f, device);
+  return family < families.size() ? families[family].timestampValidBits : 0;
 }
 
 DeviceDescription describe(const Functions& f, VkPhysicalDevice device) {

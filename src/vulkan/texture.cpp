@@ -186,24 +186,22 @@ TextureSet::TextureSet(const Device& device) : device_(device) {
 }
 
 void TextureSet::make_samplers() {
-  static_assert(kMaxSamplers == 2 * kAddressModes * kAddressModes);
+  static_assert(kMaxSamplers == kAddressModes * kAddressModes);
   std::vector<VkDescriptorImageInfo> images;
-  for (const VkFilter filter : {VK_FILTER_LINEAR, VK_FILTER_NEAREST}) {
-    for (std::uint32_t pair = 0; pair < kAddressModes * kAddressModes; ++pair) {
-      VkSamplerCreateInfo info{};
-      info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-      info.magFilter = info.minFilter = filter;
-      info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
-      info.addressModeU = kAddressMode[pair % kAddressModes];
-      info.addressModeV = kAddressMode[pair / kAddressModes];
-      info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-      info.maxLod = VK_LOD_CLAMP_NONE;
-      VkSampler sampler = VK_NULL_HANDLE;
-      check(device_.fn().vkCreateSampler(device_.handle(), &info, nullptr, &sampler),
-            "vkCreateSampler");
-      samplers_.push_back(sampler);
-      images.push_back({sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
-    }
+  for (std::uint32_t pair = 0; pair < kAddressModes * kAddressModes; ++pair) {
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.addressModeU = kAddressMode[pair % kAddressModes];
+    info.addressModeV = kAddressMode[pair / kAddressModes];
+    info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.maxLod = VK_LOD_CLAMP_NONE;
+    VkSampler sampler = VK_NULL_HANDLE;
+    check(device_.fn().vkCreateSampler(device_.handle(), &info, nullptr, &sampler),
+          "vkCreateSampler");
+    samplers_.push_back(sampler);
+    images.push_back({sampler, VK_NULL_HANDLE, VK_IMAGE_LAYOUT_UNDEFINED});
   }
   VkWriteDescriptorSet write{};
   write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

@@ -55,9 +55,8 @@ inline constexpr VkSamplerAddressMode kAddressMode[kAddressModes] = {
     VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT,
     VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE};
 
-/// The descriptors of Device::texture_set_layout: an array of textures, and samplers for each pair
-/// of address modes (that of u + 3 * that of v), bilinear ones first, then those that take the
-/// nearest texel.
+/// The descriptors of Device::texture_set_layout: an array of textures, and a bilinear sampler for
+/// each pair of address modes (that of u + 3 * that of v).
 class TextureSet {
  public:
   /// The device must outlive it.

@@ -63,10 +63,10 @@ class Twins {
     on_device = device_field->update(there, request);
   }
 
-  double difference() const {
+  double difference(bool by_rays = true) const {
     std::vector<glm::vec3> a(points.size()), b(points.size());
-    cpu->irradiance(points, a, &here);
-    device_field->irradiance(points, b, &there);
+    cpu->irradiance(points, a, by_rays ? &here : nullptr);
+    device_field->irradiance(points, b, by_rays ? &there : nullptr);
     double difference_sum = 0.0, whole = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const vec3 d = a[i] - b[i];
@@ -181,6 +181,7 @@ TEST_F(FieldOverTime, SeesByRaysAlike) {
     EXPECT_NEAR(static_cast<double>(twins.on_device.shadow_rays),
                 static_cast<double>(twins.on_cpu.shadow_rays),
                 kTolerance * static_cast<double>(twins.on_cpu.shadow_rays));
+    EXPECT_LE(twins.difference(/*by_rays=*/false), kTolerance);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "field/probe_record.h"
 #include "field/recorded_arguments.h"
 #include "field/recorded_plan.h"
 
@@ -21,6 +22,18 @@ TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const std::vector<FieldQuery> queries = test::seen_points(cornell());
   // The same rays and random numbers; sums in another order, and both stop at the same residual
   EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), 0.005);
+
+  // Probes in solid matter are off, and have no rays while they are not looked at
+  const auto states = download<uint>(field.states());
+  int off = 0;
+  for (std::size_t probe = 0; probe < states.size(); ++probe) {
+    EXPECT_EQ(states[probe] == kProbeOff, on_cpu.records()[probe].state == ProbeState::off);
+    off += states[probe] == kProbeOff ? 1 : 0;
+  }
+  EXPECT_GT(off, 0);
+  const auto rays = download<RayRecord>(field.rays());
+  EXPECT_EQ(std::count_if(rays.begin(), rays.end(), [](const RayRecord& r) { return r.mask == 0; }),
+            off * settings.rays_per_probe);
 }
 
 TEST_F(RecordedFieldTest, OfPartsOfItsProbesInTurnComesToTheSameLight) {

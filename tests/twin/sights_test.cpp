@@ -144,24 +144,47 @@ INSTANTIATE_TEST_SUITE_P(Modes, FieldSights,
                                          SightCase{Visibility::hybrid, 3},
                                          SightCase{Visibility::exact, 3}));
 
-class SealedRoom : public test::OnDevice, public testing::WithParamInterface<Visibility> {};
+class SealedRoom : public test::OnDevice, public testing::WithParamInterface<Visibility> {
+ protected:
+  static FieldSettings settings() {
+    FieldSettings settings;
+    settings.probe_spacing = 1.0f;
+    settings.rays_per_probe = 64;
+    settings.visibility = GetParam();
+    return settings;
+  }
+  /// Of what the camera, in the dark room, sees.
+  static float brightest(const IrradianceField& field, const Stage& stage, const World& world) {
+    const std::vector<FieldQuery> queries = test::seen_points(stage);
+    std::vector<vec3> irradiance(queries.size());
+    field.irradiance(queries, irradiance, &world);
+    float largest = 0.0f;
+    for (const vec3& e : irradiance) largest = max(largest, max(e.x, max(e.y, e.z)));
+    return largest;
+  }
+};
 
 TEST_P(SealedRoom, StaysDark) {
   const Stage stage("two-rooms-sealed");
   const World there(stage.scene, shared_device());
-  FieldSettings settings;
-  settings.probe_spacing = 1.0f;
-  settings.rays_per_probe = 64;
-  settings.visibility = GetParam();
-  IrradianceField field = IrradianceField::make(settings, stage.bounds()).value();
+  IrradianceField field = IrradianceField::make(settings(), stage.bounds()).value();
   for (int i = 0; i < 2; ++i) field.update(there);
+  EXPECT_EQ(brightest(field, stage, there), 0.0f);
+}
+
+TEST_P(SealedRoom, StaysDarkWhereverTheFieldGoes) {
+  const Stage stage("two-rooms-sealed");
+  const World there(stage.scene, shared_device());
+  IrradianceField field = test::make_field(stage, settings(), 2);
+  // Hardly a probe is traced, but all have moved
+  UpdateRequest request;
+  request.ray_budget = 100;
+  field.update(there, request);
   ASSERT_NE(field.on_device(), nullptr);
-  const std::vector<FieldQuery> queries = test::seen_points(stage);
-  std::vector<vec3> irradiance(queries.size());
-  field.irradiance(queries, irradiance, &there);
-  float largest = 0.0f;
-  for (const vec3& e : irradiance) largest = max(largest, max(e.x, max(e.y, e.z)));
-  EXPECT_EQ(largest, 0.0f);
+  EXPECT_EQ(brightest(field, stage, there), 0.0f);
+  field.update(stage.world, request);
+  ASSERT_EQ(field.on_device(), nullptr);
+  EXPECT_EQ(brightest(field, stage, stage.world), 0.0f);
 }
 
 INSTANTIATE_TEST_SUITE_P(ByRays, SealedRoom,

@@ -26,7 +26,7 @@ void main() {
     }
     CornerWeights corners = args.lookups.at[point.lookup + l].corners;
     float share = sum_of_weights(corners);
-    if (args.points.exact != 0u) corners = seen_corners(corners, point.query);
+    if (args.points.exact != 0u) corners = seen_corners(corners, query_of(point));
     // Where no probe is seen, distances decide
     if (hide_corners(corners, hidden, share)) args.lookups.at[point.lookup + l].corners = corners;
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays for the corners of lookups that distances do not decide: a lane a point. Rays lie in the
-// order in which groups come to ask, which differs from time to time; each point knows its own.
+// Rays for the corners of lookups that distances do not decide: a lane a point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/device_arguments.h"
@@ -9,21 +8,25 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push {
   AskCornersArguments args;
 };
-shared uint asked_by_group, first_of_group;
 
 #include "field/shaders/lookup_points.glsl"
+#include "field/shaders/ray_room.glsl"
 #include "field/shaders/seen_corners.glsl"
 
-/// Asks for corners of a lookup, by their bits. Hides those that are not worth it.
-uint corners_to_ask(int lookup, QueryRecord query) {
+/// Corners of a lookup to ask for, by their bits. Hides those that are not worth it.
+uint corners_to_ask(LookupPoint point, int lookup) {
   if (args.lookups.at[lookup].tile_corner == kNoLookup) return 0u;
-  CornerWeights corners = args.lookups.at[lookup].corners;
-  if (args.points.exact != 0u) return weighed_corners(seen_corners(corners, query));
+  if (args.points.exact != 0u) {
+    return weighed_corners(seen_corners(args.lookups.at[lookup].corners, query_of(point)));
+  }
+  int base = args.lookups.at[lookup].corners.base;
+  uint sights[2] = uint[2](args.sights.at[2 * base], args.sights.at[2 * base + 1]);
+  if ((sights[0] & sights[1]) == 0xFFFFFFFFu) return 0u;
 
+  CornerWeights corners = args.lookups.at[lookup].corners;
   int from = sight_bit(heaviest_corner(corners), 0);
-  uint seen = args.sights.at[2 * corners.base + (from >> 5)] >> (from & 31);
   float share = sum_of_weights(corners);
-  CornerDoubts doubts = doubtful_corners(corners, seen, share);
+  CornerDoubts doubts = doubtful_corners(corners, sights[from >> 5] >> (from & 31), share);
   if (doubts.hidden != 0u) {
     hide_corners(corners, doubts.hidden, share);
     args.lookups.at[lookup].corners = corners;
@@ -34,29 +37,21 @@ uint corners_to_ask(int lookup, QueryRecord query) {
 void main() {
   LookupPoint point = lookup_point();
   uint asked = 0u;
-  for (int l = 0; l < kLookups && point.exists && point.reads; ++l) {
-    asked |= corners_to_ask(point.lookup + l, point.query) << (kCellCorners * l);
+  for (int l = 0; l < kLookups && point.exists; ++l) {
+    asked |= corners_to_ask(point, point.lookup + l) << (kCellCorners * l);
   }
 
-  // Find room for the rays of the group, and in it for those of the point
-  if (gl_LocalInvocationIndex == 0u) asked_by_group = 0u;
-  barrier();
-  uint before = atomicAdd(asked_by_group, uint(bitCount(asked)));
-  barrier();
-  if (gl_LocalInvocationIndex == 0u) {
-    first_of_group = atomicAdd(args.counter.at[kRaysAsked], asked_by_group);
-    atomicAdd(args.counter.at[kRaysEver], asked_by_group);
-  }
-  barrier();
+  uint ray = room_for_rays(args.counter, uint(bitCount(asked)));
   if (!point.exists) return;
-  uint ray = first_of_group + before;
   args.questions.at[point.place] = CornerQuestions(ray, asked);
+  if (asked == 0u) return;
+  QueryRecord query = query_of(point);
   for (int l = 0; l < kLookups; ++l) {
     uint corners = bitfieldExtract(asked, kCellCorners * l, kCellCorners);
     if (corners == 0u) continue;
     CornerWeights weights = args.lookups.at[point.lookup + l].corners;
     for (; corners != 0u; corners &= corners - 1u) {
-      args.rays.at[ray++] = corner_ray(weights, findLSB(corners), point.query);
+      args.rays.at[ray++] = corner_ray(weights, findLSB(corners), query);
     }
   }
 }

@@ -20,10 +20,11 @@ int cluster_lane() {
   return int(gl_SubgroupInvocationID & kLaneMask);
 }
 
-/// Number of a cluster in its workgroup.
+/// Number of a cluster in its workgroup. By the place of its first lane there: a subgroup may be
+/// narrower than its size is said to be.
 uint cluster_in_group() {
-  return gl_SubgroupID * (gl_SubgroupSize / uint(kClusterLanes)) +
-         gl_SubgroupInvocationID / uint(kClusterLanes);
+  uint place = subgroupShuffle(gl_LocalInvocationIndex, gl_SubgroupInvocationID & ~kLaneMask);
+  return place / uint(kClusterLanes);
 }
 
 /// What a lane of the cluster holds.

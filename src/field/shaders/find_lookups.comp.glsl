@@ -19,12 +19,12 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   LookupPoint point = lookup_point();
   if (!point.exists) return;
-  QueryRecord query = point.query;
+  QueryRecord query = query_of(point);
   TileFetch fetch = tile_fetch(query.normal_ws, kIrradianceTexels);
   uint corner = uint(fetch.corner.x + (kIrradianceTexels + 1) * fetch.corner.y);
 
   int found = 0;
-  float left = point.reads ? 1.0 : 0.0;
+  float left = reads_field(point) ? 1.0 : 0.0;
   for (int volume = 0; volume < kVolumes; ++volume) {
     if (left <= kNothingLeft || found == kLookups) continue;
     ProbeGrid grid = args.store.grids.at[volume];

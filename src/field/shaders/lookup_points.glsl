@@ -9,36 +9,43 @@
 
 struct LookupPoint {
   bool exists;
-  bool reads;  ///< It reflects what it would look up.
-  int place;   ///< Among the points of this dispatch.
-  int lookup;  ///< The first of its lookups.
-  QueryRecord query;
+  int row, column;
+  int place;   // among the points of this dispatch
+  int lookup;  // the first of its lookups
 };
 
 /// The point of an invocation.
 LookupPoint lookup_point() {
   int column = int(gl_GlobalInvocationID.x), row = int(gl_GlobalInvocationID.y);
-  LookupPoint point;
-  point.exists = row < args.points.rows && column < args.points.stride;
-  point.reads = false;
-  point.place = row * args.points.stride + column;
-  point.lookup = point.place * kLookups;
-  if (!point.exists) return point;
-
+  int place = row * args.points.stride + column, among_all = place;
+  bool exists = row < args.points.rows && column < args.points.stride;
   if (args.points.count > 0) {
-    point.exists = point.reads = point.place < args.points.count;
-    if (point.exists) point.query = args.points.queries.at[point.place];
-    return point;
+    exists = exists && place < args.points.count;
+  } else if (exists) {
+    among_all = args.points.list.probes.at[row] * args.points.stride + column;
   }
-  int surfel_at = args.points.list.probes.at[row] * args.points.stride + column;
-  RaySetRecord set = args.points.list.sets.at[args.points.list.ray_sets.at[row]];
-  SurfelRecord surfel = args.points.surfels.at[surfel_at];
-  point.reads =
-      column < set.rays && surfel.receives_gi != 0u && surfel.albedo_over_pi != vec3(0.0);
-  point.lookup = surfel_at * kLookups;
-  point.query = QueryRecord(surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                            -set.directions.at[min(column, set.rays - 1)]);
-  return point;
+  return LookupPoint(exists, row, column, place, among_all * kLookups);
+}
+
+RaySetRecord rays_of(LookupPoint point) {
+  return args.points.list.sets.at[args.points.list.ray_sets.at[point.row]];
+}
+
+/// Whether a point that exists reflects what it would look up.
+bool reads_field(LookupPoint point) {
+  if (args.points.count > 0) return true;
+  SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
+  return point.column < rays_of(point).rays && surfel.receives_gi != 0u &&
+         surfel.albedo_over_pi != vec3(0.0);
+}
+
+/// What a point that exists asks.
+QueryRecord query_of(LookupPoint point) {
+  if (args.points.count > 0) return args.points.queries.at[point.place];
+  SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
+  RaySetRecord set = rays_of(point);
+  return QueryRecord(surfel.position_ws, decode_unit_vector(surfel.normal_ws),
+                     -set.directions.at[min(point.column, set.rays - 1)]);
 }
 
 #endif

@@ -17,7 +17,8 @@ shared int last_bin;
 
 /// Goes down the bins until as many are served as may be, or as want it, up to a whole block.
 void choose() {
-  uint wanting = 0u, live = 0u;
+  uint wanting = 0u;
+  uint live = 0u;
   for (int bin = kRestBin; bin < kWorthBins; ++bin) {
     live += bins[bin];
     if (bin >= kFirstGainBin) wanting += bins[bin];
@@ -36,14 +37,6 @@ void choose() {
   args.state.at[0].list.largest_share = 0u;
 }
 
-/// How many probes of a chunk are served for certain, and how many are of the last bin.
-void count_in(int c, int last) {
-  uint higher = 0u;
-  for (int bin = last + 1; bin < kWorthBins; ++bin) higher += args.chunks.at[c].bins[bin];
-  args.chunks.at[c].higher = int(higher);
-  args.chunks.at[c].of_last = int(args.chunks.at[c].bins[last]);
-}
-
 void main() {
   int lane = int(gl_LocalInvocationIndex);
   if (lane < kWorthBins) {
@@ -53,7 +46,12 @@ void main() {
   barrier();
   if (lane == 0) choose();
   barrier();
-  for (int c = lane; c < args.chunk_count; c += kChunkProbes) count_in(c, last_bin);
+  for (int c = lane; c < args.chunk_count; c += kChunkProbes) {
+    uint higher = 0u;
+    for (int bin = last_bin + 1; bin < kWorthBins; ++bin) higher += args.chunks.at[c].bins[bin];
+    args.chunks.at[c].higher = int(higher);
+    args.chunks.at[c].of_last = int(args.chunks.at[c].bins[last_bin]);
+  }
   uint blocks = chosen / uint(kBlockProbes);
   if (lane < kListShapes) {
     args.state.at[0].list.over[lane] = list_groups(args.sizes.at[lane], chosen, blocks);

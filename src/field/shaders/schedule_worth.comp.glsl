@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule_arguments.h"
-#include "field/shaders/volume_of.glsl"
+#include "field/shaders/noise_around.glsl"
 
 layout(local_size_x = kChunkProbes) in;
 layout(push_constant, scalar) uniform Push {
@@ -12,24 +12,6 @@ layout(push_constant, scalar) uniform Push {
 
 shared uint bins[kWorthBins];
 shared float noises[kChunkProbes];  // of probes that do not rest; 0: rests
-
-/// The mean noise of a probe and of those next to it that are not off.
-float noise_around(int probe) {
-  ProbeGrid grid = args.grids.at[volume_of(args.grids, probe)];
-  ivec3 place = probe_coords(grid, probe);
-  float sum = args.service.at[probe].known.noise;
-  int count = 1;
-  for (int i = 0; i < 6; ++i) {
-    ivec3 next = place;
-    next[i / 2] += 2 * (i % 2) - 1;
-    if (next[i / 2] < 0 || next[i / 2] >= grid.count[i / 2]) continue;
-    int neighbour = probe_index(grid, next);
-    if (args.probes.states.at[neighbour] == kProbeOff) continue;
-    sum += args.service.at[neighbour].known.noise;
-    ++count;
-  }
-  return sum / float(count);
-}
 
 /// The bin of a probe; its noise where it does not rest.
 int bin_of(int probe, out float noise) {
@@ -40,7 +22,8 @@ int bin_of(int probe, out float noise) {
     return look ? worth_bin(0.0, service.served, args.update) : kNoPartBin;
   }
   float samples = args.probes.standing.at[probe].samples;
-  float held = probe_noise(service.known.noise, noise_around(probe));
+  float around = noise_around(args.grids, args.probes.states, args.service, probe);
+  float held = probe_noise(service.known.noise, around);
   float gain = noise_gain(held, samples, args.longest);
   if (gain > 0.0) {
     noise = held;

@@ -81,9 +81,9 @@ vec4 nearest_texel(TextureViewRecord view, vec2 uv, int wanted_level) {
 vec4 filtered_texel(TextureViewRecord view, vec2 uv) {
   if ((view.sampling & kSamplingNearest) != 0u) return nearest_texel(view, uv, 0);
   uint wraps = wrap_u(view) + kWraps * wrap_v(view);
-  return textureLod(
-      sampler2D(scene_textures[nonuniformEXT(view.texture)], scene_samplers[nonuniformEXT(wraps)]),
-      wrap_uv(view, uv), 0.0f);
+  return textureLod(nonuniformEXT(sampler2D(scene_textures[nonuniformEXT(view.texture)],
+                                            scene_samplers[nonuniformEXT(wraps)])),
+                    wrap_uv(view, uv), 0.0f);
 }
 
 /// Alpha at full resolution, as the host reads it: decisions hang on it.
