@@ -13,6 +13,8 @@ constexpr std::uint32_t kRequiredApi = VK_API_VERSION_1_2;
 
 // Lanes that matrix products share what they load among.
 constexpr std::uint32_t kLeastSubgroup = 8;
+// Of the largest workgroups.
+constexpr std::uint32_t kLeastGroup = 256;
 
 /// Calls visit(name, flag) for each feature that passes need.
 template <class Features, class Visit>
@@ -124,6 +126,9 @@ DeviceDescription describe(const Functions& f, VkPhysicalDevice device) {
       (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) == 0 ||
       (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) == 0) {
     description.missing.emplace_back("subgroups of 8 that shuffle");
+  }
+  if (properties.properties.limits.maxComputeWorkGroupInvocations < kLeastGroup) {
+    description.missing.emplace_back("workgroups of 256");
   }
   if (!description.missing.empty()) return description;
   RequiredFeatures features;

@@ -12,5 +12,6 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   vec3 up = vec3(0.0, 1.0, 0.0);
-  irradiance.at[gl_GlobalInvocationID.x] = field_irradiance(field, vec3(gl_GlobalInvocationID), up, up);
+  irradiance.at[gl_GlobalInvocationID.x] =
+      field_irradiance(field, vec3(gl_GlobalInvocationID), up, up);
 }

@@ -19,9 +19,9 @@ void main() {
   if (mask != 0u && ray.t_min <= ray.t_max) {
     // Until a ray is known to have missed, it has met something: no shader runs at hits
     occluded = 1u;
-    traceRayEXT(accelerationStructureEXT(args.structure),
-                gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT, mask, 0, 0, 0,
-                ray.origin_ws, ray.t_min, ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);
+    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;
+    traceRayEXT(accelerationStructureEXT(args.structure), flags, mask, 0, 0, 0, ray.origin_ws,
+                ray.t_min, ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);
   }
   args.occluded.at[i] = occluded;
 }
