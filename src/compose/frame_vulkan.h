@@ -52,8 +52,7 @@ class FramePassesVulkan final : public FramePasses {
   /// Makes room for so many elements; memory that grew holds nothing.
   template <class T>
   void reserve(std::size_t count, const char* name, Buffer& buffer) const {
-    if (buffer.bytes() >= count * sizeof(T)) return;
-    buffer = Buffer(device_, count * sizeof(T), vulkan::Memory::device, name);
+    buffer.reserve(device_, count * sizeof(T), name);
   }
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, const Buffer& irradiance);

@@ -24,8 +24,7 @@ vulkan::Buffer host_buffer(const vulkan::Device& device, std::span<const T> data
 template <class T>
 void reserve(const vulkan::Device& device, std::size_t count, const std::string& name,
              vulkan::Buffer& buffer) {
-  if (buffer.bytes() >= count * sizeof(T) && buffer.handle() != VK_NULL_HANDLE) return;
-  buffer = vulkan::Buffer(device, count * sizeof(T), vulkan::Memory::device, name);
+  buffer.reserve(device, count * sizeof(T), name);
 }
 
 inline int round_up(int value, int multiple) {

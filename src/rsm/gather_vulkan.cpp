@@ -48,13 +48,13 @@ RsmGathererVulkan::RsmGathererVulkan(const vulkan::Device& device)
       restructure_(device_, shaders::rsm_restructure_comp(), "rsm.restructure"),
       upsample_(device_, shaders::rsm_upsample_comp(), "rsm.upsample") {
   // Passes are given addresses of what they do not read, too
-  reserve(texels_.places, 0, "rsm.places");
-  reserve(picture_.arrived, 0, "rsm.arrived");
-  reserve(picture_.points, 0, "rsm.points");
-  reserve(picture_.normals, 0, "rsm.normals");
-  reserve(picture_.light, 0, "rsm.light");
-  reserve(picture_.blurred, 0, "rsm.blurred");
-  reserve(picture_.ray_count, sizeof(std::uint32_t), "rsm.ray_count");
+  texels_.places.reserve(device_, 0, "rsm.places");
+  picture_.arrived.reserve(device_, 0, "rsm.arrived");
+  picture_.points.reserve(device_, 0, "rsm.points");
+  picture_.normals.reserve(device_, 0, "rsm.normals");
+  picture_.light.reserve(device_, 0, "rsm.light");
+  picture_.blurred.reserve(device_, 0, "rsm.blurred");
+  picture_.ray_count.reserve(device_, sizeof(std::uint32_t), "rsm.ray_count");
 }
 
 const RsmKernels& RsmGathererVulkan::kernels(int sub_images) {
@@ -63,19 +63,15 @@ const RsmKernels& RsmGathererVulkan::kernels(int sub_images) {
   return kernels_.emplace(sub_images, RsmKernels(device_, sub_images)).first->second;
 }
 
-void RsmGathererVulkan::reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name) {
-  if (buffer.address() != 0 && buffer.bytes() >= bytes) return;
-  buffer = vulkan::Buffer(device_, bytes, Memory::device, name);
-}
-
 void RsmGathererVulkan::set_lights(const RsmLights& lights, const RsmSettings& settings) {
   texels_.count = static_cast<int>(lights.count(0));
-  reserve(texels_.restructured, lights.restructured.size() * sizeof(RsmTexel), "rsm.sub_maps");
+  texels_.restructured.reserve(device_, lights.restructured.size() * sizeof(RsmTexel),
+                               "rsm.sub_maps");
   vulkan::write(device_, std::span(lights.restructured), texels_.restructured);
   if (settings.layout != RsmLayout::full) return;
-  reserve(texels_.rendered, lights.rendered.size() * sizeof(RsmTexel), "rsm.rendered");
+  texels_.rendered.reserve(device_, lights.rendered.size() * sizeof(RsmTexel), "rsm.rendered");
   vulkan::write(device_, std::span(lights.rendered), texels_.rendered);
-  reserve(texels_.places, lights.places.size() * sizeof(std::uint32_t), "rsm.places");
+  texels_.places.reserve(device_, lights.places.size() * sizeof(std::uint32_t), "rsm.places");
   vulkan::write(device_, std::span(lights.places), texels_.places);
 }
 
@@ -96,8 +92,10 @@ void RsmGathererVulkan::set_disks(std::span<const DiskSource> sources,
   std::size_t texels = 0;
   for (const DiskSource& map : sources)
     texels += static_cast<std::size_t>(map.resolution) * map.resolution;
-  if (restructured) reserve(texels_.map_texels, texels * sizeof(RsmTexel), "rsm.map_texels");
-  reserve(texels_.samples, sources.size() * samples_per_map * sizeof(DiskSample), "rsm.samples");
+  if (restructured)
+    texels_.map_texels.reserve(device_, texels * sizeof(RsmTexel), "rsm.map_texels");
+  texels_.samples.reserve(device_, sources.size() * samples_per_map * sizeof(DiskSample),
+                          "rsm.samples");
 
   std::vector<DiskMap> records;
   std::vector<DiskSample> samples;
@@ -117,7 +115,7 @@ void RsmGathererVulkan::set_disks(std::span<const DiskSource> sources,
       next.address += static_cast<std::size_t>(edge) * edge * sizeof(RsmTexel);
     }
   });
-  reserve(texels_.maps, records.size() * sizeof(DiskMap), "rsm.disk_maps");
+  texels_.maps.reserve(device_, records.size() * sizeof(DiskMap), "rsm.disk_maps");
   vulkan::write(device_, std::span<const DiskMap>(records), texels_.maps);
   vulkan::write(device_, std::span<const DiskSample>(samples), texels_.samples);
 }
@@ -126,7 +124,7 @@ void RsmGathererVulkan::set_maps(std::span<const ReflectiveShadowMap> maps,
                                  const RsmSettings& settings) {
   std::size_t texels = 0;
   for (const ReflectiveShadowMap& map : maps) texels += map.texels.size();
-  reserve(uploaded_maps_, texels * sizeof(RsmTexel), "rsm.uploaded_maps");
+  uploaded_maps_.reserve(device_, texels * sizeof(RsmTexel), "rsm.uploaded_maps");
   std::vector<DiskSource> sources;
   std::size_t first = 0;
   for (const ReflectiveShadowMap& map : maps) {
@@ -149,24 +147,24 @@ void RsmGathererVulkan::set_maps(const RsmMapsOnDevice& maps, const RsmSettings&
 void RsmGathererVulkan::reserve_picture(int width, int height, const RsmSettings& settings,
                                         bool keep_stages) {
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
-  reserve(picture_.picture, pixels * sizeof(vec3), "rsm.picture");
+  picture_.picture.reserve(device_, pixels * sizeof(vec3), "rsm.picture");
   if (keep_stages) {
-    reserve(picture_.stages[0], pixels * sizeof(vec3), "rsm.gathered");
-    reserve(picture_.stages[1], pixels * sizeof(vec3), "rsm.interleaved");
+    picture_.stages[0].reserve(device_, pixels * sizeof(vec3), "rsm.gathered");
+    picture_.stages[1].reserve(device_, pixels * sizeof(vec3), "rsm.interleaved");
   }
   if (settings.visibility_rays > 0) {
     const std::size_t rays = visibility_rays_at_a_time(width, height, settings);
-    reserve(picture_.arrived, pixels * sizeof(float), "rsm.arrived");
-    reserve(picture_.rays, rays * sizeof(RayRecord), "rsm.rays");
-    reserve(picture_.occluded, rays * sizeof(std::uint32_t), "rsm.occluded");
+    picture_.arrived.reserve(device_, pixels * sizeof(float), "rsm.arrived");
+    picture_.rays.reserve(device_, rays * sizeof(RayRecord), "rsm.rays");
+    picture_.occluded.reserve(device_, rays * sizeof(std::uint32_t), "rsm.occluded");
   }
   if (!blurs(settings)) return;
   const auto places =
       static_cast<std::size_t>(mosaic_places({width, height}, mosaic_sub_images(settings)));
-  reserve(picture_.points, places * sizeof(vec4), "rsm.points");
-  reserve(picture_.normals, places * sizeof(std::uint32_t), "rsm.normals");
-  reserve(picture_.light, places * sizeof(std::uint32_t) * 3, "rsm.light");
-  reserve(picture_.blurred, places * sizeof(std::uint32_t) * 3, "rsm.blurred");
+  picture_.points.reserve(device_, places * sizeof(vec4), "rsm.points");
+  picture_.normals.reserve(device_, places * sizeof(std::uint32_t), "rsm.normals");
+  picture_.light.reserve(device_, places * sizeof(std::uint32_t) * 3, "rsm.light");
+  picture_.blurred.reserve(device_, places * sizeof(std::uint32_t) * 3, "rsm.blurred");
 }
 
 void RsmGathererVulkan::record(vulkan::Recorder& recorder, const RsmViewOnDevice& view,

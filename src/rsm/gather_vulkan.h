@@ -61,7 +61,6 @@ class RsmGathererVulkan {
 
  private:
   const RsmKernels& kernels(int sub_images);
-  void reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name);
   struct DiskSource;
   void set_disks(std::span<const DiskSource> sources, const RsmSettings& settings);
   void run(const RsmViewOnDevice& view, const RsmSettings& settings, const DeviceTracer* tracer,

@@ -39,11 +39,6 @@ RsmMapperVulkan::RsmMapperVulkan(const vulkan::Device& device)
       weigh_(device, shaders::rsm_weigh_comp(), "rsm.weigh"),
       shading_(device) {}
 
-void RsmMapperVulkan::reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name) {
-  if (buffer.address() != 0 && buffer.bytes() >= bytes) return;
-  buffer = vulkan::Buffer(device_, bytes, vulkan::Memory::device, name);
-}
-
 void RsmMapperVulkan::trace(vulkan::Recorder& to, const DeviceWorld& world,
                             const MapProjection& projection, int resolution) {
   const auto edge = static_cast<std::uint32_t>(resolution);
@@ -104,14 +99,14 @@ void RsmMapperVulkan::render(const World& world, const Camera& camera, float asp
     }
   }
   const std::size_t rays = maps.texels_of_map();
-  reserve(maps.texels, maps.projections.size() * rays * sizeof(RsmTexel), "rsm.maps");
-  reserve(rays_, rays * sizeof(RayRecord), "rsm.map_rays");
-  reserve(hits_, rays * sizeof(HitRecord), "rsm.map_hits");
+  maps.texels.reserve(device_, maps.projections.size() * rays * sizeof(RsmTexel), "rsm.maps");
+  rays_.reserve(device_, rays * sizeof(RayRecord), "rsm.map_rays");
+  hits_.reserve(device_, rays * sizeof(HitRecord), "rsm.map_hits");
   if (settings.from_camera) {
-    reserve(points_, rays * sizeof(LitPointRecord), "rsm.map_points");
-    reserve(shaded_, rays * sizeof(ShadedHitRecord), "rsm.map_shaded");
-    reserve(irradiance_, rays * sizeof(vec3), "rsm.map_irradiance");
-    reserve(first_index_, sizeof(std::uint32_t), "rsm.map_first_index");
+    points_.reserve(device_, rays * sizeof(LitPointRecord), "rsm.map_points");
+    shaded_.reserve(device_, rays * sizeof(ShadedHitRecord), "rsm.map_shaded");
+    irradiance_.reserve(device_, rays * sizeof(vec3), "rsm.map_irradiance");
+    first_index_.reserve(device_, sizeof(std::uint32_t), "rsm.map_first_index");
   }
   device_.run([&](vulkan::Recorder& to) {
     to.bind_textures(on_device.scene().textures());
@@ -122,8 +117,8 @@ void RsmMapperVulkan::render(const World& world, const Camera& camera, float asp
 
 ViewPoints RsmMapperVulkan::find_view_points(const RsmViewOnDevice& view,
                                              const RsmSettings& settings) {
-  reserve(view_point_memory_, 2 * kViewPoints * sizeof(vec3), "rsm.view_points");
-  reserve(view_point_count_, sizeof(int), "rsm.view_point_count");
+  view_point_memory_.reserve(device_, 2 * kViewPoints * sizeof(vec3), "rsm.view_points");
+  view_point_count_.reserve(device_, sizeof(int), "rsm.view_point_count");
   const ViewPointsArguments arguments = {view.arrays,
                                          {view_point_memory_.address()},
                                          {view_point_count_.address()},
@@ -145,7 +140,8 @@ std::vector<ClusterRecord> RsmMapperVulkan::cluster_blocks(const RsmMapsOnDevice
                                                            std::size_t map, bool weigh) {
   const int blocks = (maps.resolution + kBlockEdge - 1) / kBlockEdge;
   const int count = blocks * blocks * kBlockSurfaces;
-  reserve(cluster_memory_, static_cast<std::size_t>(count) * sizeof(ClusterRecord), "rsm.clusters");
+  cluster_memory_.reserve(device_, static_cast<std::size_t>(count) * sizeof(ClusterRecord),
+                          "rsm.clusters");
   device_.run([&](vulkan::Recorder& to) {
     const ClusterArguments arguments = {
         maps.of(map), {cluster_memory_.address()}, maps.resolution, blocks};

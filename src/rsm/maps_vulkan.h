@@ -51,7 +51,6 @@ class RsmMapperVulkan {
                    const RsmSettings& settings);
 
  private:
-  void reserve(vulkan::Buffer& buffer, std::size_t bytes, const char* name);
   void trace(vulkan::Recorder& to, const DeviceWorld& world, const MapProjection& projection,
              int resolution);
   void make_texels(vulkan::Recorder& to, const DeviceWorld& world, const RsmMapsOnDevice& maps,

@@ -102,6 +102,11 @@ Buffer::~Buffer() {
   release();
 }
 
+void Buffer::reserve(const Device& device, std::size_t bytes, const std::string& name) {
+  if (buffer_ != VK_NULL_HANDLE && bytes_ >= bytes) return;
+  *this = Buffer(device, bytes, Memory::device, name);
+}
+
 Buffer::Buffer(Buffer&& other) noexcept {
   *this = std::move(other);
 }

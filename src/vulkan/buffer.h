@@ -34,6 +34,10 @@ class Buffer {
   Buffer(Buffer&& other) noexcept;
   Buffer& operator=(Buffer&& other) noexcept;
 
+  /// Makes it a buffer of Memory::device of at least so many bytes. What it held is lost where it
+  /// grows.
+  void reserve(const Device& device, std::size_t bytes, const std::string& name);
+
   VkBuffer handle() const { return buffer_; }
   VkDeviceAddress address() const { return address_; }
   /// Of `handle()`, where the aligned address begins.
