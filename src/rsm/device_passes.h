@@ -43,7 +43,7 @@ const uint kGatherRendered = 4u;
 /// workgroup's memory, which takes as long as its arithmetic, serves all of them.
 const int kGatherPixels = 2;
 
-struct GatherArguments {
+struct RsmGatherArguments {
   DeviceView view;
   GatherTarget target;
   RsmTexelArray texels;

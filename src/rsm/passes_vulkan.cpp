@@ -131,16 +131,16 @@ void RsmPassesOnDevice::gather_whole() {
   const bool mixed = p == 1 && settings_.sub_maps > 1;
   const vulkan::Kernel& kernel = mixed ? kernels_.gather_mixed : kernels_.gather;
   const vulkan::Buffer& texels = rendered ? texels_.rendered : texels_.restructured;
-  const GatherArguments arguments = {view_.arrays,
-                                     target(),
-                                     {texels.address()},
-                                     {texels_.places.address()},
-                                     view_.width,
-                                     view_.height,
-                                     settings_.sub_maps,
-                                     texels_.count,
-                                     flags(),
-                                     0};
+  const RsmGatherArguments arguments = {view_.arrays,
+                                        target(),
+                                        {texels.address()},
+                                        {texels_.places.address()},
+                                        view_.width,
+                                        view_.height,
+                                        settings_.sub_maps,
+                                        texels_.count,
+                                        flags(),
+                                        0};
   const Tiles tiles = tiles_of(kernel, p);
   const int taller = mixed ? 1 : kGatherPixels;
   const int rows = groups(static_cast<int>(tiles.height), kGatherTileHeight * taller);

@@ -6,7 +6,7 @@
 #include "rsm/shaders/gather_pixel.glsl"
 
 layout(push_constant, scalar) uniform Push {
-  GatherArguments args;
+  RsmGatherArguments args;
 };
 
 const int kGroup = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
