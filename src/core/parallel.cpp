@@ -7,7 +7,18 @@
 // The thread sanitizer does not see how oneTBB, which is not built for it, hands work from thread
 // to thread, and calls all of it a race; with threads of our own it sees everything. These serve,
 // too, where there is no oneTBB.
-#if defined(__SANITIZE_THREAD__) || !LAMBENT_CPU
+#if defined(__SANITIZE_THREAD__)
+#define LAMBENT_UNDER_TSAN 1
+#elif defined(__has_feature)
+#if __has_feature(thread_sanitizer)
+#define LAMBENT_UNDER_TSAN 1
+#endif
+#endif
+#ifndef LAMBENT_UNDER_TSAN
+#define LAMBENT_UNDER_TSAN 0
+#endif
+
+#if LAMBENT_UNDER_TSAN || !LAMBENT_CPU
 #define LAMBENT_OWN_THREADS 1
 #else
 #define LAMBENT_OWN_THREADS 0
@@ -28,7 +39,7 @@ namespace {
 #if LAMBENT_OWN_THREADS
 
 std::size_t thread_count() {
-#ifdef __SANITIZE_THREAD__
+#if LAMBENT_UNDER_TSAN
   return 4;  // races between more are found between these
 #else
   return std::max(1u, std::thread::hardware_concurrency());
