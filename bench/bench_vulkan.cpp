@@ -123,12 +123,11 @@ void vulkan_blend(benchmark::State& state, ProbeBlend& (*blend_of)()) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   ProbeBlend& blend = blend_of();
   const DeviceGroup all = {0, blend.list.count(), kRays};
-  const IntArray indices = blend.list.index_array();
   time_on_device(state, [&](vulkan::Recorder& to) {
     blend.field.record_seen_distances(to, blend.list, all, {blend.hits.address()});
     blend.field.record_blend_distances(to, blend.list, {blend.shares.address()}, 1u);
     blend.field.record_receive(to, blend.list, blend.transport());
-    blend.field.record_store_light(to, indices, blend.list.count(), 1u);
+    blend.field.record_store_light(to, blend.list, 1u);
   });
   state.counters["probes"] = static_cast<double>(blend.list.count());
 }
