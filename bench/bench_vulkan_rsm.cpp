@@ -17,19 +17,6 @@ namespace {
 constexpr int kRepetitions = 7;
 constexpr std::uint32_t kTimedPasses = 8;
 
-/// The view, in the device's memory.
-struct ViewBuffers {
-  ViewBuffers(const vulkan::Device& device, const RsmView& view)
-      : positions(vulkan::upload(device, view.positions_ws, "positions")),
-        normals(vulkan::upload(device, view.normals_ws, "normals")),
-        depths(vulkan::upload(device, view.depths, "depths")),
-        on_device{view.width,
-                  view.height,
-                  {{positions.address()}, {normals.address()}, {depths.address()}}} {}
-  vulkan::Buffer positions, normals, depths;
-  RsmViewOnDevice on_device;
-};
-
 /// Times of one variant; its lights are chosen once.
 class Variant {
  public:
@@ -37,7 +24,7 @@ class Variant {
       : device_(device), settings_(settings), gatherer_(device), timestamps_(device, kTimedPasses) {
     gatherer_.set_lights(choose_lights(work.maps, work.view(), settings), settings);
   }
-  void run(const ViewBuffers& view) {
+  void run(const UploadedRsmView& view) {
     device_.run([&](vulkan::Recorder& untimed) {
       vulkan::Recorder recorder(device_, untimed.commands(), &timestamps_);
       gatherer_.record(recorder, view.on_device, settings_);
@@ -76,7 +63,7 @@ void vulkan_rsm(benchmark::State& state) {
   const auto device = vulkan::open_device();
   if (!device) return state.SkipWithError(device.error().message().c_str());
   const RsmWorkload& work = rsm_workload();
-  const ViewBuffers view(**device, work.view());
+  const UploadedRsmView view(**device, work.view());
   Variant plain(**device, work, plain_gather());
   Variant restructured(**device, work, with_layout(RsmLayout::restructured));
   Variant full(**device, work, with_layout(RsmLayout::full));

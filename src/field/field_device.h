@@ -110,8 +110,13 @@ class FieldDevice {
   virtual std::size_t surfel_bytes() const = 0;
 };
 
-/// An empty field of the store's shape on the device that the world is on; null where the library
-/// knows no devices, or there are more probes than passes there can take (2^18).
+/// Probes of a field that passes on a device can take: every device takes dispatches of 65,535
+/// groups of eight probes, and indices of texels stay within 31 bits. Larger fields stay on the
+/// host and ask the device for rays alone.
+inline constexpr int kMostDeviceProbes = 1 << 18;
+
+/// An empty field of the store's shape, of at most kMostDeviceProbes, on the device that the world
+/// is on; null where the library knows no devices.
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lookups of a field on Vulkan, and the rays that they ask.
 #include <algorithm>
+#include <cassert>
 
 #include "field/device_memory.h"
 #include "field/field_vulkan.h"
@@ -9,10 +10,6 @@
 
 namespace lambent {
 namespace {
-
-// Every device takes dispatches of 65,535 groups of eight probes; indices of texels stay within 31
-// bits.
-constexpr int kMostProbes = 1 << 18;
 
 using vulkan::Buffer;
 using vulkan::Recorder;
@@ -74,7 +71,7 @@ void FieldVulkan::record_lookups(Recorder& recorder, const World* world, std::ui
 
 std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
                                                const ProbeStore& store) {
-  if (store.probes() > kMostProbes) return nullptr;
+  assert(store.probes() <= kMostDeviceProbes);
   return std::make_unique<FieldVulkan>(world, settings, store);
 }
 

@@ -13,8 +13,6 @@ namespace lambent::vulkan {
 namespace {
 
 constexpr int kMostFramesInFlight = 16;
-// Rays in a row of a launch: all devices take so many.
-constexpr std::uint32_t kLaunchWidth = 1u << 20;
 constexpr int kMostPlacingUpdates = 64;
 
 BufferRange range_of(const Buffer& buffer) {
@@ -135,7 +133,7 @@ void RecordedField::record_trace(VkCommandBuffer commands,
   info.accelerationStructure = structure;
   const VkDeviceAddress address =
       s.device->fn().vkGetAccelerationStructureDeviceAddressKHR(s.device->handle(), &info);
-  const std::uint32_t count = s.ray_count(), width = std::min(count, kLaunchWidth);
+  const std::uint32_t count = s.ray_count();
   const EngineClosestArguments arguments = {
       uvec2(static_cast<uint>(address), static_cast<uint>(address >> 32)),
       {s.rays.address()},
@@ -148,7 +146,7 @@ void RecordedField::record_trace(VkCommandBuffer commands,
                         kOverLaunch * sizeof(GroupCounts));
       return;
     }
-    to.trace(s.tracer.closest, arguments, width, (count + width - 1) / width);
+    to.trace(s.tracer.closest, arguments, count);
   });
 }
 

@@ -5,14 +5,12 @@
 #include <glm/glm.hpp>
 #include <span>
 
+#include "field/tile_light_math.h"
 #include "shared/color.h"
 
 namespace lambent {
 
 using TileLight = std::span<const glm::vec4>;
-
-// Luminance that counts as none [W/m^2]; keeps divisions finite.
-inline constexpr float kTiniestLight = 1e-20f;
 
 /// Luminance of a tile's texels, on average.
 inline float mean_luminance(TileLight tile) {
@@ -30,7 +28,7 @@ inline float relative_square(TileLight a, TileLight b, float darkest = 0.0f) {
     sum += difference * difference;
   }
   const float mean = glm::max(mean_luminance(b), darkest);
-  return sum / (static_cast<float>(a.size()) * glm::max(mean * mean, kTiniestLight));
+  return mean_relative_square(sum, static_cast<int>(a.size()), mean);
 }
 
 /// How alike the distributions of two tiles' light over directions are, 0 to 1, whatever their

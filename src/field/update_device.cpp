@@ -10,7 +10,7 @@
 namespace lambent {
 
 void IrradianceField::State::move_to(const World& world, UpdateStatistics& statistics) {
-  const bool on_device = world.on_device() != nullptr;
+  const bool on_device = world.on_device() != nullptr && store.probes() <= kMostDeviceProbes;
   if (on_device && device && device->is_on(world)) return;
   if (!on_device && !device) return;
   fetch_light();

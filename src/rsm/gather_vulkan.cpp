@@ -250,12 +250,8 @@ void RsmGathererVulkan::gather(std::span<const ReflectiveShadowMap> maps, const 
   }
   result.passes.push_back({"rsm.choose", watch.lap()});
 
-  const vulkan::Buffer positions = vulkan::upload(device_, view.positions_ws, "rsm.positions");
-  const vulkan::Buffer normals = vulkan::upload(device_, view.normals_ws, "rsm.view_normals");
-  const vulkan::Buffer depths = vulkan::upload(device_, view.depths, "rsm.depths");
-  const RsmViewOnDevice on_device = {
-      view.width, view.height, {{positions.address()}, {normals.address()}, {depths.address()}}};
-  run(on_device, settings, tracer, textures, keep_stages, result);
+  const UploadedRsmView uploaded(device_, view);
+  run(uploaded.on_device, settings, tracer, textures, keep_stages, result);
   result.irradiance.resize(static_cast<std::size_t>(view.width) * view.height);
   vulkan::read(device_, picture_.picture, std::span(result.irradiance));
 }

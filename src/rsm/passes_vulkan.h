@@ -21,6 +21,19 @@ struct RsmViewOnDevice {
   DeviceView arrays;  ///< Each of width * height entries, rows from the top.
 };
 
+/// A view of the host's, copied to a device.
+struct UploadedRsmView {
+  UploadedRsmView(const vulkan::Device& device, const RsmView& view)
+      : positions(vulkan::upload(device, view.positions_ws, "rsm.positions")),
+        normals(vulkan::upload(device, view.normals_ws, "rsm.view_normals")),
+        depths(vulkan::upload(device, view.depths, "rsm.depths")),
+        on_device{view.width,
+                  view.height,
+                  {{positions.address()}, {normals.address()}, {depths.address()}}} {}
+  vulkan::Buffer positions, normals, depths;
+  RsmViewOnDevice on_device;
+};
+
 /// Compiled for a number of sub-images along an edge of the mosaic.
 struct RsmKernels {
   RsmKernels(const vulkan::Device& device, int sub_images);

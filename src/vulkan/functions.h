@@ -74,7 +74,6 @@ namespace lambent::vulkan {
   X(vkDestroyQueryPool)                            \
   X(vkDestroySampler)                              \
   X(vkDestroyShaderModule)                         \
-  X(vkDeviceWaitIdle)                              \
   X(vkEndCommandBuffer)                            \
   X(vkFreeCommandBuffers)                          \
   X(vkFreeMemory)                                  \
@@ -89,7 +88,6 @@ namespace lambent::vulkan {
   X(vkMapMemory)                                   \
   X(vkQueueSubmit)                                 \
   X(vkResetFences)                                 \
-  X(vkUnmapMemory)                                 \
   X(vkUpdateDescriptorSets)                        \
   X(vkWaitForFences)
 

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kMsPerNs = 1e-6;
 
+// Rays in a row of a launch: all devices take so many.
+constexpr std::uint32_t kLaunchWidth = 1u << 20;
+
 /// Whether a struct of so many bytes is what a shader reads: C++ may pad its end.
 [[maybe_unused]] bool fits(std::uint32_t bytes, std::uint32_t read_by_shader) {
   return bytes >= read_by_shader && bytes - read_by_shader < alignof(std::uint64_t);
@@ -171,12 +174,13 @@ void Recorder::dispatch_indirect(const Kernel& kernel, const void* arguments, st
 }
 
 void Recorder::trace_rays(const RayKernel& kernel, const void* arguments, std::uint32_t bytes,
-                          std::uint32_t x, std::uint32_t y) {
-  if (x == 0 || y == 0) return;
+                          std::uint32_t count) {
+  if (count == 0) return;
+  const std::uint32_t width = std::min(count, kLaunchWidth);
   bind_rays(kernel, arguments, bytes);
   const VkStridedDeviceAddressRegionKHR none{};
   device_.fn().vkCmdTraceRaysKHR(commands_, &kernel.generation(), &kernel.miss(), &kernel.hit(),
-                                 &none, x, y, 1);
+                                 &none, width, groups(count, width), 1);
 }
 
 void Recorder::trace_rays_indirect(const RayKernel& kernel, const void* arguments,

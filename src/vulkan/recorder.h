@@ -64,12 +64,11 @@ class Recorder {
     static_assert(sizeof(Arguments) <= 128);
     dispatch_indirect(kernel, &arguments, sizeof(Arguments), groups, offset);
   }
-  /// Runs a ray generation shader so many times.
+  /// Runs a ray generation shader so many times or more, in rows; those beyond must do nothing.
   template <class Arguments>
-  void trace(const RayKernel& kernel, const Arguments& arguments, std::uint32_t x,
-             std::uint32_t y = 1) {
+  void trace(const RayKernel& kernel, const Arguments& arguments, std::uint32_t count) {
     static_assert(sizeof(Arguments) <= 128);
-    trace_rays(kernel, &arguments, sizeof(Arguments), x, y);
+    trace_rays(kernel, &arguments, sizeof(Arguments), count);
   }
   /// The same for a width, height and depth that the device wrote.
   template <class Arguments>
@@ -102,7 +101,7 @@ class Recorder {
   void dispatch_indirect(const Kernel& kernel, const void* arguments, std::uint32_t bytes,
                          const Buffer& groups, std::size_t offset);
   void trace_rays(const RayKernel& kernel, const void* arguments, std::uint32_t bytes,
-                  std::uint32_t x, std::uint32_t y);
+                  std::uint32_t count);
   void trace_rays_indirect(const RayKernel& kernel, const void* arguments, std::uint32_t bytes,
                            const Buffer& size, std::size_t offset);
   void bind_compute(const Kernel& kernel, const void* arguments, std::uint32_t bytes);

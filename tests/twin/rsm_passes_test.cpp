@@ -108,19 +108,6 @@ class RsmTwin : public test::OnDevice {
   static RsmGathererVulkan& gatherer() { return device().kept<RsmGathererVulkan>(); }
 };
 
-/// A view in the device's memory.
-struct ViewBuffers {
-  ViewBuffers(const vulkan::Device& device, const RsmView& view)
-      : positions(vulkan::upload(device, view.positions_ws, "positions")),
-        normals(vulkan::upload(device, view.normals_ws, "normals")),
-        depths(vulkan::upload(device, view.depths, "depths")),
-        on_device{view.width,
-                  view.height,
-                  {{positions.address()}, {normals.address()}, {depths.address()}}} {}
-  vulkan::Buffer positions, normals, depths;
-  RsmViewOnDevice on_device;
-};
-
 RsmSettings few_texels() {
   RsmSettings settings;
   settings.texels = 200;
@@ -288,7 +275,7 @@ TEST_F(RsmTwin, UpsamplesTheSameLight) {
                               small.normals_ws, small.depths};
   gatherer().gather(render_rsms(box.host, camera, 61.0f / 43.0f, settings), small_view, settings,
                     light);
-  const ViewBuffers from(device(), small_view), to(device(), box.seen.view());
+  const UploadedRsmView from(device(), small_view), to(device(), box.seen.view());
   // The picture in two bands of rows
   constexpr int kFirstRows = 17;
   const auto first = static_cast<std::size_t>(kFirstRows) * frame.width;

@@ -4,15 +4,13 @@
 #extension GL_GOOGLE_include_directive : require
 #include "field/device_arguments.h"
 #include "field/shaders/tiles.glsl"
+#include "field/tile_light_math.h"
 #include "shared/color.h"
 
 layout(local_size_x = kGroupLanes) in;
 layout(push_constant, scalar) uniform Push {
   CompareLightArguments args;
 };
-
-// Luminance that counts as none [W/m^2], as in tile_light.h.
-const float kTiniestLight = 1e-20;
 
 void main() {
   int k = int(gl_GlobalInvocationID.x);
@@ -33,6 +31,6 @@ void main() {
   before /= float(texels);
   now /= float(texels);
   float mean = max(before, args.darkest);
-  float square = squares / (float(texels) * max(mean * mean, kTiniestLight));
+  float square = mean_relative_square(squares, texels, mean);
   args.changes.at[k] = vec3(square, before, now);
 }

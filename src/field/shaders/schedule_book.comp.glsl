@@ -3,14 +3,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule_arguments.h"
+#include "field/tile_light_math.h"
 
 layout(local_size_x = kGroupLanes) in;
 layout(push_constant, scalar) uniform Push {
   ScheduleBookArguments args;
 };
-
-// Luminance that counts as none [W/m^2], as in tile_light.h.
-const float kTiniestLight = 1e-20;
 
 void main() {
   int k = int(gl_GlobalInvocationID.x);

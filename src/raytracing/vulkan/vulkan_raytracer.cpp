@@ -28,8 +28,6 @@ namespace {
 constexpr std::size_t kBatchRays = std::size_t{1} << 18;
 // Room that the first and smallest batches find.
 constexpr std::size_t kLeastRoom = std::size_t{1} << 10;
-// Rays in one row of a launch: all devices take so many.
-constexpr std::uint32_t kLaunchWidth = 1u << 20;
 
 // Rays go up as they are.
 static_assert(sizeof(Ray) == sizeof(RayRecord) && std::is_trivially_copyable_v<Ray> &&
@@ -170,8 +168,7 @@ void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel&
     recorder.trace_indirect(kernel, arguments, *batch.indirect, batch.indirect_offset);
     return;
   }
-  const std::uint32_t width = std::min(batch.count, kLaunchWidth);
-  recorder.trace(kernel, arguments, width, (batch.count + width - 1) / width);
+  recorder.trace(kernel, arguments, batch.count);
 }
 
 void VulkanRayTracer::closest_hits(vulkan::Recorder& recorder, const RayBatch& batch,
