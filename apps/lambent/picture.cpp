@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/metrics.h"
-#include "core/tone_map.h"
+#include "core/image/metrics.h"
+#include "core/image/tone_map.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 #include "lambent/parse.h"
