@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/exposure.h"
-#include "core/tone_map.h"
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 #include "lambent/parse.h"

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
-#include "core/exposure.h"
-#include "core/tone_map.h"
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
 #include "lambent/parse.h"
 
 namespace lambent::cli {

@@ -8,11 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/color_map.h"
-#include "core/exposure.h"
+#include "core/image/color_map.h"
+#include "core/image/exposure.h"
 #include "core/parallel.h"
-#include "field/probe_store.h"
-#include "field/schedule.h"
+#include "field/probes/probe_store.h"
+#include "field/schedule/schedule.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/raytracer.h"
 #include "shared/color.h"
