@@ -33,10 +33,10 @@ void update(benchmark::State& state) {
     update_ms.add(elapsed);
     tracing_ms.add(tracing);
     ratio.add(elapsed / tracing);
-    blend.add(last.blend_ms / tracing);
-    relight.add(last.relight_ms / last.relights / tracing);
-    trace.add(last.trace_ms / tracing);
-    shade.add(last.shade_ms / tracing);
+    blend.add((last.ms("blend_distances") + last.ms("store")) / tracing);
+    relight.add(last.ms("solve") / last.relights / tracing);
+    trace.add(last.ms("trace") / tracing);
+    shade.add((last.ms("shade") + last.ms("lookups")) / tracing);
     relights.add(last.relights);
   }
   state.counters["median_ms"] = update_ms.value();

@@ -30,16 +30,12 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
                           const ProgressFn& progress, nlohmann::ordered_json& stats) {
   FieldProgress reached;
   UpdateStatistics last, sum;
+  std::map<std::string, double> pass_ms;
   while (reached.updates < most && !(until_settled && reached.settled)) {
     last = field.update(world, request);
     ++reached.updates;
     reached.settled = last.change < kSettledChange;
-    sum.place_ms += last.place_ms;
-    sum.follow_ms += last.follow_ms;
-    sum.trace_ms += last.trace_ms;
-    sum.shade_ms += last.shade_ms;
-    sum.relight_ms += last.relight_ms;
-    sum.blend_ms += last.blend_ms;
+    for (const PassTime& pass : last.passes) pass_ms[pass.name] += pass.ms;
     sum.probe_rays += last.probe_rays;
     sum.shadow_rays += last.shadow_rays;
     sum.probes_traced += last.probes_traced;
@@ -75,12 +71,7 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
   stats["relights_last_update"] = last.relights;
   stats["relight_residual"] = last.residual;
   stats["field_change_last_update"] = last.change;
-  stats["place_ms"] = sum.place_ms;
-  stats["follow_ms"] = sum.follow_ms;
-  stats["trace_ms"] = sum.trace_ms;
-  stats["shade_ms"] = sum.shade_ms;
-  stats["relight_ms"] = sum.relight_ms;
-  stats["blend_ms"] = sum.blend_ms;
+  for (const auto& [pass, ms] : pass_ms) stats[pass + "_ms"] = ms;
   return reached;
 }
 

@@ -8,15 +8,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "lambent/error.h"
+#include "lambent/pass_time.h"
 #include "lambent/scene.h"
 
 namespace lambent {
 
 class World;
 class ProbeStore;
-class FieldDevice;
+class DeviceLookups;
 struct ProbeRecord;
 struct LoadedField;
 
@@ -163,15 +166,18 @@ struct ProbeCounts {
   int vigilant = 0;        ///< Light static surfaces.
 };
 
-/// What an update did. Times are wall-clock [ms].
+/// What an update did.
 struct UpdateStatistics {
-  double place_ms = 0.0;          ///< Moving volumes, moving probes off the grid, and finding out
-                                  ///< what they are for.
-  double follow_ms = 0.0;         ///< Finding what edits of the world changed.
-  double trace_ms = 0.0;          ///< Closest hits of the probe rays.
-  double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
-  double relight_ms = 0.0;        ///< Multi-bounce solve.
-  double blend_ms = 0.0;          ///< Distances and irradiance into the store.
+  /// Passes that ran, in their order, and what they took: wall-clock time on the processor, the
+  /// device's own time there. "placement": moving volumes and probes, and finding out what probes
+  /// are for. "edits": finding what edits of the world changed. "schedule": which probes are
+  /// traced. "trace": closest hits of their rays. "shade": surfaces, and direct light with shadow
+  /// rays. "blend_distances": into the store. "visibility": which probes see each other, of hybrid
+  /// visibility. "lookups": what surfels read of the field. "solve": light of all bounces, of edits
+  /// too. "variability": how much the light changed. "store": encoding it.
+  std::vector<PassTime> passes;
+  /// Time of a pass [ms]; 0 where it did not run.
+  double ms(std::string_view pass) const;
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
@@ -233,8 +239,9 @@ class IrradianceField {
   /// The probes' store, and what else is known of each, for tools that look inside.
   const ProbeStore& store() const;
   std::span<const ProbeRecord> records() const;
-  /// What keeps the field in a device's memory, for passes there; null: the processor's holds it.
-  const FieldDevice* on_device() const;
+  /// What looks the field up in a device's memory, for passes there; null: the processor's holds
+  /// it.
+  const DeviceLookups* on_device() const;
 
  private:
   friend Expected<void> save_field(const std::string& path, const IrradianceField& field,

@@ -6,7 +6,7 @@
 #include "compose/frame_vulkan.h"
 #include "compose/rsm_frame.h"
 #include "core/stopwatch.h"
-#include "field/field_device.h"
+#include "field/field_backend.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
 
@@ -25,7 +25,7 @@ constexpr std::uint32_t kViewPixels = 1u << 18;
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count,
                                 const Buffer& irradiance) {
-  const FieldDevice* there = field.on_device();
+  const DeviceLookups* there = field.on_device();
   if (there != nullptr && there->is_on(request_.world)) {
     add(name, [this, there, &queries, &irradiance, count](Recorder& to) {
       there->record_lookups(to, &request_.world, queries.address(), count, irradiance.address());

@@ -5,15 +5,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/parallel.h"
 #include "field/field_state.h"
-#include "field/lookup/lookup_volumes.h"
-#include "field/probes/tile_fit.h"
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kQueriesPerTask = 4096;
 
 std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
   std::vector<VolumeRole> roles;
@@ -54,17 +49,13 @@ Expected<void> check_settings(const FieldSettings& s) {
 IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
     : settings(field_settings),
       roles(roles_of(volumes)),
-      store(grids_of(volumes), field_settings),
-      tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
-      traces(store.probes()),
-      records(store.probes()),
-      sights(store.probes()),
-      reaches(store.probes()),
-      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
-      told(light.size(), vec4(0.0f)),
-      told_roughly(store.probes()),
-      agenda(store.probes(), roles, settings) {
-  for (const ProbeGrid& grid : store.grids()) grids.push_back(field_grid(grid));
+      memory(grids_of(volumes), settings),
+      records(memory.store.probes()),
+      reaches(memory.store.probes()),
+      told_roughly(memory.store.probes()),
+      agenda(memory.store.probes(), roles, settings),
+      backend(make_field_backend_cpu(memory)) {
+  for (const ProbeGrid& grid : memory.store.grids()) grids.push_back(field_grid(grid));
 }
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -83,15 +74,10 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 
 void IrradianceField::reset() {
   State& s = *state_;
-  s.device.reset();
-  s.light_behind = s.store_behind = false;
-  s.store.clear();
-  std::fill(s.light.begin(), s.light.end(), vec4(0.0f));
+  s.backend = make_field_backend_cpu(s.memory);
+  s.memory.clear();
   std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
-  std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
   std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
-  s.sights = ProbeSights(s.store.probes());
-  std::fill(s.told.begin(), s.told.end(), vec4(0.0f));
   s.edits = {};
   s.edited_places.clear();
   s.late_sleepers.clear();
@@ -107,20 +93,14 @@ void IrradianceField::reset() {
 void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                                  const World* world) const {
   assert(queries.size() == result.size());
-  const State& s = *state_;
-  if (s.device) return s.device->irradiance(queries, world, result);
-  const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
-  parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
-                      queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
-  });
+  state_->backend->irradiance(queries, world, result);
 }
 
 std::span<const FieldGrid> IrradianceField::grids() const {
   return state_->grids;
 }
 int IrradianceField::probes() const {
-  return state_->store.probes();
+  return state_->memory.store.probes();
 }
 const FieldSettings& IrradianceField::settings() const {
   return state_->settings;
@@ -129,20 +109,17 @@ int IrradianceField::updates() const {
   return state_->updates;
 }
 std::size_t IrradianceField::store_bytes() const {
-  return state_->store.bytes();
+  return state_->memory.store.bytes();
 }
 std::size_t IrradianceField::surfel_bytes() const {
-  if (state_->device) return state_->device->surfel_bytes();
-  std::size_t bytes = 0;
-  for (const ProbeTrace& trace : state_->traces) bytes += trace.bytes();
-  return bytes;
+  return state_->backend->surfel_bytes();
 }
 const ProbeStore& IrradianceField::store() const {
-  state_->fetch_store();
-  return state_->store;
+  state_->backend->fetch_store();
+  return state_->memory.store;
 }
-const FieldDevice* IrradianceField::on_device() const {
-  return state_->device.get();
+const DeviceLookups* IrradianceField::on_device() const {
+  return state_->backend->on_device();
 }
 std::span<const ProbeRecord> IrradianceField::records() const {
   return state_->records;

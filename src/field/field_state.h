@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "field/edits/follow.h"
-#include "field/field_device.h"
+#include "field/field_backend.h"
 #include "field/placement/classify.h"
 #include "field/probes/probe_record.h"
 #include "field/probes/probe_store.h"
@@ -59,15 +59,10 @@ struct IrradianceField::State {
 
   FieldSettings settings;
   std::vector<VolumeRole> roles;  ///< One a volume.
-  mutable ProbeStore store;
+  ProbeMemory memory;
   std::vector<FieldGrid> grids;  ///< Of the store, as the public interface tells them.
-  BlendMatrix tile_fit;
-  std::vector<ProbeTrace> traces;
   std::vector<ProbeRecord> records;
-  ProbeSights sights;               ///< Kept for hybrid visibility alone; see look_across_cells.
   std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
-  WorkingIrradiance light;          ///< That the store holds, before it was encoded.
-  WorkingIrradiance told;           ///< What of it the last rays told on their own.
   /// 1: told is as exact as the solution, not as what the probe holds: it was traced since.
   std::vector<std::uint8_t> told_roughly;
   ProbeAgenda agenda;
@@ -86,31 +81,21 @@ struct IrradianceField::State {
   bool classified = false;       ///< Since reaches were found, it was said what probes are for.
   std::vector<Bounds> moved_to;  ///< What moved when that was last said.
 
-  /// Null: the processor's memory holds the field. Else a device's does, and of what is above, the
-  /// store's tiles, the surfels, light and told are as of the last time they were read back.
-  std::unique_ptr<FieldDevice> device;
-  bool light_behind = false;          ///< The device's light and told are newer.
-  mutable bool store_behind = false;  ///< So are its tiles.
+  /// Where the field lives; never null.
+  std::unique_ptr<FieldBackend> backend;
 
   /// Has the passes of this update run where the world is. What moves from the one to the other
   /// takes its light along; its surfels are found anew.
   void move_to(const World& world, UpdateStatistics& statistics);
-  /// Brings light and told, or the store's tiles, up to date.
-  void fetch_light();
-  void fetch_store() const;
+  std::vector<int> all_probes() const;
+  std::uint64_t ray_budget(const UpdateRequest& request) const;
+  std::vector<TraceGroup> schedule(std::uint64_t budget, const std::optional<vec3>& viewer_ws);
 
-  int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
   /// Of this update's dither.
   uint salt() const;
-  /// Probes that have surfels, in ascending order.
-  std::vector<int> traced_probes() const;
-  RelightSettings relight_settings() const {
-    return {settings.max_albedo, settings.relight_tolerance, settings.max_relights};
-  }
-  TransportOperator transport(std::span<const int> probes) const {
-    return {store.corner_table(), traces, probes, tile_fit, settings.irradiance_texels};
-  }
 
+  void place_all(const World& world, const std::optional<vec3>& viewer_ws,
+                 UpdateStatistics& statistics);
   /// Moves probes to where they are needed and finds what they reach. Those that moved forget what
   /// they see, and are returned.
   std::vector<int> place(const World& world, std::span<const int> probes);
@@ -135,9 +120,6 @@ struct IrradianceField::State {
   /// For hybrid visibility: finds which probes of the cells around some see each other. Returns the
   /// rays traced.
   std::uint64_t look_across_cells(const World& world, std::span<const int> probes);
-  VisibilityRays visibility(const World& world) const {
-    return {settings.visibility, &world.tracer(), &sights};
-  }
 
   /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
   Followed follow(const World& world, std::uint64_t ray_budget,
@@ -152,9 +134,6 @@ struct IrradianceField::State {
   void follow_slice(const World& world, std::span<const WorldChanges> changes,
                     std::span<const int> probes, std::span<const int> all,
                     UpdateStatistics& statistics);
-  std::vector<double> direct_light(std::span<const int> probes);
-  FollowedEdits follow_surfels(const World& world, std::span<const WorldChanges> changes,
-                               std::span<const int> probes, std::span<const int> all);
   void solve_edits(UpdateStatistics& statistics);
   int settle_edits(std::span<const int> probes, const WorkingIrradiance& before,
                    const RelightResult& solved, const WorkingIrradiance& gain);
@@ -170,20 +149,7 @@ struct IrradianceField::State {
   /// Solves for the light of all probes that have been traced, from what their last rays met.
   void solve_start(UpdateStatistics& statistics);
   TracedProbes shares_of(std::span<const TraceGroup> groups) const;
-  void blend_in_distances(const Scene& scene, std::span<const TraceGroup> groups,
-                          std::span<const float> shares);
-  /// Noise of probes darker than this is judged as if they were as bright [luminance].
-  float darkest() const;
-  std::vector<LightChange> light_changes(std::span<const int> probes,
-                                         const WorkingIrradiance& history) const;
   void book(const World& world, const TracedProbes& traced, std::span<const LightChange> changes);
-  void trace_on_device(const World& world, std::span<const TraceGroup> groups,
-                       UpdateStatistics& statistics);
-  /// As relight, of probes that have been traced.
-  RelightResult solve(std::span<const int> probes, std::span<const float> shares,
-                      const WorkingIrradiance& gain, const RelightSettings& by);
-  /// Encodes the light of some probes.
-  void store_light(std::span<const int> probes);
   /// Takes over what a file holds.
   void restore(const FieldFile& file, const World& world);
   FieldVolume volume_for_file(int volume, const World& world) const;

@@ -17,6 +17,10 @@
 
 namespace lambent {
 
+/// Luminance that each probe's rays bring back of direct light and the sky, added up.
+std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
+                                    std::span<const int> probes);
+
 struct FollowedEdits {
   std::uint64_t probe_rays = 0;   ///< Traced again.
   std::uint64_t shadow_rays = 0;  ///< Likewise.

@@ -26,9 +26,9 @@ vec4 gain_between(const vec4& told, const vec4& held) {
 
 /// By how much averaging corrects what the probes' last rays told.
 WorkingIrradiance IrradianceField::State::gain_of(std::span<const int> probes) const {
-  const int texels = tile_texels();
-  WorkingIrradiance gain = light_of(light, probes, texels);
-  const WorkingIrradiance rays_told = light_of(told, probes, texels);
+  const int texels = memory.tile_texels();
+  WorkingIrradiance gain = light_of(memory.light, probes, texels);
+  const WorkingIrradiance rays_told = light_of(memory.told, probes, texels);
   for (std::size_t i = 0; i < gain.size(); ++i) gain[i] = gain_between(rays_told[i], gain[i]);
   return gain;
 }
@@ -36,9 +36,9 @@ WorkingIrradiance IrradianceField::State::gain_of(std::span<const int> probes) c
 /// Remembers what the probes' rays told when their light was solved for without a gain.
 void IrradianceField::State::remember_told(std::span<const int> probes,
                                            const WorkingIrradiance& solution) {
-  const auto texels = static_cast<std::size_t>(tile_texels());
+  const auto texels = static_cast<std::size_t>(memory.tile_texels());
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    std::copy_n(&solution[k * texels], texels, &told[probes[k] * texels]);
+    std::copy_n(&solution[k * texels], texels, &memory.told[probes[k] * texels]);
     told_roughly[probes[k]] = 1;
   }
 }
@@ -51,15 +51,11 @@ void IrradianceField::State::tell_exactly(std::span<const int> probes) {
   for (const int probe : probes) {
     if (told_roughly[probe] != 0) rough.push_back(probe);
   }
-  const auto texels = static_cast<std::size_t>(tile_texels());
-  WorkingIrradiance exact = light_of(told, rough, tile_texels());
-  if (device) {
-    device->receive(rough, exact, exact);
-  } else {
-    transport(rough).apply(light, exact, exact);
-  }
+  const auto texels = static_cast<std::size_t>(memory.tile_texels());
+  WorkingIrradiance exact = light_of(memory.told, rough, memory.tile_texels());
+  backend->receive(rough, exact);
   for (std::size_t k = 0; k < rough.size(); ++k) {
-    std::copy_n(&exact[k * texels], texels, &told[rough[k] * texels]);
+    std::copy_n(&exact[k * texels], texels, &memory.told[rough[k] * texels]);
     told_roughly[rough[k]] = 0;
   }
 }

@@ -31,28 +31,25 @@ std::vector<int> IrradianceField::State::place(const World& world, std::span<con
   std::vector<int> moved;
   if (settings.relocation) {
     // From the grid, so that where probes come to stand depends on the scene alone
-    const std::vector<uint> before(store.offset_words().begin(), store.offset_words().end());
-    for (const int probe : probes) store.set_probe_offset(probe, vec3(0.0f));
-    relocate_probes(world.scene(), world.tracer(), probes, moving, store);
+    const std::vector<uint> before(memory.store.offset_words().begin(),
+                                   memory.store.offset_words().end());
+    for (const int probe : probes) memory.store.set_probe_offset(probe, vec3(0.0f));
+    relocate_probes(world.scene(), world.tracer(), probes, moving, memory.store);
     for (const int probe : probes) {
-      if (store.offset_words()[probe] != before[probe]) moved.push_back(probe);
+      if (memory.store.offset_words()[probe] != before[probe]) moved.push_back(probe);
     }
     for (const int probe : moved) forget_place(probe);
   }
   find_reaches(world, probes);
-  if (device) {
-    device->set_places(store);
-    device->forget_surfels(moved);
-    device->set_distances(store, moved);
-  }
+  backend->push_places(moved);
   return moved;
 }
 
 std::uint64_t IrradianceField::State::look_across_cells(const World& world,
                                                         std::span<const int> probes) {
   if (settings.visibility != Visibility::hybrid) return 0;
-  const std::vector<int> cells = cells_around(store, probes);
-  return device ? device->look(world, cells) : sights.look(world.tracer(), store, cells);
+  const std::vector<int> cells = cells_around(memory.store, probes);
+  return backend->look(world, cells);
 }
 
 void IrradianceField::State::settle_in(const World& world, std::span<const int> moved,
@@ -63,18 +60,9 @@ void IrradianceField::State::settle_in(const World& world, std::span<const int> 
                       std::back_inserter(followed));
   edits.followed = std::move(followed);
   find_reaches(world, moved, /*learn_distances=*/true);
-  const std::vector<int> traced = traced_probes();
-  if (device) {
-    device->set_places(store);
-    device->forget_surfels(moved);
-    device->set_distances(store, moved);
-    statistics.shadow_rays += look_across_cells(world, moved);
-    statistics.shadow_rays += device->find_lookups(world, traced);
-    return;
-  }
+  backend->push_places(moved);
   statistics.shadow_rays += look_across_cells(world, moved);
-  statistics.shadow_rays += find_surfel_lookups(
-      store, visibility(world), probes_reading(moved, traced, store, traces), traces);
+  statistics.shadow_rays += backend->find_lookups(world, moved, memory.traced_probes());
 }
 
 void IrradianceField::State::place_edited(const World& world, UpdateStatistics& statistics) {
@@ -102,9 +90,9 @@ void IrradianceField::State::place_edited(const World& world, UpdateStatistics& 
                      [&](const EditedPlace& p) { return updates - p.update < kRestUpdates; });
   if (at_rest == edited_places.end()) return;
   std::vector<int> near;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    const vec3 home = store.probe_home_ws(probe);
-    const ProbeGrid& grid = store.grid_of(probe);
+  for (int probe = 0; probe < memory.store.probes(); ++probe) {
+    const vec3 home = memory.store.probe_home_ws(probe);
+    const ProbeGrid& grid = memory.store.grid_of(probe);
     if (std::any_of(at_rest, edited_places.end(),
                     [&](const EditedPlace& p) { return may_light(p.box, home, grid); })) {
       near.push_back(probe);
@@ -137,9 +125,9 @@ void IrradianceField::State::forget_place(int probe) {
   const std::vector<vec2> nothing(
       static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
   records[probe].samples = 0.0f;
-  traces[probe] = {};
+  memory.traces[probe] = {};
   agenda.changed(probe);
-  store.blend_moments(probe, nothing, 1.0f, 0u);
+  memory.store.blend_moments(probe, nothing, 1.0f, 0u);
 }
 
 void IrradianceField::State::find_reaches(const World& world, std::span<const int> probes,
@@ -149,21 +137,22 @@ void IrradianceField::State::find_reaches(const World& world, std::span<const in
   const DistanceBlend blend(settings, sight_directions());
   const std::size_t directions = sight_directions().size();
   const auto learn = [&](int probe, std::span<const Sight> around) {
-    const ProbeGrid& grid = store.grid_of(probe);
-    reaches[probe] =
-        probe_reach(around, store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
+    const ProbeGrid& grid = memory.store.grid_of(probe);
+    reaches[probe] = probe_reach(around, memory.store.probe_offset(probe) * grid.spacing,
+                                 vec3(0.0f), grid.spacing);
     if (!learn_distances) return;
     std::vector<SeenDistance> seen;
     for (const Sight& sight : around) seen.push_back({sight.distance, sight.back_face != 0});
     std::vector<vec2> moments(blend.texels());
     blend.moments(seen, max_probe_distance(grid), moments);
-    store.blend_moments(probe, moments, 1.0f, salt());
+    memory.store.blend_moments(probe, moments, 1.0f, salt());
   };
   const std::size_t batch = viewpoints_of_batch(world.tracer());
   parallel_chunks(probes.size(), batch, [&](std::size_t first, std::size_t last) {
     std::vector<Viewpoint> viewpoints;
     for (std::size_t k = first; k < last; ++k) {
-      viewpoints.push_back({store.probe_position_ws(probes[k]), store.grid_of(probes[k]).axes});
+      viewpoints.push_back(
+          {memory.store.probe_position_ws(probes[k]), memory.store.grid_of(probes[k]).axes});
     }
     std::vector<Sight> around(viewpoints.size() * directions);
     look_around(world.scene(), world.tracer(), viewpoints, moving, around);
@@ -185,7 +174,7 @@ void IrradianceField::State::classify(const World& world) {
     if (instances[i].dynamic) moving.push_back(world.instance_bounds(i));
   }
   if (!classified) {
-    classify_probes(store, reaches, moving, records);
+    classify_probes(memory.store, reaches, moving, records);
     agenda.changed_all();
   } else if (moving != moved_to) {
     // States differ where something that moved on was or is
@@ -195,7 +184,7 @@ void IrradianceField::State::classify(const World& world) {
       const Bounds now = i < moving.size() ? moving[i] : Bounds{};
       if (before == now) continue;
       for (const Bounds& box : {before, now}) {
-        for (const int probe : classify_probes_near(box, store, reaches, moving, records)) {
+        for (const int probe : classify_probes_near(box, memory.store, reaches, moving, records)) {
           agenda.changed(probe);
         }
       }

@@ -42,16 +42,21 @@ void send_back(const ProbeStore& store, const ProbeTrace& trace, float importanc
 
 }  // namespace
 
+std::vector<float> send_importance_back(const ProbeStore& store, std::span<const ProbeTrace> traces,
+                                        std::span<const float> received, float least) {
+  // One after the other, so that sums have the same bits on any number of threads
+  std::vector<float> sent(store.probes(), 0.0f);
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (received[probe] <= least || traces[probe].rays == nullptr) continue;
+    send_back(store, traces[probe], received[probe], sent);
+  }
+  return sent;
+}
+
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces) {
-  // One after the other, so that sums have the same bits on any number of threads
   return probe_importance(store, points, [&](std::span<const float> received, float least) {
-    std::vector<float> sent(store.probes(), 0.0f);
-    for (int probe = 0; probe < store.probes(); ++probe) {
-      if (received[probe] <= least || traces[probe].rays == nullptr) continue;
-      send_back(store, traces[probe], received[probe], sent);
-    }
-    return sent;
+    return send_importance_back(store, traces, received, least);
   });
 }
 

@@ -25,6 +25,10 @@ std::vector<float> probe_importance(const ProbeStore& store, std::span<const Fie
 /// what they receive of light that those reflect. One number a probe in and out.
 using SendBack = std::function<std::vector<float>(std::span<const float> received, float least)>;
 
+/// SendBack from the surfels that probes see.
+std::vector<float> send_importance_back(const ProbeStore& store, std::span<const ProbeTrace> traces,
+                                        std::span<const float> received, float least);
+
 /// The same by another way of sending importance back.
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     const SendBack& send_back);

@@ -226,6 +226,10 @@ WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> 
   return light;
 }
 
+RelightSettings relight_settings(const FieldSettings& settings) {
+  return {settings.max_albedo, settings.relight_tolerance, settings.max_relights};
+}
+
 RelightResult relight_bounces(const TransportOperator& transport, std::span<const float> shares,
                               int bounces, WorkingIrradiance& field) {
   assert(transport.probes().size() * transport.texels() == field.size());

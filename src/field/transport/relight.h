@@ -62,6 +62,9 @@ struct RelightSettings {
   int max_iterations = 32;   ///< ... or after so many.
 };
 
+/// What the field's settings say of it.
+RelightSettings relight_settings(const FieldSettings& settings);
+
 struct RelightResult {
   int iterations = 0;
   double error = 0.0;  ///< Estimated relative error of the field that the solution is blended into.

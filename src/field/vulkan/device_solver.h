@@ -6,10 +6,16 @@
 
 #include <span>
 
-#include "field/field_device.h"
 #include "field/vulkan/device_field.h"
 
 namespace lambent {
+
+/// What a solve came to.
+struct DeviceSolve {
+  int iterations = 0;
+  double error = 0.0;   ///< As RelightResult's.
+  double change = 0.0;  ///< As RelightResult's.
+};
 
 class DeviceSolver {
  public:

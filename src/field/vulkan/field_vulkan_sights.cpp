@@ -29,11 +29,10 @@ std::uint64_t FieldVulkan::look(const World& world, std::span<const int> cells) 
   return cells.size() * kCellPairs;
 }
 
-std::uint64_t FieldVulkan::find_lookups(const World& world, std::span<const int> probes) {
-  std::vector<int> traced;
-  for (const int probe : probes) {
-    if (field_.rays_of(probe)) traced.push_back(probe);
-  }
+/// Finding out which surfels read a probe that moved costs more than finding all lookups again.
+std::uint64_t FieldVulkan::find_lookups(const World& world, std::span<const int>,
+                                        std::span<const int> among) {
+  const std::vector<int> traced = traced_among(among);
   if (traced.empty()) return 0;
   const DeviceProbes list = field_.list(traced);
   const Buffer rays(*device_, sizeof(uint), vulkan::Memory::readback, "rays of lookups");
@@ -69,10 +68,9 @@ void FieldVulkan::record_lookups(Recorder& recorder, const World* world, std::ui
   field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer);
 }
 
-std::unique_ptr<FieldDevice> make_field_device(const World& world, const FieldSettings& settings,
-                                               const ProbeStore& store) {
-  assert(store.probes() <= kMostDeviceProbes);
-  return std::make_unique<FieldVulkan>(world, settings, store);
+std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeMemory& memory) {
+  assert(lives_on_device(world, memory.store.probes()));
+  return std::make_unique<FieldVulkan>(world, memory);
 }
 
 }  // namespace lambent

@@ -9,6 +9,7 @@
 #include "field/vulkan/device_field.h"
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
+#include "field/vulkan/passes_vulkan.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 #include "vulkan/device.h"
@@ -53,12 +54,20 @@ struct UpdateMemory {
                FloatArray distance_weights);
   /// Fills in the probes and rays of a turn.
   void write(const Turn& turn, const FieldSettings& settings);
+  /// The passes of all parts that have finished, since the last call.
+  std::vector<PassTime> take_times();
+  /// Takes the time of the next part; null: there are no more.
+  Timestamps* next_timer() { return parts < timers.size() ? timers[parts++].get() : nullptr; }
 
   DeviceProbes list;
+  std::vector<std::unique_ptr<Timestamps>> timers;  ///< One a part of an update.
+  std::size_t parts = 0;                            ///< Recorded so far.
   Buffer directions, set;
 };
 
 struct RecordedField::State {
+  class EngineRays;
+
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         const ProbeStore& shape);
 
@@ -74,7 +83,8 @@ struct RecordedField::State {
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
-  void record_results(Recorder& to);
+  /// Records a part of an update into an engine's command buffer, between barriers.
+  void record_part(EngineRays& source, VkCommandBuffer commands, void (*part)(FieldPasses&));
 
   std::shared_ptr<Device> device;
   FieldSettings settings;
@@ -91,6 +101,29 @@ struct RecordedField::State {
   Buffer standing, states, record;
   Buffer rays, hits, results, shares, irradiance_weights, distance_weights;
   std::vector<UpdateMemory> ring;
+  std::vector<PassTime> times;  // of the last update that has finished
+};
+
+/// Rays that an engine traces and shades, and a schedule and placement that the device decides on
+/// by what these brought.
+class RecordedField::State::EngineRays final : public RaySourceVulkan, public VariabilityVulkan {
+ public:
+  explicit EngineRays(State& field) : s_(field) {}
+
+  /// What `trace` finds hits in.
+  VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+
+  int batches() const override { return 1; }
+  void schedule(Recorder& to) override;
+  void trace(Recorder& to, int batch) override;
+  void shade(Recorder& to, int batch) override;
+  void visibility(Recorder& to) override;
+  const DeviceTracer* tracer() const override { return nullptr; }
+  void placement(Recorder& to) override;
+  void record(Recorder& to, const DeviceProbes& list, FloatArray shares, Vec4Array before) override;
+
+ private:
+  State& s_;
 };
 
 }  // namespace lambent::vulkan

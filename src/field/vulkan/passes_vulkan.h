@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of an update on a Vulkan device: each is recorded, none is waited for. Who submits
+// them is another's business: a field of our own at once, an engine with its frame.
+#pragma once
+
+#include <vector>
+
+#include "field/passes.h"
+#include "field/vulkan/device_field.h"
+#include "field/vulkan/device_schedule.h"
+#include "field/vulkan/device_solver.h"
+#include "vulkan/recorder.h"
+
+namespace lambent {
+
+/// Where an update's rays come from, and who shades what they meet: our world, or an engine. What
+/// its passes write is visible to those recorded afterwards.
+class RaySourceVulkan {
+ public:
+  virtual ~RaySourceVulkan() = default;
+
+  virtual int batches() const = 0;
+  virtual void schedule(vulkan::Recorder& to) = 0;
+  virtual void trace(vulkan::Recorder& to, int batch) = 0;
+  /// Leaves surfels, and the distances that rays saw (DeviceField::record_seen_distances).
+  virtual void shade(vulkan::Recorder& to, int batch) = 0;
+  virtual void visibility(vulkan::Recorder& to) = 0;
+  /// What lookups ask rays of, with its textures bound; null: nothing.
+  virtual const DeviceTracer* tracer() const = 0;
+  virtual void placement(vulkan::Recorder& to) = 0;
+};
+
+/// Takes note of how much the light of an update's probes changed: for a host that schedules, or a
+/// device that does. `before`: what the list's probes held.
+class VariabilityVulkan {
+ public:
+  virtual ~VariabilityVulkan() = default;
+  virtual void record(vulkan::Recorder& to, const DeviceProbes& list, FloatArray shares,
+                      Vec4Array before) = 0;
+};
+
+/// What an update works on.
+struct UpdateVulkan {
+  DeviceField& field;
+  DeviceSolver& solver;
+  RaySourceVulkan& source;
+  VariabilityVulkan& noise;
+  const DeviceProbes& list;
+  const vulkan::Buffer& shares;  ///< Of the list's probes.
+  float largest_share = 1.0f;
+  uint salt = 0;  ///< Of the store's dither.
+};
+
+class FieldPassesVulkan final : public FieldPasses {
+ public:
+  FieldPassesVulkan(vulkan::Recorder& to, const UpdateVulkan& update) : to_(to), update_(update) {}
+
+  const FieldSettings& settings() const override { return update_.field.settings(); }
+  int batches() const override { return update_.source.batches(); }
+
+  void schedule() override { update_.source.schedule(to_); }
+  void trace(int batch) override { update_.source.trace(to_, batch); }
+  void shade(int batch) override { update_.source.shade(to_, batch); }
+  void blend_distances() override;
+  void visibility() override { update_.source.visibility(to_); }
+  void lookups() override;
+  void solve() override;
+  void variability() override;
+  void store() override;
+  void placement() override { update_.source.placement(to_); }
+
+  void begin(const char* name) override { to_.begin_pass(name); }
+  void end() override { to_.end_pass(); }
+
+ private:
+  vulkan::Recorder& to_;
+  UpdateVulkan update_;
+};
+
+}  // namespace lambent
