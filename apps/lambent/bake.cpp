@@ -8,10 +8,13 @@
 #include <optional>
 
 #include "core/atomic_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/field_options.h"
+#include "lambent/memory_check.h"
 #include "lambent/progress_bar.h"
 #include "lambent/stage.h"
+#include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/world.h"
 
@@ -35,6 +38,12 @@ Expected<void> check(const Options& options) {
     if (path.empty()) continue;
     if (const Expected<void> fine = check_writable(path); !fine) return fine;
   }
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.environment, "--environment");
+  files.writes(options.output, "-o");
+  files.writes(options.stats, "--stats");
+  if (const auto distinct = files.check(); !distinct) return distinct;
   if (options.time_s && !std::isfinite(*options.time_s)) {
     return fail("--time", "", "is not a finite number of seconds");
   }
@@ -59,6 +68,7 @@ Expected<void> bake(const Options& options) {
   }
   const ThreadLimit limit(options.threads);
 
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   if (options.time_s) {
@@ -67,12 +77,14 @@ Expected<void> bake(const Options& options) {
     }
     animate(*scene, -1, *options.time_s);
   }
+  begin_step("preparing the scene for rays");
   const World world(*scene);
   const Expected<Camera> camera = choose_camera(options.stage, world);
   if (!camera) return tl::unexpected(camera.error());
   const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> field = IrradianceField::make(*settings, open_bounds(world));
+  begin_step("updating the field");
+  Expected<IrradianceField> field = make_field(*settings, world, 1);
   if (!field) return tl::unexpected(field.error());
 
   nlohmann::ordered_json stats;
@@ -87,6 +99,7 @@ Expected<void> bake(const Options& options) {
                   : settle_field(world, request, *field, progress, stats);
   }
   stats["settled"] = reached.settled;
+  begin_step("writing the field");
   if (const auto saved = save_field(options.output, *field, world); !saved) return saved;
   tell(options, *field, reached);
   if (options.stats.empty()) return {};

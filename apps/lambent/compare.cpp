@@ -11,9 +11,11 @@
 
 #include "core/heat_map.h"
 #include "core/metrics.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 #include "lambent/parse.h"
+#include "lambent/step.h"
 
 namespace lambent::cli {
 namespace {
@@ -219,6 +221,13 @@ Expected<void> compare(const CompareOptions& options) {
   if (!options.heat_map_path.empty()) {
     if (const auto fine = check_output(options.heat_map_path, ".png"); !fine) return fine;
   }
+  CommandFiles files;
+  files.reads(options.path_a, "image A");
+  files.reads(options.path_b, "image B");
+  files.reads(options.noise_path, "--noise");
+  files.writes(options.heat_map_path, "--heatmap");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the images");
   const Expected<LayeredImage> a = read_image(options.path_a), b = read_image(options.path_b);
   if (!a) return tl::unexpected(a.error());
   if (!b) return tl::unexpected(b.error());
@@ -239,6 +248,7 @@ Expected<void> compare(const CompareOptions& options) {
 
   Expected<std::vector<Comparison>> comparisons = choose_layers(options, *a, *b);
   if (!comparisons) return tl::unexpected(comparisons.error());
+  begin_step("comparing the images");
   std::vector<Image> pictures;
   for (Comparison& comparison : *comparisons) {
     const LayerNoise layer_noise{noise, comparisons->size()};

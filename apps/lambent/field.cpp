@@ -8,6 +8,7 @@
 
 #include "core/atomic_file.h"
 #include "field/field_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 
@@ -18,6 +19,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kIrradianceFormats[] = {"rgb9e5", "r11g11b10f", "float32"};
 constexpr const char* kDistanceFormats[] = {"rg16f", "rg32f"};
+constexpr const char* kIrradianceEnding = ".irradiance.exr";
+constexpr const char* kDistanceEnding = ".distance.exr";
 constexpr std::array kStates = {"off",   "sleeping",       "newly_awake",
                                 "awake", "newly_vigilant", "vigilant"};
 
@@ -153,7 +156,7 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     const vec3 value = store.irradiance_texel(probe, texel);
     for (int c = 0; c < 3; ++c) light.at(x, y)[c] = value[c];
   });
-  if (auto done = write_exr(prefix + ".irradiance.exr", irradiance); !done) return done;
+  if (auto done = write_exr(prefix + kIrradianceEnding, irradiance); !done) return done;
 
   LayeredImage distance = blank_atlas(volume, volume.distance_texels);
   distance.require("", 1);
@@ -164,17 +167,25 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     *means.at(x, y) = moments.x;
     *squares.at(x, y) = moments.y;
   });
-  return write_exr(prefix + ".distance.exr", distance);
+  return write_exr(prefix + kDistanceEnding, distance);
 }
 
 Expected<void> export_atlases(const std::string& path, const std::string& prefix) {
-  if (const auto fine = check_writable(prefix + ".irradiance.exr"); !fine) return fine;
+  if (const auto fine = check_writable(prefix + kIrradianceEnding); !fine) return fine;
   const Expected<FieldFile> field = read_field_file(path);
   if (!field) return tl::unexpected(field.error());
+  const auto prefix_of = [&](std::size_t i) {
+    return field->volumes.size() == 1 ? prefix : prefix + "." + std::to_string(i);
+  };
+  CommandFiles files;
+  files.reads(path, "the field");
   for (std::size_t i = 0; i < field->volumes.size(); ++i) {
-    const bool one = field->volumes.size() == 1;
-    const std::string name = one ? prefix : prefix + "." + std::to_string(i);
-    if (auto done = export_volume(field->volumes[i], name); !done) return done;
+    files.writes(prefix_of(i) + kIrradianceEnding, "-o");
+    files.writes(prefix_of(i) + kDistanceEnding, "-o");
+  }
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  for (std::size_t i = 0; i < field->volumes.size(); ++i) {
+    if (auto done = export_volume(field->volumes[i], prefix_of(i)); !done) return done;
   }
   return {};
 }

@@ -2,8 +2,11 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
+#include <new>
 
 #include "lambent/commands.h"
+#include "lambent/interrupts.h"
+#include "lambent/step.h"
 
 namespace {
 
@@ -19,6 +22,7 @@ int report(const lambent::Error& error) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  lambent::cli::clean_up_on_signals();
   CLI::App app("Dynamic global illumination, measured against a reference.", "lambent");
   app.set_version_flag("--version", "lambent " LAMBENT_VERSION);
   app.require_subcommand(1);
@@ -48,6 +52,9 @@ int main(int argc, char** argv) {
 
   try {
     if (const lambent::Expected<void> done = run(); !done) return report(done.error());
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "lambent: memory ran out while %s\n", lambent::cli::current_step());
+    return kFailed;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lambent: %s\n", error.what());
     return kFailed;

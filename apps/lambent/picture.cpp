@@ -7,9 +7,11 @@
 
 #include "core/metrics.h"
 #include "core/tone_map.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 #include "lambent/parse.h"
+#include "lambent/step.h"
 
 namespace lambent::cli {
 namespace {
@@ -24,11 +26,17 @@ struct Options {
 
 Expected<void> picture(const Options& options) {
   if (const Expected<void> fine = check_output(options.output, ".png"); !fine) return fine;
+  CommandFiles files;
+  files.reads(options.input, "the image");
+  files.writes(options.output, "-o");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the image");
   const Expected<LayeredImage> file = read_image(options.input);
   if (!file) return tl::unexpected(file.error());
   const Image* layer = file->find(options.layer);
   if (layer == nullptr) return fail(options.input, "layer " + options.layer, "not in the file");
 
+  begin_step("encoding the picture");
   float stops = 0.0f;
   if (options.exposure == "auto") {
     stops = static_cast<float>(std::log2(auto_exposure(*layer)));

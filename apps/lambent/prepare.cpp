@@ -7,8 +7,10 @@
 #include <string>
 
 #include "core/atomic_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/stage.h"
+#include "lambent/step.h"
 #include "lambent/world.h"
 #include "scene/prepared.h"
 
@@ -26,6 +28,12 @@ struct Options {
 
 Expected<void> prepare(const Options& options) {
   if (const Expected<void> fine = check_writable(options.output); !fine) return fine;
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.environment, "--environment");
+  files.writes(options.output, "-o");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   const Expected<Camera> camera = choose_camera(options.stage, World(*scene));

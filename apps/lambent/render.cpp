@@ -5,12 +5,15 @@
 #include <optional>
 
 #include "core/atomic_file.h"
+#include "core/memory.h"
 #include "lambent/commands.h"
+#include "lambent/memory_check.h"
 #include "lambent/painter.h"
 #include "lambent/parse.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
 #include "lambent/render_sequence.h"
+#include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/world.h"
 
@@ -23,11 +26,14 @@ Expected<void> render_picture(const RenderOptions& options, const World& world, 
                               Json& stats) {
   const Expected<Camera> camera = choose_camera(options.stage, world);
   if (!camera) return tl::unexpected(camera.error());
+  std::optional<float> stops;
+  if (options.verify_samples == 0) {
+    return painter.paint_to_file(world, *camera, options.output, stops, stats);
+  }
   const Expected<LayeredImage> image = painter.paint(world, *camera, stats);
   if (!image) return tl::unexpected(image.error());
-  std::optional<float> stops;
   const auto done = write_output(options, *image, options.output, stops);
-  if (!done || options.verify_samples == 0) return done;
+  if (!done) return done;
   if (world.on_device() == nullptr) return painter.verify(world, *camera, *image, stats);
   return painter.verify(World(world.scene()), *camera, *image, stats);
 }
@@ -62,16 +68,20 @@ Expected<void> render(const RenderOptions& options) {
   if (const auto fine = check_options(options); !fine) return fine;
   const auto size = parse_size("--size", options.size);
   if (!size) return tl::unexpected(size.error());
+  if (const auto fits = check_picture_memory(options, *size, available_memory()); !fits)
+    return fits;
   const ThreadLimit limit(options.threads);
 
   const auto device = open_backend(options.backend);
   if (!device) return tl::unexpected(device.error());
 
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   const auto animation = chosen_animation(options, *scene);
   if (!animation) return tl::unexpected(animation.error());
   if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
+  begin_step("preparing the scene for rays");
   World world(*scene, *device);
 
   Json stats;
