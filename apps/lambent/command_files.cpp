@@ -11,7 +11,7 @@
 #include <system_error>
 
 #include "lambent/render_output.h"
-#include "scene/gltf_files.h"
+#include "scene/gltf/files.h"
 #include "scenes/builtin.h"
 
 namespace lambent::cli {

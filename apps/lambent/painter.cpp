@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
+#include "core/image/metrics.h"
 #include "core/memory.h"
-#include "core/metrics.h"
 #include "lambent/memory_check.h"
 #include "lambent/progress_bar.h"
 #include "lambent/render_output.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/atomic_file.h"
-#include "core/metrics.h"
-#include "core/tone_map.h"
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
 #include "lambent/command_files.h"
 #include "lambent/parse.h"
 
@@ -88,7 +88,7 @@ bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size) {
 }
 
 float automatic_stops(const Image& picture) {
-  return static_cast<float>(std::log2(auto_exposure(picture)));
+  return static_cast<float>(std::log2(display_exposure(picture)));
 }
 
 PictureFile::PictureFile(const RenderOptions& options, std::string path, const glm::ivec2& size,

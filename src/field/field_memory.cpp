@@ -2,9 +2,9 @@
 #include "field/field_memory.h"
 
 #include "field/field_state.h"
-#include "field/probe_store.h"
-#include "field/surfels.h"
-#include "field/volumes.h"
+#include "field/probes/probe_store.h"
+#include "field/probes/volumes.h"
+#include "field/transport/surfels.h"
 
 namespace lambent {
 namespace {
