@@ -108,15 +108,17 @@ int host_rays(const FieldSettings& settings, const World& world) {
   return world.on_device() == nullptr ? settings.rays_per_probe : 0;
 }
 
-Expected<IrradianceField> make_field(const FieldSettings& settings, const World& world,
-                                     int fields) {
+Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
+                                     const World& world, int fields) {
   const Bounds bounds = open_bounds(world);
   const Expected<FieldMemory> memory = planned_memory(settings, bounds);
-  if (!memory) return tl::unexpected(memory.error());
+  if (!memory) return tl::unexpected(in_options(memory.error(), options));
   const auto fits =
       check_field_memory(*memory, host_rays(settings, world), fields, available_memory());
   if (!fits) return tl::unexpected(fits.error());
-  return IrradianceField::make(settings, bounds);
+  Expected<IrradianceField> field = IrradianceField::make(settings, bounds);
+  if (!field) return tl::unexpected(in_options(std::move(field.error()), options));
+  return field;
 }
 
 }  // namespace lambent::cli

@@ -32,7 +32,8 @@ Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, 
 int host_rays(const FieldSettings& settings, const World& world);
 
 /// A field without light, one of so many that there will be at a time. Fails where they would not
-/// fit.
-Expected<IrradianceField> make_field(const FieldSettings& settings, const World& world, int fields);
+/// fit. `options` are those that the settings came from: errors name them.
+Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
+                                     const World& world, int fields);
 
 }  // namespace lambent::cli

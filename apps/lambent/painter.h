@@ -23,6 +23,9 @@ class Painter {
   /// The options must outlive it.
   Painter(const RenderOptions& options, const glm::ivec2& size);
 
+  /// Of its pictures [pixels].
+  const glm::ivec2& size() const { return size_; }
+
   /// The world as it is now, whole. Times and counts go into `stats`.
   Expected<LayeredImage> paint(const World& world, const Camera& camera,
                                nlohmann::ordered_json& stats);

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/render_output.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/atomic_file.h"
 #include "core/image/exposure.h"
 #include "core/image/tone_map.h"
 #include "lambent/command_files.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
 
 namespace lambent::cli {
@@ -40,19 +39,20 @@ std::string frame_path(const std::string& pattern, int frame) {
 }
 
 Expected<void> check_outputs(const RenderOptions& options) {
+  const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"});
+  if (!fine) return fine;
   const bool exr = has_ending(options.output, ".exr");
-  if (!exr && !has_ending(options.output, ".png")) {
-    return fail(options.output, "", "the output must end in .exr or .png");
+  if (options.layers && !exr) {
+    return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
   }
-  if (options.layers && !exr) return fail("--layers", "", "layers need an .exr output");
   const std::string first = options.frames > 0 ? frame_path(options.output, 0) : options.output;
   for (const std::string& path : {first, options.stats}) {
     if (path.empty()) continue;
-    if (const Expected<void> fine = check_writable(path); !fine) return fine;
+    if (const Expected<void> place = check_place(path); !place) return place;
   }
   CommandFiles files;
   files.reads_scene(options.stage.scene);
-  files.reads(options.stage.environment, "--environment");
+  files.reads(options.stage.light.environment, "--environment");
   files.reads(options.field_file, "--field");
   if (options.frames > 0) {
     files.writes_frames(options.output, options.frames, "-o");
@@ -61,15 +61,6 @@ Expected<void> check_outputs(const RenderOptions& options) {
   }
   files.writes(options.stats, "--stats");
   return files.check();
-}
-
-Expected<std::optional<float>> parse_exposure(const std::string& text) {
-  float stops = 0.0f;
-  if (text == "auto") return std::optional<float>();
-  if (!CLI::detail::lexical_cast(text, stops) || !std::isfinite(stops)) {
-    return fail("--exposure", "", "'" + text + "' is neither auto nor a number of stops");
-  }
-  return std::optional<float>(stops);
 }
 
 bool made_in_bands(const RenderOptions& options, const glm::ivec2& size) {
@@ -124,6 +115,24 @@ Expected<void> PictureFile::write(LayeredImage rows) {
   return exr_->write(rows);
 }
 
+/// Adds rows to the .png or .jpg, which the first of them begin.
+Expected<void> PictureFile::add(const Image& shown) {
+  if (has_ending(path_, ".png")) {
+    if (!png_) {
+      Expected<PngWriter> opened = PngWriter::open(path_, size_.x, size_.y, shown.channels);
+      if (!opened) return tl::unexpected(opened.error());
+      png_.emplace(std::move(*opened));
+    }
+    return png_->write(shown);
+  }
+  if (!jpeg_) {
+    Expected<JpegWriter> opened = JpegWriter::open(path_, size_.x, size_.y);
+    if (!opened) return tl::unexpected(opened.error());
+    jpeg_.emplace(std::move(*opened));
+  }
+  return jpeg_->write(shown);
+}
+
 /// Writes rows as a display shows them.
 Expected<void> PictureFile::show(const Image& rows) {
   const ToneMap tone_map = *tone_map_from_name(options_.tone_map);
@@ -132,12 +141,7 @@ Expected<void> PictureFile::show(const Image& rows) {
     Image some(rows.width, std::min(at_once, rows.height - first), rows.channels);
     std::copy_n(rows.at(0, first), some.pixels.size(), some.pixels.begin());
     const Image shown = display_image(some, tone_map, *stops_);
-    if (!png_) {
-      Expected<PngWriter> opened = PngWriter::open(path_, size_.x, size_.y, shown.channels);
-      if (!opened) return tl::unexpected(opened.error());
-      png_.emplace(std::move(*opened));
-    }
-    if (const auto written = png_->write(shown); !written) return written;
+    if (const auto written = add(shown); !written) return written;
   }
   return {};
 }
@@ -148,7 +152,7 @@ Expected<void> PictureFile::finish() {
     stops_ = automatic_stops(kept_);
     if (const auto shown = show(kept_); !shown) return shown;
   }
-  return png_->finish();
+  return png_ ? png_->finish() : jpeg_->finish();
 }
 
 Expected<void> write_output(const RenderOptions& options, const LayeredImage& image,

@@ -16,9 +16,6 @@ namespace lambent::cli {
 /// Fails early on outputs that could not be written after minutes of work.
 Expected<void> check_outputs(const RenderOptions& options);
 
-/// Stops, or nothing for "auto".
-Expected<std::optional<float>> parse_exposure(const std::string& text);
-
 /// Digits of a frame's number in its file's name, at least.
 inline constexpr std::size_t kFrameDigits = 4;
 
@@ -53,6 +50,7 @@ class PictureFile {
 
  private:
   Expected<void> show(const Image& rows);
+  Expected<void> add(const Image& shown);
 
   const RenderOptions& options_;
   std::string path_;
@@ -60,11 +58,12 @@ class PictureFile {
   std::optional<float>& stops_;
   std::optional<ExrWriter> exr_;
   std::optional<PngWriter> png_;
+  std::optional<JpegWriter> jpeg_;
   Image kept_;  // rows that wait for the stops
 };
 
-/// Writes a picture as the options say. `stops` is the exposure of a .png; none: it is set to what
-/// the options ask for, so that the pictures of a sequence share one.
+/// Writes a picture as the options say. `stops` is the exposure of a .png or .jpg; none: it is set
+/// to what the options ask for, so that the pictures of a sequence share one.
 Expected<void> write_output(const RenderOptions& options, const LayeredImage& image,
                             const std::string& path, std::optional<float>& stops);
 

@@ -3,9 +3,14 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "lambent/console.h"
 #include "lambent/interrupts.h"
+#include "lambent/output.h"
 #include "lambent/render_output.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 
@@ -15,6 +20,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
   std::optional<float> stops;
+  std::vector<std::string> written;
   for (int i = 0; i < options.frames; ++i) {
     if (guard.interrupted()) {
       return fail("", "", "interrupted after " + std::to_string(i) + " frames",
@@ -38,10 +44,13 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["world_update_ms"] = changes->refit_ms;
     frame["moved_boxes"] = changes->moved.size();
     frame["changed_lights"] = changes->lights.size();
-    const auto done =
-        painter.paint_to_file(world, view.camera, frame_path(options.output, i), stops, frame);
+    written.push_back(frame_path(options.output, i));
+    if (const auto made = make_folders(written.back()); !made) return made;
+    const auto done = painter.paint_to_file(world, view.camera, written.back(), stops, frame);
     if (!done) return done;
   }
+  tell_written(written, pixels_text(painter.size().x, painter.size().y),
+               stops ? exposure_text(*stops) : "");
   return {};
 }
 

@@ -3,7 +3,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "lambent/input.h"
 #include "lambent/parse.h"
+#include "lambent/validators.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
@@ -48,6 +50,8 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
 
 Expected<void> set_sky(const LightOptions& options, Scene& scene) {
   if (!options.environment.empty()) {
+    const auto fine = check_image_input(options.environment);
+    if (!fine) return tl::unexpected(fine.error());
     Expected<Environment> environment = load_environment(options.environment);
     if (!environment) return tl::unexpected(environment.error());
     scene.environment = std::move(*environment);
@@ -91,12 +95,16 @@ void add_light_options(CLI::App& command, LightOptions& o) {
       .add_option("--light", o.light,
                   "auto: the scene's, else what suits it. scene, studio, sun (and sky), lamps, or "
                   "none (but what surfaces emit)")
-      ->check(CLI::IsMember({"auto", "scene", "studio", "sun", "lamps", "none"}))
-      ->capture_default_str();
-  command.add_option("--sun", o.sun, "Add a sun whose light travels along x,y,z");
-  command.add_option("--sun-irradiance", o.sun_irradiance, "Of the sun, r,g,b [W/m^2]");
-  command.add_option("--sky", o.sky, "Constant sky, r,g,b [W/(m^2 sr)]");
-  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr");
+      ->check(one_of({"auto", "scene", "studio", "sun", "lamps", "none"}))
+      ->capture_default_str()
+      ->type_name("L");
+  command.add_option("--sun", o.sun, "Add a sun whose light travels this way: --sun=0.3,-1,0.2")
+      ->type_name("X,Y,Z");
+  command.add_option("--sun-irradiance", o.sun_irradiance, "Of that sun [W/m^2] (20,18,15)")
+      ->type_name("R,G,B");
+  command.add_option("--sky", o.sky, "Constant sky [W/(m^2 sr)]")->type_name("R,G,B");
+  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr")
+      ->type_name("FILE");
 }
 
 Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {

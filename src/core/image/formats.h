@@ -39,4 +39,7 @@ Expected<LayeredImage> decode_hdr(const std::string& path, ByteView bytes);
 /// 8-bit sRGB colour becomes linear; alpha is linear already. One, three or four channels.
 Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView bytes);
 
+/// Rounds to the nearest of 256 levels between 0 and 1; NaN becomes 0.
+std::uint8_t quantise(float value);
+
 }  // namespace lambent

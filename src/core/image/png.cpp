@@ -21,6 +21,11 @@ std::string_view text_of(ByteView bytes) {
 
 }  // namespace
 
+std::uint8_t quantise(float value) {
+  constexpr float kWhite = 255.0f;
+  return value > 0.0f ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * kWhite)) : 0;
+}
+
 bool is_png_or_jpeg(ByteView bytes) {
   return text_of(bytes).starts_with(kPngMagic) || text_of(bytes).starts_with(kJpegMagic);
 }

@@ -21,12 +21,6 @@ namespace {
 
 constexpr int kBitsPerChannel = 8;
 
-/// Rounds to the nearest of 256 levels; NaN becomes 0.
-std::uint8_t quantise(float value) {
-  constexpr float kWhite = 255.0f;
-  return value > 0.0f ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * kWhite)) : 0;
-}
-
 }  // namespace
 
 /// Errors leave libpng by longjmp, past frames of C alone: functions that call it own nothing.

@@ -49,4 +49,24 @@ class PngWriter {
   std::unique_ptr<State> state_;
 };
 
+/// 8-bit JPEG, as write_jpeg makes it.
+class JpegWriter {
+ public:
+  /// Begins a file of that size.
+  static Expected<JpegWriter> open(const std::string& path, int width, int height,
+                                   int quality = kJpegQuality);
+  JpegWriter(JpegWriter&&) noexcept;
+  ~JpegWriter();
+
+  /// The next rows, encoded for display: 1, 3 or 4 channels.
+  Expected<void> write(const Image& display_encoded);
+  /// After the last row.
+  Expected<void> finish();
+
+ private:
+  struct State;
+  explicit JpegWriter(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
 }  // namespace lambent
