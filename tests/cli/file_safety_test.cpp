@@ -83,17 +83,20 @@ TEST_F(FileSafety, FramesMayNotReplaceWhatTheyAreMadeOf) {
 TEST_F(FileSafety, AnOutputMayNotBeTheScene) {
   const std::string scene = file("c.glb");
   ASSERT_EQ(run_program("make-scene cube -o " + scene).status, 0);
-  fs::create_symlink("c.glb", directory.path() / "soft.png");
-  fs::create_hard_link(scene, file("hard.png"));
-  for (const char* output : {"c.glb", "./soft.png", "hard.png"}) {
+  expect_refusal("prepare " + scene + " -o " + scene, "c.glb: ", scene);
+  fs::create_symlink("c.glb", directory.path() / "soft");
+  fs::create_hard_link(scene, file("hard"));
+  for (const char* output : {"./soft", "hard"}) {
     expect_refusal("prepare " + scene + " -o " + file(output), "-o would write over the scene",
                    scene);
     expect_refusal("bake " + scene + " -o " + file(output), "-o would write over the scene", scene);
   }
+  fs::create_hard_link(scene, file("hard.png"));
   expect_refusal("render " + scene + " " + kQuick + "-o " + file("hard.png"),
                  "-o would write over the scene", scene);
-  expect_refusal("render " + scene + " " + kQuick + "-o " + file("a.png") + " --stats " + scene,
-                 "--stats would write over the scene", scene);
+  expect_refusal(
+      "render " + scene + " " + kQuick + "-o " + file("a.png") + " --stats " + file("hard"),
+      "--stats would write over the scene", scene);
 }
 
 TEST_F(FileSafety, AnOutputMayNotBeAFileOfTheScene) {
@@ -116,8 +119,9 @@ TEST_F(FileSafety, ThePicturesThatAreComparedAreKept) {
 }
 
 TEST_F(FileSafety, TheFieldThatIsExportedOrReadIsKept) {
-  const std::string field = file("x.irradiance.exr");
-  ASSERT_EQ(run_program("bake cornell --probes 2x2x2 --rays 16 --updates 1 -o " + field).status, 0);
+  const std::string baked = file("x.field"), field = file("x.irradiance.exr");
+  ASSERT_EQ(run_program("bake cornell --probes 2x2x2 --rays 16 --updates 1 -o " + baked).status, 0);
+  fs::rename(baked, field);
   expect_refusal("field export " + field + " -o " + file("x"), "-o would write over the field",
                  field);
   expect_refusal("render cornell --size 8x8 --samples 1 --field " + field + " -o " + field,
