@@ -111,8 +111,8 @@ TEST_F(LargeWork, PicturesThatDoNotFitAreRefusedWithASizeThatDoes) {
 
 TEST_F(LargeWork, FieldsThatDoNotFitAreRefusedWithWhatDoes) {
   const std::string field = " cornell --probes 61x61x61 -o ";
-  for (const std::string command : {"render --size 8x8 --samples 1" + field + file("a.png"),
-                                    "bake" + field + file("a.field")}) {
+  for (const std::string& command : {"render --size 8x8 --samples 1" + field + file("a.png"),
+                                     "bake" + field + file("a.field")}) {
     const ProgramResult result = run_program(command + " --rays 4096", kLittleMemory);
     EXPECT_EQ(result.status, 1) << command;
     EXPECT_THAT(result.errors, HasSubstr("226981 probes of 4096 rays: needs about 1"));
