@@ -57,14 +57,16 @@ TEST_F(FileSafety, TwoOutputsOfRenderMayNotBeOneFile) {
   fs::create_symlink("s.png", directory.path() / "later.json");
   expect_refusal(
       "render cornell " + kQuick + "-o " + file("s.png") + " --stats " + file("later.json"),
-      "both -o and --stats");
+      "and --stats would write this file");
 }
 
 TEST_F(FileSafety, FramesOfASequenceAreOutputs) {
   const std::string sequence = "render cornell " + kQuick + "--frames 2 -o ";
   expect_refusal(sequence + file("f.png") + " --stats " + file("f.0001.png"), "--stats and -o");
   fs::create_symlink("f.0001.png", directory.path() / "stats.json");
-  expect_refusal(sequence + file("f.png") + " --stats " + file("stats.json"), "--stats and -o");
+  expect_refusal(sequence + file("f.png") + " --stats " + file("stats.json"),
+                 "and -o would write this file");
+  fs::create_directory(directory.path() / "0000");
   fs::create_directory(directory.path() / "0001");
   expect_refusal(sequence + file("####/f.png") + " --stats " + file("0001/f.png"),
                  "would write this file");
@@ -191,7 +193,7 @@ TEST_F(FileSafety, AnInterruptAtAnyMomentLeavesTheOldFileOrTheNewOne) {
   ASSERT_FALSE(complete.empty());
 
   // The first half begins without the file, the second half replaces it
-  constexpr int kTimes = 40;
+  constexpr int kTimes = 20;
   int ended_by_signal = 0;
   for (int i = 0; i < kTimes; ++i) {
     if (i < kTimes / 2) fs::remove(output);
