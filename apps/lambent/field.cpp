@@ -6,10 +6,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "field/field_file.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
 #include "lambent/image.h"
+#include "lambent/input.h"
+#include "lambent/output.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 namespace {
@@ -112,6 +116,7 @@ void print_volume(const FieldVolume& volume) {
 }
 
 Expected<void> info(const std::string& path, bool as_json) {
+  if (const auto fine = check_field_input(path); !fine) return fine;
   const Expected<FieldFile> field = read_field_file(path);
   if (!field) return tl::unexpected(field.error());
   if (as_json) {
@@ -154,6 +159,7 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     for (int c = 0; c < 3; ++c) light.at(x, y)[c] = value[c];
   });
   if (auto done = write_exr(prefix + ".irradiance.exr", irradiance); !done) return done;
+  tell_written(prefix + ".irradiance.exr", pixels_text(irradiance.width, irradiance.height));
 
   LayeredImage distance = blank_atlas(volume, volume.distance_texels);
   distance.require("", 1);
@@ -164,16 +170,20 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     *means.at(x, y) = moments.x;
     *squares.at(x, y) = moments.y;
   });
-  return write_exr(prefix + ".distance.exr", distance);
+  if (auto done = write_exr(prefix + ".distance.exr", distance); !done) return done;
+  tell_written(prefix + ".distance.exr", pixels_text(distance.width, distance.height));
+  return {};
 }
 
 Expected<void> export_atlases(const std::string& path, const std::string& prefix) {
-  if (const auto fine = check_writable(prefix + ".irradiance.exr"); !fine) return fine;
+  if (const auto fine = check_place(prefix + ".irradiance.exr"); !fine) return fine;
+  if (const auto fine = check_field_input(path); !fine) return fine;
   const Expected<FieldFile> field = read_field_file(path);
   if (!field) return tl::unexpected(field.error());
   for (std::size_t i = 0; i < field->volumes.size(); ++i) {
     const bool one = field->volumes.size() == 1;
     const std::string name = one ? prefix : prefix + "." + std::to_string(i);
+    if (auto made = make_folders(name + ".irradiance.exr"); !made) return made;
     if (auto done = export_volume(field->volumes[i], name); !done) return done;
   }
   return {};
@@ -183,6 +193,7 @@ Expected<void> export_atlases(const std::string& path, const std::string& prefix
 
 void add_field(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("field", "Look into a field file, or export it");
+  command->group(kFieldGroup);
   command->require_subcommand(1);
 
   struct Options {
@@ -191,16 +202,17 @@ void add_field(CLI::App& app, Run& run) {
   };
   const auto o = std::make_shared<Options>();
   CLI::App* print = command->add_subcommand("info", "Print what a field file holds");
-  print->add_option("file", o->file, "Field file, of lambent bake")->required();
+  print->add_option("FILE", o->file, "Field file, of lambent bake")->required();
   print->add_flag("--json", o->json, "One flat JSON object");
   print->callback([o, &run] { run = [o] { return info(o->file, o->json); }; });
 
   CLI::App* atlases = command->add_subcommand("export", "Write the atlases of a field as .exr");
-  atlases->add_option("file", o->file, "Field file, of lambent bake")->required();
+  atlases->add_option("FILE", o->file, "Field file, of lambent bake")->required();
   atlases
       ->add_option("-o,--output", o->prefix,
                    "Write this and .irradiance.exr, and this and .distance.exr")
-      ->required();
+      ->required()
+      ->type_name("PREFIX");
   atlases->callback([o, &run] { run = [o] { return export_atlases(o->file, o->prefix); }; });
 }
 

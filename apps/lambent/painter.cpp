@@ -2,12 +2,14 @@
 #include "lambent/painter.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
 #include "core/metrics.h"
+#include "lambent/console.h"
 #include "lambent/progress_bar.h"
 #include "lambent/renderer.h"
 #include "reference/path_tracer.h"
@@ -37,12 +39,11 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world) {
   const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  if (options.field_file.empty()) return IrradianceField::make(*settings, open_bounds(world));
+  if (options.field_file.empty()) return make_field(*settings, options.field, world);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
   if (!loaded) return tl::unexpected(loaded.error());
   if (!loaded->same_light) {
-    std::fprintf(stderr, "lambent: %s was made under other light than the scene's\n",
-                 options.field_file.c_str());
+    warn(options.field_file + " was made under other light than the scene's");
   }
   return std::move(loaded->field);
 }
@@ -90,7 +91,7 @@ Expected<void> Painter::split_bounces(const World& world, const Camera& camera, 
   const auto settings =
       field_settings(options_.field, world.scene(), options_.seed, options_.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> all = IrradianceField::make(*settings, open_bounds(world));
+  Expected<IrradianceField> all = make_field(*settings, options_.field, world);
   if (!all) return tl::unexpected(all.error());
   field_.emplace(std::move(*all));
   first_bounce_.emplace(
@@ -142,8 +143,11 @@ LayeredImage Painter::paint_by_reference(const World& world, const Camera& camer
   stats["reference_ms"] = result.ms;
   stats["reference_rays"] = result.rays;
   stats["relative_standard_error"] = result.relative_standard_error;
-  std::printf("reference: %d samples a pixel, relative standard error %.4f\n", samples,
-              result.relative_standard_error);
+  std::array<char, 96> text;
+  std::snprintf(text.data(), text.size(),
+                "reference: %d samples a pixel, relative standard error %.4f", samples,
+                result.relative_standard_error);
+  tell(text.data());
   return std::move(result.image);
 }
 

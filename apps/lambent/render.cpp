@@ -4,20 +4,28 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/atomic_file.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
+#include "lambent/output.h"
 #include "lambent/painter.h"
 #include "lambent/parse.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
 #include "lambent/render_sequence.h"
 #include "lambent/threads.h"
+#include "lambent/words.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kExamples =
+    "  lambent render scene.glb                     write scene.png, with everything chosen\n"
+    "  lambent render scene.glb --size 1080p --sun=0.3,-1,0.2 -o pictures/day.jpg\n"
+    "  lambent render scene.glb --eye 2,1.7,3 --target 0,1,0 --layers -o layers.exr\n";
 
 Expected<void> render_picture(const RenderOptions& options, const World& world, Painter& painter,
                               Json& stats) {
@@ -26,8 +34,12 @@ Expected<void> render_picture(const RenderOptions& options, const World& world, 
   const Expected<LayeredImage> image = painter.paint(world, *camera, stats);
   if (!image) return tl::unexpected(image.error());
   std::optional<float> stops;
+  if (const auto made = make_folders(options.output); !made) return made;
   const auto done = write_output(options, *image, options.output, stops);
-  if (!done || options.verify_samples == 0) return done;
+  if (!done) return done;
+  tell_written(options.output, pixels_text(image->width, image->height),
+               stops ? exposure_text(*stops) : "");
+  if (options.verify_samples == 0) return {};
   if (world.on_device() == nullptr) return painter.verify(world, *camera, *image, stats);
   return painter.verify(World(world.scene()), *camera, *image, stats);
 }
@@ -35,15 +47,12 @@ Expected<void> render_picture(const RenderOptions& options, const World& world, 
 /// The animation that the options name; -1: all of them.
 Expected<int> chosen_animation(const RenderOptions& options, const Scene& scene) {
   if (options.animation.empty()) return -1;
-  std::string known;
+  std::vector<std::string> names;
   for (int i = 0; i < static_cast<int>(scene.animations.size()); ++i) {
-    const std::string& name = scene.animations[i].name;
-    if (options.animation == name || options.animation == std::to_string(i)) return i;
-    known += (i == 0 ? "" : ", ") + std::to_string(i) + " " + name;
+    names.push_back(scene.animations[i].name);
+    if (options.animation == names.back() || options.animation == std::to_string(i)) return i;
   }
-  return fail("--animation", "",
-              "no animation '" + options.animation + "'; the scene has " +
-                  (known.empty() ? std::string("none") : known));
+  return fail("--animation", "", no_such("animation", options.animation, names));
 }
 
 /// Poses the scene at the time that the options ask for, a sequence's start included.
@@ -91,7 +100,7 @@ Expected<void> render(const RenderOptions& options) {
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;
-  const auto told = write_file_atomically(options.stats, stats.dump(2) + "\n");
+  const auto told = write_statistics(options.stats, stats);
   return done ? told : done;
 }
 
@@ -101,7 +110,12 @@ void add_render(CLI::App& app, Run& run) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene, or a sequence");
   add_render_options(*command, *options);
-  command->callback([options, &run] { run = [options] { return render(*options); }; });
+  command->group(kPictureGroup);
+  set_examples(*command, kExamples);
+  command->callback([options, &run] {
+    if (options->output.empty()) options->output = picture_beside(options->stage.scene);
+    run = [options] { return render(*options); };
+  });
 }
 
 }  // namespace lambent::cli

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/render_output.h"
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
-#include "core/atomic_file.h"
 #include "core/metrics.h"
 #include "core/tone_map.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
 
 namespace lambent::cli {
@@ -28,26 +27,18 @@ std::string frame_path(const std::string& pattern, int frame) {
 }
 
 Expected<void> check_outputs(const RenderOptions& options) {
+  const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"});
+  if (!fine) return fine;
   const bool exr = has_ending(options.output, ".exr");
-  if (!exr && !has_ending(options.output, ".png")) {
-    return fail(options.output, "", "the output must end in .exr or .png");
+  if (options.layers && !exr) {
+    return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
   }
-  if (options.layers && !exr) return fail("--layers", "", "layers need an .exr output");
   const std::string first = options.frames > 0 ? frame_path(options.output, 0) : options.output;
   for (const std::string& path : {first, options.stats}) {
     if (path.empty()) continue;
-    if (const Expected<void> fine = check_writable(path); !fine) return fine;
+    if (const Expected<void> place = check_place(path); !place) return place;
   }
   return {};
-}
-
-Expected<std::optional<float>> parse_exposure(const std::string& text) {
-  float stops = 0.0f;
-  if (text == "auto") return std::optional<float>();
-  if (!CLI::detail::lexical_cast(text, stops) || !std::isfinite(stops)) {
-    return fail("--exposure", "", "'" + text + "' is neither auto nor a number of stops");
-  }
-  return std::optional<float>(stops);
 }
 
 Expected<void> write_output(const RenderOptions& options, const LayeredImage& image,
@@ -60,7 +51,8 @@ Expected<void> write_output(const RenderOptions& options, const LayeredImage& im
   }
   if (!stops) stops = *parse_exposure(options.exposure);
   if (!stops) stops = static_cast<float>(std::log2(auto_exposure(picture)));
-  return write_png(path, display_image(picture, *tone_map_from_name(options.tone_map), *stops));
+  const Image shown = display_image(picture, *tone_map_from_name(options.tone_map), *stops);
+  return has_ending(path, ".png") ? write_png(path, shown) : write_jpeg(path, shown);
 }
 
 }  // namespace lambent::cli

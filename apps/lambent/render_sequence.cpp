@@ -5,8 +5,13 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "lambent/console.h"
+#include "lambent/output.h"
 #include "lambent/render_output.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 namespace {
@@ -46,6 +51,8 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
   std::optional<float> stops;
   std::optional<Camera> camera;
+  std::vector<std::string> written;
+  std::string size;
   for (int i = 0; i < options.frames; ++i) {
     if (interrupted) {
       return fail("", "", "interrupted after " + std::to_string(i) + " frames",
@@ -71,9 +78,13 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["changed_lights"] = changes->lights.size();
     const Expected<LayeredImage> image = painter.paint(world, *camera, frame);
     if (!image) return tl::unexpected(image.error());
-    const auto done = write_output(options, *image, frame_path(options.output, i), stops);
+    written.push_back(frame_path(options.output, i));
+    if (const auto made = make_folders(written.back()); !made) return made;
+    const auto done = write_output(options, *image, written.back(), stops);
     if (!done) return done;
+    size = pixels_text(image->width, image->height);
   }
+  tell_written(written, size, stops ? exposure_text(*stops) : "");
   return {};
 }
 

@@ -4,14 +4,16 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <glm/gtc/constants.hpp>
 
+#include "lambent/console.h"
+#include "lambent/input.h"
 #include "lambent/parse.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
 #include "scene/attributes.h"
-#include "scenes/builtin.h"
 
 namespace lambent::cli {
 namespace {
@@ -67,6 +69,8 @@ Expected<void> add_sun(const StageOptions& options, Scene& scene) {
 
 Expected<void> set_sky(const StageOptions& options, Scene& scene) {
   if (!options.environment.empty()) {
+    const auto fine = check_image_input(options.environment);
+    if (!fine) return tl::unexpected(fine.error());
     Expected<Environment> environment = load_environment(options.environment);
     if (!environment) return tl::unexpected(environment.error());
     scene.environment = std::move(*environment);
@@ -133,58 +137,66 @@ Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   if (error == std::errc() && stop == last && index < scene.cameras.size()) {
     return scene.cameras[index];
   }
-  std::string known;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    known += (i == 0 ? "" : ", ") + std::to_string(i) + " " + scene.cameras[i].name;
-  }
-  return fail(
-      "--camera", "",
-      "no camera '" + wanted + "'; the scene has " + (known.empty() ? std::string("none") : known));
+  std::vector<std::string> names;
+  for (const Camera& known : scene.cameras) names.push_back(known.name);
+  return fail("--camera", "", no_such("camera", wanted, names));
 }
 
 }  // namespace
 
 void add_scene_options(CLI::App& command, StageOptions& o) {
-  command.add_option("scene", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
+  command.add_option("SCENE", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
       ->required();
-  command.add_option("--sun", o.sun, "Add a sun whose light travels along x,y,z");
-  command.add_option("--sun-irradiance", o.sun_irradiance, "Of the sun, r,g,b [W/m^2]");
-  command.add_option("--sky", o.sky, "Constant sky, r,g,b [W/(m^2 sr)]");
-  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr");
+  command.option_defaults()->group("What is there, in which light");
+  command
+      .add_option("--sun", o.sun,
+                  "Add a sun whose light travels along x,y,z: --sun=0.3,-1,0.2 (where the scene "
+                  "has no light, a sun and a sky)")
+      ->type_name("X,Y,Z");
+  command.add_option("--sun-irradiance", o.sun_irradiance, "Of that sun [W/m^2] (20,18,15)")
+      ->type_name("R,G,B");
+  command.add_option("--sky", o.sky, "Constant sky [W/(m^2 sr)] (the scene's)")->type_name("R,G,B");
+  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr")
+      ->type_name("FILE");
   command
       .add_option("--materials", o.materials, "gltf, or lambert: exact Lambert, nothing specular")
-      ->check(CLI::IsMember({"gltf", "lambert"}))
-      ->capture_default_str();
+      ->check(one_of({"gltf", "lambert"}))
+      ->capture_default_str()
+      ->type_name("M");
   command.add_flag("--no-normal-maps", o.no_normal_maps, "Ignore normal maps");
 }
 
 void add_stage_options(CLI::App& command, StageOptions& o) {
   add_scene_options(command, o);
-  command.add_option("--camera", o.camera, "Camera of the scene, by index or name");
-  command.add_option("--eye", o.eye, "Look from here, x,y,z [m]; needs --target");
-  command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
+  command.option_defaults()->group("Where to look from");
   command
-      .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
-      ->check(CLI::Range(1.0f, 170.0f));
+      .add_option("--camera", o.camera,
+                  "Camera of the scene, by index or name (its first, else one that shows it)")
+      ->type_name("C");
+  command.add_option("--eye", o.eye, "Look from here [m]; needs --target")->type_name("X,Y,Z");
+  command.add_option("--target", o.target, "Look at this point [m]")->type_name("X,Y,Z");
+  command
+      .add_option("--fov", o.fov_degrees,
+                  "Vertical field of view [degrees], 1 to 170 (the camera's, or 45)")
+      ->check(number(1.0, 170.0))
+      ->type_name("DEG");
 }
 
 Expected<Scene> open_stage(const StageOptions& options) {
   LoadOptions load;
   load.lambert = options.materials == "lambert";
   load.normal_maps = !options.no_normal_maps;
-  Expected<Scene> scene = scenes::open_scene(options.scene, load);
+  Expected<Scene> scene = open_scene_input(options.scene, load);
   if (!scene) return scene;
   for (const std::string& warning : scene->source.warnings) {
-    std::fprintf(stderr, "lambent: warning: %s\n", warning.c_str());
+    warn(warning);
   }
   if (const auto done = add_sun(options, *scene); !done) return tl::unexpected(done.error());
   if (const auto done = set_sky(options, *scene); !done) return tl::unexpected(done.error());
 
   const bool asked = !options.sun.empty() || !options.sky.empty() || !options.environment.empty();
   if (!asked && !has_light(*scene)) {
-    std::fprintf(
-        stderr,
-        "lambent: the scene has no light; adding a sun and a sky (choose with --sun, --sky)\n");
+    tell("the scene has no light; adding a sun and a sky (choose with --sun, --sky)");
     scene->lights.push_back(make_sun(kDefaultSunDirection, kDefaultSunIrradiance));
     scene->environment.radiance = kDefaultSky;
   }

@@ -53,4 +53,10 @@ Expected<void> write_png(const std::string& path, const Image& display_encoded) 
   return write_file_atomically(path, *bytes);
 }
 
+Expected<void> write_jpeg(const std::string& path, const Image& display_encoded, int quality) {
+  const Expected<std::vector<std::byte>> bytes = encode_jpeg(path, display_encoded, quality);
+  if (!bytes) return tl::unexpected(bytes.error());
+  return write_file_atomically(path, *bytes);
+}
+
 }  // namespace lambent

@@ -36,5 +36,10 @@ Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView byte
 
 Expected<std::vector<std::byte>> encode_exr(const std::string& path, const LayeredImage& image);
 Expected<std::vector<std::byte>> encode_png(const std::string& path, const Image& display_encoded);
+Expected<std::vector<std::byte>> encode_jpeg(const std::string& path, const Image& display_encoded,
+                                             int quality);
+
+/// Rounds to the nearest of 256 levels between 0 and 1; NaN becomes 0.
+std::uint8_t quantise(float value);
 
 }  // namespace lambent

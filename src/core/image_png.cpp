@@ -27,13 +27,12 @@ void append_bytes(void* context, void* data, int size) {
   bytes.insert(bytes.end(), first, first + size);
 }
 
-/// Rounds to the nearest of 256 levels; NaN becomes 0.
+}  // namespace
+
 std::uint8_t quantise(float value) {
   constexpr float kWhite = 255.0f;
   return value > 0.0f ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * kWhite)) : 0;
 }
-
-}  // namespace
 
 bool is_png_or_jpeg(ByteView bytes) {
   return text_of(bytes).starts_with(kPngMagic) || text_of(bytes).starts_with(kJpegMagic);

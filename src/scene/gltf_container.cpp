@@ -98,6 +98,15 @@ bool nested_too_deeply(ByteSpan text) {
   return false;
 }
 
+/// "line 2, column 13" of the byte of that number, from 1.
+std::string line_and_column(ByteSpan text, std::size_t number) {
+  const ByteSpan before = text.first(std::min(number > 0 ? number - 1 : 0, text.size()));
+  const auto lines = std::count(before.begin(), before.end(), '\n');
+  const auto line_start = std::find(before.rbegin(), before.rend(), '\n');
+  return "line " + std::to_string(lines + 1) + ", column " +
+         std::to_string(line_start - before.rbegin() + 1);
+}
+
 Expected<json> parse_json(ByteSpan text, const std::string& file) {
   if (text.empty()) return fail(file, "", "the file is empty");
   if (text.size() > kMaxJsonBytes) return fail(file, "JSON", "the JSON is absurdly large");
@@ -106,6 +115,10 @@ Expected<json> parse_json(ByteSpan text, const std::string& file) {
     // Some exporters pad with zeros instead of spaces
     while (!text.empty() && text.back() == 0) text = text.first(text.size() - 1);
     return json::parse(text.begin(), text.end());
+  } catch (const json::parse_error& error) {
+    return fail(file, "JSON", "is not well-formed at " + line_and_column(text, error.byte));
+  } catch (const json::out_of_range&) {
+    return fail(file, "JSON", "holds a number that is too large to read");
   } catch (const json::exception& error) {
     return fail(file, "JSON", error.what());
   }

@@ -137,6 +137,8 @@ TEST(GltfJson, GarbageIsAnError) {
   EXPECT_NE(error_of(load_text("null")), "");
   EXPECT_NE(error_of(load_text("[]")), "");
   EXPECT_NE(error_of(load_text("\xff\xfe\x00")), "");
+  EXPECT_THAT(error_of(load_text("{\n\n \"a\": 1,,}")), HasSubstr("at line 3, column 9"));
+  EXPECT_THAT(error_of(load_text("x")), HasSubstr("at line 1, column 1"));
   EXPECT_THAT(error_of(load_text("{}")), HasSubstr("asset: is required but missing"));
   EXPECT_THAT(error_of(load_text(R"({"asset": {"version": "1.0"}})")), HasSubstr("version 1.0"));
   EXPECT_THAT(error_of(load_text(R"({"asset": {"version": "2.0"}, "x": 1e999})")),
