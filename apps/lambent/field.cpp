@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "field/field_file.h"
+#include "field/file/field_file.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
-#include "core/metrics.h"
+#include "core/image/metrics.h"
 #include "lambent/console.h"
 #include "lambent/progress_bar.h"
 #include "lambent/renderer.h"

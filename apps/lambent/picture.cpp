@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/metrics.h"
-#include "core/tone_map.h"
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
@@ -40,7 +40,7 @@ Expected<void> picture(const Options& options) {
   if (!layer) return tl::unexpected(layer.error());
 
   const float stops =
-      *asked_stops ? **asked_stops : static_cast<float>(std::log2(auto_exposure(**layer)));
+      *asked_stops ? **asked_stops : static_cast<float>(std::log2(display_exposure(**layer)));
   const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops);
   if (const Expected<void> fine = make_folders(options.output); !fine) return fine;
   const bool png = has_ending(options.output, ".png");

@@ -27,11 +27,9 @@ constexpr const char* kExamples =
     "  lambent render scene.glb --size 1080p --sun=0.3,-1,0.2 -o pictures/day.jpg\n"
     "  lambent render scene.glb --eye 2,1.7,3 --target 0,1,0 --layers -o layers.exr\n";
 
-Expected<void> render_picture(const RenderOptions& options, const World& world, Painter& painter,
-                              Json& stats) {
-  const Expected<Camera> camera = choose_camera(options.stage, world);
-  if (!camera) return tl::unexpected(camera.error());
-  const Expected<LayeredImage> image = painter.paint(world, *camera, stats);
+Expected<void> render_picture(const RenderOptions& options, const World& world,
+                              const Camera& camera, Painter& painter, Json& stats) {
+  const Expected<LayeredImage> image = painter.paint(world, camera, stats);
   if (!image) return tl::unexpected(image.error());
   std::optional<float> stops;
   if (const auto made = make_folders(options.output); !made) return made;
@@ -40,8 +38,8 @@ Expected<void> render_picture(const RenderOptions& options, const World& world, 
   tell_written(options.output, pixels_text(image->width, image->height),
                stops ? exposure_text(*stops) : "");
   if (options.verify_samples == 0) return {};
-  if (world.on_device() == nullptr) return painter.verify(world, *camera, *image, stats);
-  return painter.verify(World(world.scene()), *camera, *image, stats);
+  if (world.on_device() == nullptr) return painter.verify(world, camera, *image, stats);
+  return painter.verify(World(world.scene()), camera, *image, stats);
 }
 
 /// The animation that the options name; -1: all of them.
@@ -82,6 +80,13 @@ Expected<void> render(const RenderOptions& options) {
   if (!animation) return tl::unexpected(animation.error());
   if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
   World world(*scene, *device);
+  const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
+  const Expected<View> view = choose_view(options.stage, world, aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  tell("camera: " + describe(*view));
+  tell("light: " + *light);
 
   Json stats;
   stats["method"] = options.method;
@@ -95,8 +100,9 @@ Expected<void> render(const RenderOptions& options) {
 
   Painter painter(options, *size);
   const Expected<void> done =
-      options.frames > 0 ? render_sequence(options, *scene, *animation, world, painter, stats)
-                         : render_picture(options, world, painter, stats);
+      options.frames > 0
+          ? render_sequence(options, *scene, *animation, *view, world, painter, stats)
+          : render_picture(options, world, view->camera, painter, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;

@@ -215,7 +215,7 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
       ->capture_default_str()
       ->type_name("WxH");
   add_stage_options(command, o.stage);
-  for (const char* name : {"--camera", "--sun"}) command.get_option(name)->group(kMainGroup);
+  for (const char* name : {"--camera", "--light"}) command.get_option(name)->group(kMainGroup);
   command.option_defaults()->group(kMainGroup);
   command
       .add_option("--method", o.method,

@@ -62,9 +62,8 @@ TEST_F(FieldFiles, BakeWritesTheSameFileOnAnyNumberOfThreads) {
 TEST_F(FieldFiles, BakeSaysWhatIsWrong) {
   for (const std::string& arguments :
        {std::string("bake cornell"), "bake none -o " + field,
-        "bake cornell --updates 0 -o " + field,
-        "bake cornell --time 1 -o " + field, "bake cornell --camera 0 -o " + field,
-        "bake cornell --probes 1x1x1 -o " + field}) {
+        "bake cornell --updates 0 -o " + field, "bake cornell --time 1 -o " + field,
+        "bake cornell --camera 0 -o " + field, "bake cornell --probes 1x1x1 -o " + field}) {
     const ProgramResult result = run_program(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_THAT(result.errors, HasSubstr("lambent: ")) << arguments;

@@ -76,11 +76,13 @@ INSTANTIATE_TEST_SUITE_P(
                 "--rsm-radius: 0 is not above 0, up to 2"},
         Mistake{"softening", "cornell --method rsm --rsm-softening 0.001",
                 "--rsm-softening: 0.001 is not between 0.01 and 100"},
-        Mistake{"odd_tile", "cornell --size 8x8 --irradiance-texels 5", "--irradiance-texels: must"},
+        Mistake{"odd_tile", "cornell --size 8x8 --irradiance-texels 5",
+                "--irradiance-texels: must"},
         Mistake{"spacing", "cornell --size 8x8 --probe-spacing 1e-14", "--probe-spacing: is so"},
         Mistake{"bounds", "cornell --size 8x8 --bounds 90,0,0,91,1,1", "--bounds: lies outside"},
         Mistake{"volume", "cornell --size 8x8 --volume 90,0,0,91,1,1", "--volume 90,0,0,91,1,1: l"},
-        Mistake{"frame_updates", "cornell --frame-updates 2", "--frame-updates: goes with --frames"}),
+        Mistake{"frame_updates", "cornell --frame-updates 2",
+                "--frame-updates: goes with --frames"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 /// Options whose value is a number that is not whole.
@@ -204,7 +206,8 @@ TEST(Help, OfRenderBeginsWithFiveOptionsAndThreeExamples) {
     EXPECT_THAT(help, HasSubstr(group));
   }
   // No name of CLI11's stands for a value
-  for (const char* type : {" TEXT", " INT", " FLOAT", " UINT"}) EXPECT_THAT(help, Not(HasSubstr(type)));
+  for (const char* type : {" TEXT", " INT", " FLOAT", " UINT"})
+    EXPECT_THAT(help, Not(HasSubstr(type)));
 }
 
 TEST(Help, IsThereForEverySubcommandInLinesThatFit) {

@@ -46,8 +46,7 @@ TEST(Words, ExposureHasItsSign) {
 
 TEST(Words, WhatIsNotThereIsAnsweredWithWhatIs) {
   EXPECT_EQ(no_such("camera", "9", {}), "no camera '9'; the scene has none");
-  EXPECT_EQ(no_such("camera", "9", {"front"}),
-            "no camera '9'; the scene has 1 camera: 0 'front'");
+  EXPECT_EQ(no_such("camera", "9", {"front"}), "no camera '9'; the scene has 1 camera: 0 'front'");
   EXPECT_EQ(no_such("camera", "hal", {"door", "hall"}),
             "no camera 'hal'; the scene has 2 cameras: 0 'door', 1 'hall'; did you mean 'hall'?");
   const std::string many = no_such("light", "x", std::vector<std::string>(1000, "lamp"));
