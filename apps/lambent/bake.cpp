@@ -8,13 +8,16 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/field_options.h"
 #include "lambent/help.h"
+#include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/progress_bar.h"
 #include "lambent/stage.h"
+#include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/validators.h"
 #include "lambent/world.h"
@@ -36,8 +39,15 @@ struct Options {
 
 Expected<void> check(const Options& options) {
   if (const auto fine = check_own_output(options.output, "a field"); !fine) return fine;
-  if (options.stats.empty()) return {};
-  return check_place(options.stats);
+  if (!options.stats.empty()) {
+    if (const auto fine = check_place(options.stats); !fine) return fine;
+  }
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
+  files.writes(options.output, "-o");
+  files.writes(options.stats, "--stats");
+  return files.check();
 }
 
 void tell_baked(const Options& options, const IrradianceField& field,
@@ -58,6 +68,7 @@ Expected<void> bake(const Options& options) {
   }
   const ThreadLimit limit(options.threads);
 
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   if (options.time_s) {
@@ -66,6 +77,7 @@ Expected<void> bake(const Options& options) {
     }
     animate(*scene, -1, *options.time_s);
   }
+  begin_step("preparing the scene for rays");
   World world(*scene);
   const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
   if (!view) return tl::unexpected(view.error());
@@ -74,7 +86,8 @@ Expected<void> bake(const Options& options) {
   tell("light: " + *light);
   const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> field = make_field(*settings, options.field, world);
+  begin_step("updating the field");
+  Expected<IrradianceField> field = make_field(*settings, options.field, world, 1);
   if (!field) return tl::unexpected(field.error());
 
   nlohmann::ordered_json stats;
@@ -89,6 +102,7 @@ Expected<void> bake(const Options& options) {
                   : settle_field(world, request, *field, progress, stats);
   }
   stats["settled"] = reached.settled;
+  begin_step("writing the field");
   if (const auto made = make_folders(options.output); !made) return made;
   if (const auto saved = save_field(options.output, *field, world); !saved) return saved;
   if (!options.stats.empty()) {

@@ -11,6 +11,7 @@
 
 #include "core/image/heat_map.h"
 #include "core/image/metrics.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
@@ -19,6 +20,7 @@
 #include "lambent/layers.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
+#include "lambent/step.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
 
@@ -217,6 +219,13 @@ Expected<void> compare(const CompareOptions& options) {
     if (path.empty()) continue;
     if (const auto fine = check_image_input(path); !fine) return fine;
   }
+  CommandFiles files;
+  files.reads(options.path_a, "image A");
+  files.reads(options.path_b, "image B");
+  files.reads(options.noise_path, "--noise");
+  files.writes(options.heat_map_path, "--heatmap");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the images");
   const Expected<LayeredImage> a = read_image(options.path_a), b = read_image(options.path_b);
   if (!a) return tl::unexpected(a.error());
   if (!b) return tl::unexpected(b.error());
@@ -237,6 +246,7 @@ Expected<void> compare(const CompareOptions& options) {
 
   Expected<std::vector<Comparison>> comparisons = choose_layers(options, *a, *b);
   if (!comparisons) return tl::unexpected(comparisons.error());
+  begin_step("comparing the images");
   std::vector<Image> pictures;
   for (Comparison& comparison : *comparisons) {
     const LayerNoise layer_noise{noise, comparisons->size()};

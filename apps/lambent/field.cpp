@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "field/file/field_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
@@ -22,6 +23,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kIrradianceFormats[] = {"rgb9e5", "r11g11b10f", "float32"};
 constexpr const char* kDistanceFormats[] = {"rg16f", "rg32f"};
+constexpr const char* kIrradianceEnding = ".irradiance.exr";
+constexpr const char* kDistanceEnding = ".distance.exr";
 constexpr std::array kStates = {"off",   "sleeping",       "newly_awake",
                                 "awake", "newly_vigilant", "vigilant"};
 
@@ -158,8 +161,8 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     const vec3 value = store.irradiance_texel(probe, texel);
     for (int c = 0; c < 3; ++c) light.at(x, y)[c] = value[c];
   });
-  if (auto done = write_exr(prefix + ".irradiance.exr", irradiance); !done) return done;
-  tell_written(prefix + ".irradiance.exr", pixels_text(irradiance.width, irradiance.height));
+  if (auto done = write_exr(prefix + kIrradianceEnding, irradiance); !done) return done;
+  tell_written(prefix + kIrradianceEnding, pixels_text(irradiance.width, irradiance.height));
 
   LayeredImage distance = blank_atlas(volume, volume.distance_texels);
   distance.require("", 1);
@@ -170,21 +173,29 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     *means.at(x, y) = moments.x;
     *squares.at(x, y) = moments.y;
   });
-  if (auto done = write_exr(prefix + ".distance.exr", distance); !done) return done;
-  tell_written(prefix + ".distance.exr", pixels_text(distance.width, distance.height));
+  if (auto done = write_exr(prefix + kDistanceEnding, distance); !done) return done;
+  tell_written(prefix + kDistanceEnding, pixels_text(distance.width, distance.height));
   return {};
 }
 
 Expected<void> export_atlases(const std::string& path, const std::string& prefix) {
-  if (const auto fine = check_place(prefix + ".irradiance.exr"); !fine) return fine;
+  if (const auto fine = check_place(prefix + kIrradianceEnding); !fine) return fine;
   if (const auto fine = check_field_input(path); !fine) return fine;
   const Expected<FieldFile> field = read_field_file(path);
   if (!field) return tl::unexpected(field.error());
+  const auto prefix_of = [&](std::size_t i) {
+    return field->volumes.size() == 1 ? prefix : prefix + "." + std::to_string(i);
+  };
+  CommandFiles files;
+  files.reads(path, "the field");
   for (std::size_t i = 0; i < field->volumes.size(); ++i) {
-    const bool one = field->volumes.size() == 1;
-    const std::string name = one ? prefix : prefix + "." + std::to_string(i);
-    if (auto made = make_folders(name + ".irradiance.exr"); !made) return made;
-    if (auto done = export_volume(field->volumes[i], name); !done) return done;
+    files.writes(prefix_of(i) + kIrradianceEnding, "-o");
+    files.writes(prefix_of(i) + kDistanceEnding, "-o");
+  }
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  for (std::size_t i = 0; i < field->volumes.size(); ++i) {
+    if (auto made = make_folders(prefix_of(i) + kIrradianceEnding); !made) return made;
+    if (auto done = export_volume(field->volumes[i], prefix_of(i)); !done) return done;
   }
   return {};
 }

@@ -45,20 +45,6 @@ constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
     {"volume", "--bounds"},
     {"volumes", "--volume"}};
 
-/// An error of the library's, told of the option that the user typed.
-Error in_options(Error error, const FieldOptions& options) {
-  for (const auto& [setting, option] : kOptionsOfSettings) {
-    if (error.place != setting) continue;
-    error.place = option;
-    return error;
-  }
-  // Volumes are named by what was typed, or by the scene's author
-  for (const std::string& typed : options.volumes) {
-    if (error.place == "volume '" + typed + "'") error.place = "--volume " + typed;
-  }
-  return error;
-}
-
 template <class Value>
 std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
   std::vector<std::string> names;
@@ -224,11 +210,17 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
   return settings;
 }
 
-Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
-                                     const World& world) {
-  Expected<IrradianceField> field = IrradianceField::make(settings, open_bounds(world));
-  if (!field) return tl::unexpected(in_options(std::move(field.error()), options));
-  return field;
+Error in_options(Error error, const FieldOptions& options) {
+  for (const auto& [setting, option] : kOptionsOfSettings) {
+    if (error.place != setting) continue;
+    error.place = option;
+    return error;
+  }
+  // Volumes are named by what was typed, or by the scene's author
+  for (const std::string& typed : options.volumes) {
+    if (error.place == "volume '" + typed + "'") error.place = "--volume " + typed;
+  }
+  return error;
 }
 
 FieldProgress update_field(const World& world, int updates, const UpdateRequest& request,

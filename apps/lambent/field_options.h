@@ -40,10 +40,8 @@ void add_field_options(CLI::App& command, FieldOptions& options);
 Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
                                        std::uint32_t seed, int bounces);
 
-/// A field in the open space of the world, as yet without updates. `options` are those that the
-/// settings came from: errors name them.
-Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
-                                     const World& world);
+/// An error that the library has about a field's settings, told of the options that the user typed.
+Error in_options(Error error, const FieldOptions& options);
 
 /// Where updates of a field led.
 struct FieldProgress {

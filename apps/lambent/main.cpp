@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,9 @@
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
+#include "lambent/interrupts.h"
 #include "lambent/parse_errors.h"
+#include "lambent/step.h"
 
 namespace lambent::cli {
 namespace {
@@ -99,9 +102,12 @@ int run_program(int argc, char** argv) {
 }  // namespace lambent::cli
 
 int main(int argc, char** argv) {
+  lambent::cli::clean_up_on_signals();
   int status = lambent::cli::kFailed;
   try {
     status = lambent::cli::run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    lambent::cli::tell_error(std::string("memory ran out while ") + lambent::cli::current_step());
   } catch (const std::exception& error) {
     lambent::cli::tell_error(error.what());
   }

@@ -7,6 +7,7 @@
 
 #include "core/image/exposure.h"
 #include "core/image/tone_map.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
@@ -15,6 +16,7 @@
 #include "lambent/layers.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
+#include "lambent/step.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
 
@@ -31,14 +33,20 @@ struct Options {
 
 Expected<void> picture(const Options& options) {
   if (const Expected<void> fine = check_output(options.output, kPictureEndings); !fine) return fine;
+  CommandFiles files;
+  files.reads(options.input, "the image");
+  files.writes(options.output, "-o");
+  if (const auto distinct = files.check(); !distinct) return distinct;
   const auto asked_stops = parse_exposure(options.exposure);
   if (!asked_stops) return tl::unexpected(asked_stops.error());
   if (const Expected<void> fine = check_image_input(options.input); !fine) return fine;
+  begin_step("reading the image");
   const Expected<LayeredImage> file = read_image(options.input);
   if (!file) return tl::unexpected(file.error());
   const Expected<const Image*> layer = find_layer(options.input, *file, options.layer);
   if (!layer) return tl::unexpected(layer.error());
 
+  begin_step("encoding the picture");
   const float stops =
       *asked_stops ? **asked_stops : static_cast<float>(std::log2(display_exposure(**layer)));
   const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops);

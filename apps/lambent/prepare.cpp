@@ -4,11 +4,13 @@
 #include <memory>
 #include <string>
 
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
 #include "lambent/output.h"
 #include "lambent/stage.h"
+#include "lambent/step.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
 #include "lambent/world.h"
@@ -29,6 +31,12 @@ struct Options {
 Expected<void> prepare(const Options& options) {
   if (const Expected<void> fine = check_own_output(options.output, "a prepared scene"); !fine)
     return fine;
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
+  files.writes(options.output, "-o");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   World world(*scene);

@@ -4,15 +4,18 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "core/memory.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
+#include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/painter.h"
 #include "lambent/parse.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
 #include "lambent/render_sequence.h"
+#include "lambent/step.h"
 #include "lambent/threads.h"
 #include "lambent/words.h"
 #include "lambent/world.h"
@@ -29,13 +32,18 @@ constexpr const char* kExamples =
 
 Expected<void> render_picture(const RenderOptions& options, const World& world,
                               const Camera& camera, Painter& painter, Json& stats) {
-  const Expected<LayeredImage> image = painter.paint(world, camera, stats);
-  if (!image) return tl::unexpected(image.error());
   std::optional<float> stops;
   if (const auto made = make_folders(options.output); !made) return made;
-  const auto done = write_output(options, *image, options.output, stops);
+  Expected<LayeredImage> image;  // what --verify compares
+  if (options.verify_samples > 0) {
+    image = painter.paint(world, camera, stats);
+    if (!image) return tl::unexpected(image.error());
+  }
+  const auto done = options.verify_samples > 0
+                        ? write_output(options, *image, options.output, stops)
+                        : painter.paint_to_file(world, camera, options.output, stops, stats);
   if (!done) return done;
-  tell_written(options.output, pixels_text(image->width, image->height),
+  tell_written(options.output, pixels_text(painter.size().x, painter.size().y),
                stops ? exposure_text(*stops) : "");
   if (options.verify_samples == 0) return {};
   if (world.on_device() == nullptr) return painter.verify(world, camera, *image, stats);
@@ -69,16 +77,20 @@ Expected<void> render(const RenderOptions& options) {
   if (const auto fine = check_options(options); !fine) return fine;
   const auto size = parse_size("--size", options.size);
   if (!size) return tl::unexpected(size.error());
+  if (const auto fits = check_picture_memory(options, *size, available_memory()); !fits)
+    return fits;
   const ThreadLimit limit(options.threads);
 
   const auto device = open_backend(options.backend);
   if (!device) return tl::unexpected(device.error());
 
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   const auto animation = chosen_animation(options, *scene);
   if (!animation) return tl::unexpected(animation.error());
   if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
+  begin_step("preparing the scene for rays");
   World world(*scene, *device);
   const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
   const Expected<View> view = choose_view(options.stage, world, aspect);

@@ -20,12 +20,13 @@ struct ProgramResult {
   std::string errors;  ///< stderr
 };
 
-/// Runs `lambent` with these arguments (as a shell reads them) and waits for it.
-inline ProgramResult run_program(const std::string& arguments) {
+/// Runs `lambent` with these arguments (as a shell reads them) and waits for it. `before` is what
+/// the shell does first, such as "ulimit -f 4;".
+inline ProgramResult run_program(const std::string& arguments, const std::string& before = "") {
   ProgramResult result;
   const TemporaryDirectory directory("stderr");
   const std::string errors = directory.file("stderr.txt");
-  std::FILE* pipe = popen((LAMBENT_PROGRAM " " + arguments + " 2>" + errors).c_str(), "r");
+  std::FILE* pipe = popen((before + LAMBENT_PROGRAM " " + arguments + " 2>" + errors).c_str(), "r");
   if (pipe == nullptr) return result;
   std::array<char, 4096> buffer;
   std::size_t count = 0;

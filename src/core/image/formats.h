@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader and one writer per image format, between bytes and images; image.cpp picks.
+// One reader per image format, from bytes to images; image_files.cpp picks.
 #pragma once
 
 #include <cstddef>
@@ -20,6 +20,11 @@ inline constexpr int kMaxImageSide = 1 << 16;
 /// layers.
 inline constexpr std::uint64_t kMaxImageFloats = std::uint64_t{1} << 29;
 
+/// Fails, naming `path`, unless an image of that shape is not empty and its sides are within the
+/// limit: all that is asked of what is written.
+Expected<void> check_image_sides(const std::string& path, std::int64_t width, std::int64_t height,
+                                 std::int64_t channels);
+
 /// Fails, naming `path`, unless an image of that shape is within the limits and not empty.
 Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
                                 std::int64_t channels);
@@ -33,11 +38,6 @@ Expected<LayeredImage> decode_exr(const std::string& path, ByteView bytes);
 Expected<LayeredImage> decode_hdr(const std::string& path, ByteView bytes);
 /// 8-bit sRGB colour becomes linear; alpha is linear already. One, three or four channels.
 Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView bytes);
-
-Expected<std::vector<std::byte>> encode_exr(const std::string& path, const LayeredImage& image);
-Expected<std::vector<std::byte>> encode_png(const std::string& path, const Image& display_encoded);
-Expected<std::vector<std::byte>> encode_jpeg(const std::string& path, const Image& display_encoded,
-                                             int quality);
 
 /// Rounds to the nearest of 256 levels between 0 and 1; NaN becomes 0.
 std::uint8_t quantise(float value);

@@ -100,6 +100,9 @@ Expected<ByteSpan> view_bytes(const Document& document, int view);
 Expected<Bytes> read_uri(const Document& document, const std::string& uri,
                          const std::string& place);
 
+/// The file that a relative URI means; empty where it means none, as a data URI does.
+std::string path_of_uri(const std::string& folder, const std::string& uri);
+
 /// The extension `name` among `extensions`, or null.
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);
 
