@@ -25,7 +25,7 @@ constexpr float kMinEnclosure = 0.75f;
 // and a room is closed where less than this share of the sky reaches what is seen.
 constexpr float kMaxSkyIndoors = 0.08f;
 // A building has a court where this share of its enclosed air has no ceiling.
-constexpr float kMinCourt = 0.15f;
+constexpr float kMinCourt = 0.05f;
 // Sky light in closed rooms with windows, as a share of that outdoors: so that windows are not
 // black.
 constexpr float kSkyThroughWindows = 0.5f;

@@ -32,6 +32,8 @@ constexpr int kWaysAround = 8;
 constexpr float kRise = 0.15f;  // [rad]
 // Ways around that must end at a surface for a place to count as enclosed: all but one.
 constexpr int kMinClosedWays = kWaysAround - 1;
+// For a place to count as sheltered: somebody in an opening has three of them before him.
+constexpr int kMinShelteredWays = 5;
 // Inside solid matter rays meet backs. Winding is authors' accident, so a place is solid only where
 // most of them do.
 constexpr float kMinFrontShare = 0.35f;
@@ -209,11 +211,13 @@ SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
                                       [](const Hit& h) { return !h.missed() && h.front_face; });
     const auto closed =
         std::count_if(around, around + kWaysAround, [](const Hit& h) { return !h.missed(); });
-    if (closed < kMinClosedWays || down.missed()) continue;
+    if (closed < kMinShelteredWays || down.missed()) continue;
     if (static_cast<float>(fronts) < kMinFrontShare * static_cast<float>(met)) continue;
     const glm::vec3& place = rays[static_cast<std::size_t>(i) * kRays].origin;
-    survey.enclosed.push_back({place, place.y - down.distance,
-                               up.missed() ? bounds.max.y : place.y + up.distance, up.missed()});
+    const OpenPlace open{place, place.y - down.distance,
+                         up.missed() ? bounds.max.y : place.y + up.distance, up.missed()};
+    survey.sheltered.push_back(open);
+    if (closed >= kMinClosedWays) survey.enclosed.push_back(open);
   }
   survey.enclosed_share = static_cast<float>(survey.enclosed.size()) / kPlaces;
   return survey;

@@ -49,8 +49,11 @@ struct OpenPlace {
 
 /// What random places in a box are.
 struct SpaceSurvey {
-  std::vector<OpenPlace> enclosed;  ///< Air with surfaces around, in a fixed random order.
-  float enclosed_share = 0.0f;      ///< Of the box's volume.
+  /// Air with surfaces around, in a fixed random order.
+  std::vector<OpenPlace> enclosed;
+  /// These, and others that are open to a side or two: where somebody who looks into a room stands.
+  std::vector<OpenPlace> sheltered;
+  float enclosed_share = 0.0f;  ///< Of the box's volume.
 };
 SpaceSurvey survey_space(const World& world, const Bounds& bounds);
 
