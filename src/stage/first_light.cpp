@@ -37,8 +37,10 @@ constexpr int kRaysAlongEdge = 16;
 // a band as thick as this share of the footprint's longer side.
 constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
 constexpr float kGroundBand = 0.03f;
-// What is flatter than this share of its width is a ground itself.
+// What is flatter than this share of its width is a ground itself; and so is a terrain, which is
+// larger [m] and covers its footprint.
 constexpr float kFlatShare = 0.1f;
+constexpr float kTerrainShare = 0.4f, kMinTerrain = 20.0f;
 
 // Ways that the light of the sun may travel, the customary one first: from above one shoulder of
 // somebody who looks along -Z.
@@ -74,6 +76,8 @@ bool has_ground(const World& world, const Bounds& bounds) {
   }
   constexpr float kRays = kRaysAlongEdge * kRaysAlongEdge;
   if (static_cast<float>(heights.size()) < kMinFootprint * kRays) return false;
+  const float width = std::min(size.x, size.z);
+  if (width > kMinTerrain && size.y < kTerrainShare * width) return true;
 
   // Find the band of heights that holds most of them
   std::sort(heights.begin(), heights.end());

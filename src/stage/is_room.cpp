@@ -4,7 +4,7 @@
 
 #include "shared/constants.h"
 #include "shared/rays.h"
-#include "stage/views.h"
+#include "stage/survey.h"
 
 namespace lambent {
 namespace {
@@ -12,16 +12,17 @@ namespace {
 // Surface points that is_room judges, rays from each to the outside, and their elevations [rad].
 constexpr int kShellPoints = 256, kShellRays = 4;
 constexpr float kMinShellElevation = 0.09f, kMaxShellElevation = 0.7f;
-// A room is enclosed in this share of its box, at least;
-constexpr float kMinEnclosed = 0.25f;
-// and the share of its surface that shows its front to somebody outside is no larger than this,
-// plus by how much more of it is enclosed.
-constexpr float kMaxShown = 0.45f;
+// A room is enclosed in this share of its box, at least; where its surfaces have two sides, which
+// may as well be the skin of something hollow, in so much of it.
+constexpr float kMinEnclosed = 0.25f, kMinEnclosedByTwoSided = 0.5f;
+// Somebody outside sees no more than this share of a room's surface from the front.
+constexpr float kMaxShown = 0.6f;
 
 }  // namespace
 
 bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey) {
-  if (survey.enclosed_share < kMinEnclosed) return false;
+  const float needed = glm::mix(kMinEnclosed, kMinEnclosedByTwoSided, survey.two_sided_share);
+  if (survey.enclosed_share < needed) return false;
   const std::vector<SurfacePoint> points =
       sample_surfaces(world.scene(), subject.instances, kShellPoints);
   if (points.empty()) return false;
@@ -48,7 +49,7 @@ bool is_room(const World& world, const Subject& subject, const SpaceSurvey& surv
   }
   const auto count = static_cast<float>(std::count(shown.begin(), shown.end(), 1));
   const float shown_share = count / static_cast<float>(points.size());
-  return shown_share <= kMaxShown + survey.enclosed_share - kMinEnclosed;
+  return shown_share <= kMaxShown;
 }
 
 }  // namespace lambent

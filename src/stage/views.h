@@ -17,8 +17,4 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
 
-/// Whether a scene is a shell around most of what it holds, by the share of its surfaces that
-/// somebody outside sees from the front and by how much of its box is enclosed air.
-bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
-
 }  // namespace lambent
