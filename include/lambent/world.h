@@ -53,9 +53,9 @@ class World {
   /// Updates that changes_since reaches back.
   static constexpr std::size_t kLogLength = 256;
 
-  /// Builds everything. On a device (lambent/vulkan.h) rays are traced there, and passes that can
-  /// run there do; null: on the processor. Throws std::runtime_error where the ray tracer cannot
-  /// start or memory runs out.
+  /// Builds everything. The scene must be one that validate accepts. On a device (lambent/vulkan.h)
+  /// rays are traced there, and passes that can run there do; null: on the processor. Throws
+  /// std::runtime_error where the ray tracer cannot start or memory runs out.
   explicit World(const Scene& scene, std::shared_ptr<vulkan::Device> device = nullptr);
   ~World();
   World(World&&) noexcept;
