@@ -11,6 +11,7 @@
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
 #include "scene/attributes.h"
+#include "scene/limits.h"
 #include "scenes/builtin.h"
 
 namespace lambent::cli {
@@ -22,6 +23,8 @@ constexpr glm::vec3 kDefaultSunDirection{-0.5f, -1.0f, -0.35f};
 constexpr glm::vec3 kDefaultSunIrradiance{20.0f, 18.0f, 15.0f};
 constexpr glm::vec3 kDefaultSky{1.5f, 2.0f, 2.6f};
 constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
+// Narrower and wider views show nothing that people would recognize [degrees].
+constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
 
 // Length of --sun below which its direction would drown in rounding.
 constexpr float kMinDirection = 1e-6f;
@@ -34,11 +37,17 @@ bool has_light(const Scene& scene) {
   return false;
 }
 
+bool are_within(const glm::vec3& color, float largest) {
+  return glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f))) &&
+         glm::all(glm::lessThanEqual(color, glm::vec3(largest)));
+}
+
 Light make_sun(const glm::vec3& direction, const glm::vec3& irradiance) {
   Light sun;
   sun.name = "sun";
   sun.type = Light::Type::directional;
-  sun.direction_ws = glm::normalize(direction);
+  // In double, where no vector of floats is too long for its square
+  sun.direction_ws = glm::vec3(glm::normalize(glm::dvec3(direction)));
   sun.intensity = irradiance;
   return sun;
 }
@@ -50,7 +59,7 @@ Expected<void> add_sun(const StageOptions& options, Scene& scene) {
   }
   const auto direction = parse_vec3("--sun", options.sun);
   if (!direction) return tl::unexpected(direction.error());
-  if (glm::length(*direction) < kMinDirection)
+  if (glm::length(glm::dvec3(*direction)) < kMinDirection)
     return fail("--sun", "", "the direction has no length");
   glm::vec3 irradiance = kDefaultSunIrradiance;
   if (!options.sun_irradiance.empty()) {
@@ -58,8 +67,8 @@ Expected<void> add_sun(const StageOptions& options, Scene& scene) {
     if (!given) return tl::unexpected(given.error());
     irradiance = *given;
   }
-  if (glm::any(glm::lessThan(irradiance, glm::vec3(0.0f)))) {
-    return fail("--sun-irradiance", "", "must not be negative");
+  if (!are_within(irradiance, kMaxIrradiance)) {
+    return fail("--sun-irradiance", "", "must be 0 to 1e10 W/m^2");
   }
   scene.lights.push_back(make_sun(*direction, irradiance));
   return {};
@@ -75,8 +84,7 @@ Expected<void> set_sky(const StageOptions& options, Scene& scene) {
   if (!options.environment.empty()) return fail("--sky", "", "give either --sky or --environment");
   const auto sky = parse_vec3("--sky", options.sky);
   if (!sky) return tl::unexpected(sky.error());
-  if (glm::any(glm::lessThan(*sky, glm::vec3(0.0f))))
-    return fail("--sky", "", "must not be negative");
+  if (!are_within(*sky, kMaxRadiance)) return fail("--sky", "", "must be 0 to 1e10 W/(m^2 sr)");
   scene.environment = {};
   scene.environment.radiance = *sky;
   return {};
@@ -165,7 +173,7 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
   command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
   command
       .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
-      ->check(CLI::Range(1.0f, 170.0f));
+      ->check(CLI::Range(kSmallestFov, kLargestFov));
 }
 
 Expected<Scene> open_stage(const StageOptions& options) {
@@ -176,6 +184,9 @@ Expected<Scene> open_stage(const StageOptions& options) {
   if (!scene) return scene;
   for (const std::string& warning : scene->source.warnings) {
     std::fprintf(stderr, "lambent: warning: %s\n", warning.c_str());
+  }
+  if (triangle_count(*scene) == 0) {
+    return fail(options.scene, "", "the scene has no triangles: there is nothing to render");
   }
   if (const auto done = add_sun(options, *scene); !done) return tl::unexpected(done.error());
   if (const auto done = set_sky(options, *scene); !done) return tl::unexpected(done.error());
@@ -193,7 +204,12 @@ Expected<Scene> open_stage(const StageOptions& options) {
 
 Expected<Camera> choose_camera(const StageOptions& options, const World& world) {
   const Scene& scene = world.scene();
-  const float vertical_fov = glm::radians(options.fov_degrees.value_or(kDefaultFov));
+  const float fov_degrees = options.fov_degrees.value_or(kDefaultFov);
+  // Written so that NaN fails
+  if (!(fov_degrees >= kSmallestFov && fov_degrees <= kLargestFov)) {
+    return fail("--fov", "", "must be 1 to 170 degrees");
+  }
+  const float vertical_fov = glm::radians(fov_degrees);
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
   }
