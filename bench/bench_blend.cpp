@@ -2,10 +2,10 @@
 // The matrix product from rays to texels, for all probes of a field.
 #include "bench/workload.h"
 #include "core/parallel.h"
-#include "field/blend.h"
-#include "field/distances.h"
-#include "field/probe_store.h"
-#include "field/surfels.h"
+#include "field/probes/probe_store.h"
+#include "field/transport/blend.h"
+#include "field/transport/distances.h"
+#include "field/transport/surfels.h"
 
 namespace lambent::bench {
 namespace {

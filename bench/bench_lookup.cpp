@@ -5,7 +5,7 @@
 
 #include "bench/workload.h"
 #include "core/parallel.h"
-#include "field/lookup_volumes.h"
+#include "field/lookup/lookup_volumes.h"
 
 namespace lambent::bench {
 namespace {

@@ -2,8 +2,8 @@
 // From hits to surfels: surfaces, direct light with its shadow rays, and where surfels look the
 // field up.
 #include "bench/workload.h"
-#include "field/probe_store.h"
-#include "field/surfels.h"
+#include "field/probes/probe_store.h"
+#include "field/transport/surfels.h"
 
 namespace lambent::bench {
 namespace {

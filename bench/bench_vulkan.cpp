@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "bench/workload.h"
-#include "field/device_solver.h"
-#include "field/visibility.h"
-#include "field/volumes.h"
+#include "field/lookup/visibility.h"
+#include "field/probes/volumes.h"
+#include "field/vulkan/device_solver.h"
 #include "lambent/vulkan.h"
 #include "raytracing/vulkan/device_world.h"
 #include "vulkan/device.h"

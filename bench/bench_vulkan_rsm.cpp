@@ -8,8 +8,8 @@
 #include "bench/rsm_workload.h"
 #include "bench/workload.h"
 #include "lambent/vulkan.h"
-#include "rsm/gather_vulkan.h"
-#include "rsm/lights.h"
+#include "rsm/maps/lights.h"
+#include "rsm/vulkan/gather_vulkan.h"
 
 namespace lambent::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "field/surfels.h"
+#include "field/transport/surfels.h"
 #include "lambent/field.h"
 #include "lambent/scene.h"
 #include "lambent/world.h"

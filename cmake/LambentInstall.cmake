@@ -10,23 +10,28 @@ set_target_properties(lambent PROPERTIES
 set(LAMBENT_INSTALL_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lambent)
 install(TARGETS lambent EXPORT lambent COMPONENT library)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lambent DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  COMPONENT library FILES_MATCHING PATTERN "*.h")
+  COMPONENT library FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*.hlsl" PATTERN "*.wgsl")
 install(EXPORT lambent NAMESPACE lambent:: FILE lambent-targets.cmake
   DESTINATION ${LAMBENT_INSTALL_CMAKE_DIR} COMPONENT library)
 
-# The lookup for shaders of engines: -I to LAMBENT_SHADER_DIR, then #include "field/shaders/field_lookup.glsl"
-# (GLSL), or "field/ports/lookup.hlsl"; lookup.wgsl is put before a shader's own text. Headers that shaders include
-# say LAMBENT_BEGIN.
+# For shaders of engines: -I to LAMBENT_SHADER_DIR, then #include "field_lookup.glsl" and "ray_results.h" (GLSL), or
+# "lookup.hlsl"; lookup.wgsl is put before a shader's own text. Beside them lies what they include of src/.
 set(LAMBENT_SHADER_DIR ${CMAKE_INSTALL_INCLUDEDIR}/lambent/shaders)
-file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/src/*/*.h)
-set(shader_files field/lookup.inl.h field/ports/lookup.hlsl field/ports/lookup.wgsl
-  field/shaders/field_lookup.glsl field/shaders/store.glsl field/shaders/tiles.glsl)
-foreach(header IN LISTS headers)
-  file(STRINGS ${PROJECT_SOURCE_DIR}/src/${header} begins REGEX "^LAMBENT_BEGIN")
-  if(begins OR header STREQUAL shared/lang.h)
-    list(APPEND shader_files ${header})
-  endif()
-endforeach()
+file(GLOB open_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/lambent/shaders/*)
+set(shader_files)
+while(open_files)
+  list(POP_FRONT open_files file)
+  # Installed files are read again at the next configuration, as they may include others by then
+  set_property(DIRECTORY ${PROJECT_SOURCE_DIR} APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+  file(STRINGS ${file} includes REGEX "^#include \"")
+  foreach(include IN LISTS includes)
+    string(REGEX REPLACE "^#include \"(.*)\".*" "\\1" include "${include}")
+    if(EXISTS ${PROJECT_SOURCE_DIR}/src/${include} AND NOT include IN_LIST shader_files)
+      list(APPEND shader_files ${include})
+      list(APPEND open_files ${PROJECT_SOURCE_DIR}/src/${include})
+    endif()
+  endforeach()
+endwhile()
 foreach(file IN LISTS shader_files)
   get_filename_component(folder ${file} DIRECTORY)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${file} DESTINATION ${LAMBENT_SHADER_DIR}/${folder}

@@ -5,8 +5,8 @@ find_program(LAMBENT_GLSLC glslc)
 
 # lambent_shaders(<target> <file>...): NAME.STAGE.glsl, in the current folder or below, becomes
 # `lambent::vulkan::Spirv lambent::shaders::NAME_STAGE()`, declared in the header "shaders/NAME_STAGE.h".
-# Shaders include files from src/, those of tests also from tests/. With LAMBENT_SPIRV_DIR, the modules are taken from there, as an earlier build left
-# them in build/.../spirv: for machines without a shader compiler.
+# Shaders include files from src/ and include/, those of tests also from tests/. With LAMBENT_SPIRV_DIR, the modules
+# are taken from there, as an earlier build left them in build/.../spirv: for machines without a shader compiler.
 function(lambent_shaders target)
   set(folder ${PROJECT_BINARY_DIR}/spirv)
   file(MAKE_DIRECTORY ${folder}/shaders)
@@ -25,7 +25,7 @@ function(lambent_shaders target)
       string(REPLACE "comp" "compute" stage ${stage})
       add_custom_command(OUTPUT ${module} DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${file} DEPFILE ${module}.d VERBATIM
         COMMAND ${LAMBENT_GLSLC} -x glsl -fshader-stage=${stage} --target-env=vulkan1.2 -O -Werror -mfmt=num
-          -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/tests -MD -MF ${module}.d -o ${module} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+          -I ${PROJECT_SOURCE_DIR}/src -I ${PROJECT_SOURCE_DIR}/include -I ${PROJECT_SOURCE_DIR}/tests -MD -MF ${module}.d -o ${module} ${CMAKE_CURRENT_SOURCE_DIR}/${file})
     endif()
     # Folders add shaders to a target of another folder, which sees no rules of theirs but through a target
     add_custom_target(${shader}_spirv DEPENDS ${module})
@@ -55,4 +55,11 @@ std::span<const std::uint32_t> @shader@() {
     target_sources(${target} PRIVATE ${folder}/${shader}.cpp)
   endforeach()
   target_include_directories(${target} PRIVATE $<BUILD_INTERFACE:${folder}>)
+endfunction()
+
+# lambent_folder_shaders(<target>): every shader with a stage in the current folder's shaders/.
+function(lambent_folder_shaders target)
+  file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
+    ${CMAKE_CURRENT_SOURCE_DIR}/shaders/*.*.glsl)
+  lambent_shaders(${target} ${files})
 endfunction()

@@ -3,7 +3,7 @@
 
 #include <new>
 
-#include "core/stb.h"
+#include "core/image/stb.h"
 
 namespace lambent::scenes {
 

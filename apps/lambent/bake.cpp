@@ -67,9 +67,12 @@ Expected<void> bake(const Options& options) {
     }
     animate(*scene, -1, *options.time_s);
   }
-  const World world(*scene);
-  const Expected<Camera> camera = choose_camera(options.stage, world);
-  if (!camera) return tl::unexpected(camera.error());
+  World world(*scene);
+  const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  std::fprintf(stderr, "lambent: light: %s\n", light->c_str());
   const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
   Expected<IrradianceField> field = IrradianceField::make(*settings, open_bounds(world));
@@ -79,7 +82,7 @@ Expected<void> bake(const Options& options) {
   stats["triangles"] = triangle_count(*scene);
   stats["build_ms"] = world.build_ms();
   FieldProgress reached;
-  const UpdateRequest request{0, 0.0, glm::vec3(camera->world_from_view[3])};
+  const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
   {
     const ProgressFn progress = terminal_progress();
     reached = options.updates > 0

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/heat_map.h"
-#include "core/metrics.h"
+#include "core/image/heat_map.h"
+#include "core/image/metrics.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 #include "lambent/parse.h"

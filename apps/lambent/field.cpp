@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/atomic_file.h"
-#include "field/field_file.h"
+#include "field/file/field_file.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
-#include "core/metrics.h"
+#include "core/image/metrics.h"
 #include "lambent/progress_bar.h"
 #include "lambent/renderer.h"
 #include "reference/path_tracer.h"

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "core/metrics.h"
-#include "core/tone_map.h"
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
 #include "lambent/commands.h"
 #include "lambent/image.h"
 #include "lambent/parse.h"
@@ -31,7 +31,7 @@ Expected<void> picture(const Options& options) {
 
   float stops = 0.0f;
   if (options.exposure == "auto") {
-    stops = static_cast<float>(std::log2(auto_exposure(*layer)));
+    stops = static_cast<float>(std::log2(display_exposure(*layer)));
   } else if (!CLI::detail::lexical_cast(options.exposure, stops) || !std::isfinite(stops)) {
     return fail("--exposure", "",
                 "'" + options.exposure + "' is neither auto nor a number of stops");

@@ -28,9 +28,12 @@ Expected<void> prepare(const Options& options) {
   if (const Expected<void> fine = check_writable(options.output); !fine) return fine;
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
-  const Expected<Camera> camera = choose_camera(options.stage, World(*scene));
-  if (!camera) return tl::unexpected(camera.error());
-  scene->cameras.insert(scene->cameras.begin(), *camera);
+  World world(*scene);
+  const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  scene->cameras.insert(scene->cameras.begin(), view->camera);
   limit_textures(*scene, options.texture_size);
   if (const auto saved = save_prepared(*scene, options.output); !saved) return saved;
   std::printf("%s: %zu triangles, %zu textures, %ju bytes\n", options.output.c_str(),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,17 +20,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Expected<void> render_picture(const RenderOptions& options, const World& world, Painter& painter,
-                              Json& stats) {
-  const Expected<Camera> camera = choose_camera(options.stage, world);
-  if (!camera) return tl::unexpected(camera.error());
-  const Expected<LayeredImage> image = painter.paint(world, *camera, stats);
+Expected<void> render_picture(const RenderOptions& options, const World& world,
+                              const Camera& camera, Painter& painter, Json& stats) {
+  const Expected<LayeredImage> image = painter.paint(world, camera, stats);
   if (!image) return tl::unexpected(image.error());
   std::optional<float> stops;
   const auto done = write_output(options, *image, options.output, stops);
   if (!done || options.verify_samples == 0) return done;
-  if (world.on_device() == nullptr) return painter.verify(world, *camera, *image, stats);
-  return painter.verify(World(world.scene()), *camera, *image, stats);
+  if (world.on_device() == nullptr) return painter.verify(world, camera, *image, stats);
+  return painter.verify(World(world.scene()), camera, *image, stats);
 }
 
 /// The animation that the options name; -1: all of them.
@@ -73,6 +72,13 @@ Expected<void> render(const RenderOptions& options) {
   if (!animation) return tl::unexpected(animation.error());
   if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
   World world(*scene, *device);
+  const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
+  const Expected<View> view = choose_view(options.stage, world, aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  std::fprintf(stderr, "lambent: camera: %s\nlambent: light: %s\n", describe(*view).c_str(),
+               light->c_str());
 
   Json stats;
   stats["method"] = options.method;
@@ -86,8 +92,9 @@ Expected<void> render(const RenderOptions& options) {
 
   Painter painter(options, *size);
   const Expected<void> done =
-      options.frames > 0 ? render_sequence(options, *scene, *animation, world, painter, stats)
-                         : render_picture(options, world, painter, stats);
+      options.frames > 0
+          ? render_sequence(options, *scene, *animation, *view, world, painter, stats)
+          : render_picture(options, world, view->camera, painter, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;

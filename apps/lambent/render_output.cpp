@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/atomic_file.h"
-#include "core/metrics.h"
-#include "core/tone_map.h"
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
 #include "lambent/parse.h"
 
 namespace lambent::cli {
@@ -59,7 +59,7 @@ Expected<void> write_output(const RenderOptions& options, const LayeredImage& im
     return write_exr(path, whole);
   }
   if (!stops) stops = *parse_exposure(options.exposure);
-  if (!stops) stops = static_cast<float>(std::log2(auto_exposure(picture)));
+  if (!stops) stops = static_cast<float>(std::log2(display_exposure(picture)));
   return write_png(path, display_image(picture, *tone_map_from_name(options.tone_map), *stops));
 }
 

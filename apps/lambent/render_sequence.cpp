@@ -39,13 +39,12 @@ class InterruptGuard {
 
 }  // namespace
 
-Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation,
+Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
                                World& world, Painter& painter, nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
   std::optional<float> stops;
-  std::optional<Camera> camera;
   for (int i = 0; i < options.frames; ++i) {
     if (interrupted) {
       return fail("", "", "interrupted after " + std::to_string(i) + " frames",
@@ -57,11 +56,11 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     const Expected<WorldChanges> changes = world.update();
     if (!changes) return tl::unexpected(changes.error());
 
-    // A camera of the scene moves along; one that was fitted to the scene stays where it is
-    if (!camera || (!scene.cameras.empty() && options.stage.eye.empty())) {
-      Expected<Camera> chosen = choose_camera(options.stage, world);
-      if (!chosen) return tl::unexpected(chosen.error());
-      camera = std::move(*chosen);
+    // A camera of the scene moves along; any other stays where it is
+    if (view.from == View::From::scene) {
+      Expected<Camera> moved = camera_of_scene(options.stage, scene);
+      if (!moved) return tl::unexpected(moved.error());
+      view.camera = std::move(*moved);
     }
     nlohmann::ordered_json& frame = list.emplace_back();
     frame["frame"] = i;
@@ -69,7 +68,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["world_update_ms"] = changes->refit_ms;
     frame["moved_boxes"] = changes->moved.size();
     frame["changed_lights"] = changes->lights.size();
-    const Expected<LayeredImage> image = painter.paint(world, *camera, frame);
+    const Expected<LayeredImage> image = painter.paint(world, view.camera, frame);
     if (!image) return tl::unexpected(image.error());
     const auto done = write_output(options, *image, frame_path(options.output, i), stops);
     if (!done) return done;

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "bench/dynamics/subject.h"
-#include "field/probe_store.h"
+#include "field/probes/probe_store.h"
 
 namespace lambent::dynamics {
 namespace {

@@ -113,8 +113,8 @@ struct LookupBuffers {
   BufferRange offsets;     ///< A word a probe.
   BufferRange irradiance;  ///< Tile after tile.
   BufferRange distance;    ///< Likewise.
-  /// A FieldRecord (field/field_record.h) that names the four: what field/shaders/field_lookup.glsl
-  /// takes.
+  /// A FieldRecord (field/lookup/field_record.h) that names the four: what
+  /// lambent/shaders/field_lookup.glsl takes.
   BufferRange record;
 };
 
@@ -183,7 +183,7 @@ class RecordedField {
   /// Of the update that was planned last, in the same buffers always.
   BufferRange rays() const;
   BufferRange hits() const;
-  /// RayResult (field/ray_results.h), one a ray: what the engine writes.
+  /// RayResult (lambent/shaders/ray_results.h), one a ray: what the engine writes.
   BufferRange results() const;
 
   /// Where PlannedUpdate::on_device: a VkTraceRaysIndirectCommandKHR, as wide as a probe has rays
@@ -195,7 +195,7 @@ class RecordedField {
   /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.
   BufferRange states() const;
   /// Grids, offsets, irradiance and distance as storage buffers at bindings 0 to 3, for all stages:
-  /// what field/ports/lookup.hlsl and lookup.wgsl read.
+  /// what lookup.hlsl and lookup.wgsl read.
   VkDescriptorSetLayout lookup_set_layout() const;
   VkDescriptorSet lookup_set() const;
 

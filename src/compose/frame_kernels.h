@@ -7,7 +7,7 @@
 #include "compose/frame_records.h"
 #include "compose/pixel_math.h"
 #include "raytracing/vulkan/hit_shading.h"
-#include "rsm/gather_vulkan.h"
+#include "rsm/vulkan/gather_vulkan.h"
 #include "vulkan/buffer.h"
 #include "vulkan/kernel.h"
 

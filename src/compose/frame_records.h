@@ -3,7 +3,7 @@
 #ifndef LAMBENT_COMPOSE_FRAME_RECORDS_H
 #define LAMBENT_COMPOSE_FRAME_RECORDS_H
 
-#include "field/device_records.h"
+#include "field/vulkan/device_records.h"
 #include "raytracing/camera_math.h"
 #include "raytracing/vulkan/shading_records.h"
 

@@ -7,8 +7,8 @@
 
 #include "core/parallel.h"
 #include "field/field_state.h"
-#include "field/lookup_volumes.h"
-#include "field/tile_fit.h"
+#include "field/lookup/lookup_volumes.h"
+#include "field/probes/tile_fit.h"
 
 namespace lambent {
 namespace {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "field/relight.h"
-#include "field/surfels.h"
+#include "field/transport/relight.h"
+#include "field/transport/surfels.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 

@@ -6,16 +6,16 @@
 #include <span>
 #include <vector>
 
-#include "field/blend.h"
-#include "field/classify.h"
+#include "field/edits/follow.h"
 #include "field/field_device.h"
-#include "field/follow.h"
-#include "field/probe_record.h"
-#include "field/probe_store.h"
-#include "field/relight.h"
-#include "field/schedule.h"
-#include "field/surfels.h"
-#include "field/volumes.h"
+#include "field/placement/classify.h"
+#include "field/probes/probe_record.h"
+#include "field/probes/probe_store.h"
+#include "field/probes/volumes.h"
+#include "field/schedule/schedule.h"
+#include "field/transport/blend.h"
+#include "field/transport/relight.h"
+#include "field/transport/surfels.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 

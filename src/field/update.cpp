@@ -7,10 +7,10 @@
 
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "field/distances.h"
 #include "field/field_state.h"
-#include "field/importance.h"
-#include "field/tile_light.h"
+#include "field/probes/tile_light.h"
+#include "field/schedule/importance.h"
+#include "field/transport/distances.h"
 #include "lambent/world.h"
 
 namespace lambent {

@@ -6,8 +6,8 @@
 #include <string>
 #include <unordered_map>
 
+#include "scene/animation/pose.h"
 #include "scene/attributes.h"
-#include "scene/pose.h"
 #include "scene/validate.h"
 
 namespace lambent {

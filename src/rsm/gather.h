@@ -9,8 +9,8 @@
 #include "core/cross_bilateral.h"
 #include "core/simd_levels.h"
 #include "lambent/rsm.h"
-#include "rsm/choice.h"
 #include "rsm/gather_texel.h"
+#include "rsm/maps/choice.h"
 #include "rsm/pattern.h"
 
 namespace lambent {

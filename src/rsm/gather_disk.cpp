@@ -4,7 +4,7 @@
 
 #include "rsm/deinterleave.h"
 #include "rsm/gather.h"
-#include "rsm/projection.h"
+#include "rsm/maps/projection.h"
 #include "rsm/to_records.h"
 
 namespace lambent {

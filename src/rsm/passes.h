@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "lambent/rsm.h"
-#include "rsm/lights.h"
+#include "rsm/maps/lights.h"
 #include "rsm/mosaic.h"
 
 namespace lambent {

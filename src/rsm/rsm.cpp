@@ -9,7 +9,7 @@
 
 #include "core/stopwatch.h"
 #include "rsm/deinterleave.h"
-#include "rsm/lights.h"
+#include "rsm/maps/lights.h"
 #include "rsm/mosaic.h"
 #include "rsm/order.h"
 #include "rsm/passes.h"

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <string>
 
-#include "core/image_stb.h"
-#include "core/stb.h"
+#include "core/image/decode_stb.h"
+#include "core/image/stb.h"
 
 namespace lambent {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "scene/animation/pose.h"
 #include "scene/limits.h"
-#include "scene/pose.h"
 #include "shared/constants.h"
 
 namespace lambent {

@@ -2,7 +2,7 @@
 // A shader of somebody else's that looks the field up.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/shaders/field_lookup.glsl"
+#include "field_lookup.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A shader of somebody else's that looks the field up.
-#include "field/ports/lookup.hlsl"
+#include "lookup.hlsl"
 
 RWStructuredBuffer<float3> irradiance : register(u4);
 

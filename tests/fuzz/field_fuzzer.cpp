@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "field/field_file.h"
+#include "field/file/field_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace lambent;

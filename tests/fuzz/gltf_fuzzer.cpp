@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "fuzz/gltf_input.h"
-#include "scene/gltf_import.h"
+#include "scene/gltf/import.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto file = lambent::test::gltf_from_fuzz_input({data, size});

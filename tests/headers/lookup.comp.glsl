@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 
-#include "field/lookup.h"
+#include "field/lookup/lookup.h"
 
 layout(local_size_x = 64) in;
 layout(scalar, binding = 0) readonly buffer Probes { vec4 irradiance_and_distance[]; } probes;
@@ -28,7 +28,7 @@ vec3 fetch_irradiance(int probe, vec3 direction) {
   return probes.irradiance_and_distance[probe].xyz + vec3(0.0 * direction.x);
 }
 
-#include "field/lookup.inl.h"
+#include "field/lookup/lookup.inl.h"
 
 void main() {
   uint i = gl_GlobalInvocationID.x;

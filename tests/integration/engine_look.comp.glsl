@@ -2,7 +2,7 @@
 // The engine looks the field up: here at points of its own, elsewhere at pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/shaders/field_lookup.glsl"
+#include "field_lookup.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

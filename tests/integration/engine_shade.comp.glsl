@@ -3,7 +3,7 @@
 // room is convex, so that the lamp needs no shadow rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/ray_results.h"
+#include "ray_results.h"
 
 struct Wall {
   vec3 normal;  // into the room, unit

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "field/probe_grid.h"
+#include "field/probes/probe_grid.h"
 #include "lambent/field.h"
 
 namespace lambent::ports {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Answers a query an invocation by the HLSL port of the lookup.
-#include "field/ports/lookup.hlsl"
+#include "lookup.hlsl"
 
 struct Query {
   float position_ws[3], normal_ws[3], to_viewer_ws[3];

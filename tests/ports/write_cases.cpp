@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "field/lookup_volumes.h"
+#include "field/lookup/lookup_volumes.h"
 #include "ports/cases.h"
 #include "support/walked_volumes.h"
 

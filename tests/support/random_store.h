@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "field/lookup.h"
-#include "field/probe_store.h"
+#include "field/lookup/lookup.h"
+#include "field/probes/probe_store.h"
 #include "shared/constants.h"
 #include "shared/random.h"
 
@@ -21,7 +21,7 @@ struct SharedLookup {
   }
   vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
   vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }
-#include "field/lookup.inl.h"
+#include "field/lookup/lookup.inl.h"
 };
 
 inline vec3 random_unit(RandomStream& random) {

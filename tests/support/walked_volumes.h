@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "field/volumes.h"
+#include "field/probes/volumes.h"
 #include "support/random_store.h"
 
 namespace lambent::test {

@@ -3,7 +3,7 @@
 #ifndef LAMBENT_TESTS_TWIN_ENGINE_LOOKUP_H
 #define LAMBENT_TESTS_TWIN_ENGINE_LOOKUP_H
 
-#include "field/field_record.h"
+#include "field/lookup/field_record.h"
 
 LAMBENT_BEGIN
 

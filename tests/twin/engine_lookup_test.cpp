@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "field/lookup_volumes.h"
+#include "field/lookup/lookup_volumes.h"
 #include "shaders/engine_lookup_comp.h"
 #include "shaders/engine_lookup_other_comp.h"
 #include "support/vulkan_device.h"

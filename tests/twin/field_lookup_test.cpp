@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looking a field up on a device, against the processor's lookup of the same store.
-#include "field/device_field.h"
-#include "field/lookup_volumes.h"
+#include "field/lookup/lookup_volumes.h"
+#include "field/vulkan/device_field.h"
 #include "support/random_store.h"
 #include "support/vulkan_device.h"
 #include "twin/field_update_cpu.h"

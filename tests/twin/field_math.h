@@ -3,12 +3,12 @@
 #ifndef LAMBENT_TESTS_TWIN_FIELD_MATH_H
 #define LAMBENT_TESTS_TWIN_FIELD_MATH_H
 
-#include "field/anderson_math.h"
-#include "field/blend_math.h"
-#include "field/irradiance_encoding.h"
-#include "field/moments_encoding.h"
-#include "field/schedule_math.h"
-#include "field/tile.h"
+#include "field/probes/irradiance_encoding.h"
+#include "field/probes/moments_encoding.h"
+#include "field/probes/tile.h"
+#include "field/schedule/schedule_math.h"
+#include "field/transport/anderson_math.h"
+#include "field/transport/blend_math.h"
 #include "raytracing/ray_records.h"
 
 LAMBENT_BEGIN

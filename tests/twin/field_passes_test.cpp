@@ -2,10 +2,10 @@
 // The passes of a field's update on a device, each against the processor's on the same inputs.
 #include <algorithm>
 
-#include "field/device_memory.h"
-#include "field/device_solver.h"
+#include "field/vulkan/device_solver.h"
 #include "support/vulkan_device.h"
 #include "twin/field_update_cpu.h"
+#include "vulkan/device_memory.h"
 
 namespace lambent {
 namespace {

@@ -5,13 +5,13 @@
 #include <numeric>
 #include <vector>
 
-#include "field/device_field.h"
-#include "field/distances.h"
-#include "field/lookup_volumes.h"
-#include "field/relight.h"
-#include "field/tile_fit.h"
-#include "field/tile_light.h"
-#include "field/volumes.h"
+#include "field/lookup/lookup_volumes.h"
+#include "field/probes/tile_fit.h"
+#include "field/probes/tile_light.h"
+#include "field/probes/volumes.h"
+#include "field/transport/distances.h"
+#include "field/transport/relight.h"
+#include "field/vulkan/device_field.h"
 #include "support/field_scenes.h"
 
 namespace lambent::test {

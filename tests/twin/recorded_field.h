@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "field/field_record.h"
-#include "field/ray_results.h"
-#include "field/surfels.h"
+#include "field/lookup/field_record.h"
+#include "field/transport/surfels.h"
+#include "lambent/shaders/ray_results.h"
 #include "lambent/vulkan_field.h"
 #include "shaders/engine_lookup_comp.h"
 #include "support/field_scenes.h"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "field/probe_record.h"
-#include "field/recorded_arguments.h"
-#include "field/recorded_plan.h"
+#include "field/probes/probe_record.h"
+#include "field/vulkan/recorded_arguments.h"
+#include "field/vulkan/recorded_plan.h"
 
 namespace lambent {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the kernel that maintains probes has them stand, against the processor's on the same
 // sights.
-#include "field/relocate.h"
+#include "field/placement/relocate.h"
 
 #include <algorithm>
 
-#include "field/recorded_state.h"
-#include "field/volumes.h"
+#include "field/probes/volumes.h"
+#include "field/vulkan/recorded_state.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"

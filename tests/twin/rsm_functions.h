@@ -4,11 +4,11 @@
 #define LAMBENT_TESTS_TWIN_RSM_FUNCTIONS_H
 
 #include "rsm/deinterleave.h"
-#include "rsm/device_passes.h"
 #include "rsm/gather_texel.h"
-#include "rsm/map_texel.h"
+#include "rsm/maps/map_texel.h"
 #include "rsm/upsample.h"
 #include "rsm/visibility_rays.h"
+#include "rsm/vulkan/device_passes.h"
 #include "shared/cross_bilateral.h"
 #include "shared/packing.h"
 #include "shared/random.h"

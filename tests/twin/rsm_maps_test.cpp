@@ -7,8 +7,8 @@
 
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_world.h"
-#include "rsm/gather_vulkan.h"
-#include "rsm/maps_vulkan.h"
+#include "rsm/vulkan/gather_vulkan.h"
+#include "rsm/vulkan/maps_vulkan.h"
 #include "scenes/builtin.h"
 #include "support/seen_view.h"
 #include "support/vulkan_device.h"

@@ -7,7 +7,7 @@
 #include "compose/rsm_frame.h"
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_world.h"
-#include "rsm/gather_vulkan.h"
+#include "rsm/vulkan/gather_vulkan.h"
 #include "scenes/builtin.h"
 #include "shared/random.h"
 #include "support/seen_view.h"

@@ -3,9 +3,9 @@
 // recorded field.
 #include <numeric>
 
-#include "field/device_schedule.h"
-#include "field/schedule.h"
-#include "field/tile_light.h"
+#include "field/probes/tile_light.h"
+#include "field/schedule/schedule.h"
+#include "field/vulkan/device_schedule.h"
 #include "support/hand_made.h"
 #include "twin/field_update_cpu.h"
 #include "twin/recorded_field.h"

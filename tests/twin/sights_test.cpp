@@ -2,7 +2,7 @@
 // Visibility by rays on a device against the processor's: pass by pass, and where no light may be.
 #include <cmath>
 
-#include "field/visibility.h"
+#include "field/lookup/visibility.h"
 #include "field_update_cpu.h"
 #include "raytracing/vulkan/device_world.h"
 #include "shared/random.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "field/schedule.h"
+#include "field/schedule/schedule.h"
 #include "shared/random.h"
 
 namespace lambent {

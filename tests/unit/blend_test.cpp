@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/blend.h"
+#include "field/transport/blend.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "field/tile.h"
+#include "field/probes/tile.h"
 #include "shared/random.h"
 
 namespace lambent {

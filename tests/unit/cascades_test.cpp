@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "field/probe_record.h"
+#include "field/probes/probe_record.h"
 #include "shared/color.h"
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"

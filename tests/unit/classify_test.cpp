@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/classify.h"
+#include "field/placement/classify.h"
 
 #include <gtest/gtest.h>
 
-#include "field/volumes.h"
+#include "field/probes/volumes.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/color_map.h"
-#include "core/tone_map.h"
+#include "core/image/color_map.h"
+#include "core/image/tone_map.h"
 #include "shared/tone_map.h"
 
 namespace lambent {

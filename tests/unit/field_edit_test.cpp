@@ -8,8 +8,8 @@
 #include <cmath>
 #include <vector>
 
-#include "field/probe_record.h"
-#include "field/probe_store.h"
+#include "field/probes/probe_record.h"
+#include "field/probes/probe_store.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 #include "scenes/builtin.h"

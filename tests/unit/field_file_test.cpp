@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/field_file.h"
+#include "field/file/field_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "core/file_bytes.h"
-#include "field/field_file_layout.h"
+#include "field/file/layout.h"
 
 namespace lambent {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "field/lookup_cpu.h"
-#include "field/volumes.h"
+#include "field/lookup/lookup_cpu.h"
+#include "field/probes/volumes.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/tile.h"
+#include "field/probes/tile.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "field/probe_store.h"
-#include "field/tile_fit.h"
-#include "field/volumes.h"
+#include "field/probes/probe_store.h"
+#include "field/probes/tile_fit.h"
+#include "field/probes/volumes.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "field/probe_store.h"
+#include "field/probes/probe_store.h"
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
 

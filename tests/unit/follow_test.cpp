@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What edits do to the surfels of probes.
-#include "field/follow.h"
+#include "field/edits/follow.h"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <memory>
 #include <numeric>
 
-#include "field/distances.h"
-#include "field/volumes.h"
+#include "field/probes/volumes.h"
+#include "field/transport/distances.h"
 #include "support/field_scenes.h"
 
 namespace lambent {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/gltf_accessors.h"
+#include "scene/gltf/document/accessors.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 
 #include "core/file_bytes.h"
 #include "fuzz/gltf_input.h"
-#include "scene/gltf_import.h"
+#include "scene/gltf/import.h"
 #include "scene/texture.h"
 #include "unit/gltf_builder.h"
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lambent/scene.h"
-#include "scene/gltf_import.h"
+#include "scene/gltf/import.h"
 
 namespace lambent::test {
 

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "scene/gltf_extensions.h"
+#include "scene/gltf/document/extensions.h"
 #include "unit/gltf_builder.h"
 
 namespace lambent {

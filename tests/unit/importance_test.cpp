@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/importance.h"
+#include "field/schedule/importance.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "field/probe_store.h"
-#include "field/volumes.h"
+#include "field/probes/probe_store.h"
+#include "field/probes/volumes.h"
 #include "shared/color.h"
 #include "support/field_scenes.h"
 #include "support/random_store.h"

@@ -14,7 +14,7 @@
 #include "lambent/rsm.h"
 #include "lambent/world.h"
 #include "reference/path_tracer.h"
-#include "scene/pose.h"
+#include "scene/animation/pose.h"
 #include "support/hand_made.h"
 
 namespace lambent {

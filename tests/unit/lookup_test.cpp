@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/lookup.h"
+#include "field/lookup/lookup.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numeric>
 
-#include "field/lookup_volumes.h"
-#include "field/volumes.h"
+#include "field/lookup/lookup_volumes.h"
+#include "field/probes/volumes.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "shared/random.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/metrics.h"
+#include "core/image/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/convolve.h"
-#include "core/flip.h"
-#include "core/heat_map.h"
-#include "core/ssim.h"
+#include "core/image/convolve.h"
+#include "core/image/flip.h"
+#include "core/image/heat_map.h"
+#include "core/image/ssim.h"
 #include "shared/color.h"
 #include "shared/random.h"
 

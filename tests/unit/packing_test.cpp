@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "field/irradiance_encoding.h"
+#include "field/probes/irradiance_encoding.h"
 #include "shared/random.h"
 
 namespace lambent {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/probe_store.h"
+#include "field/probes/probe_store.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "field/volumes.h"
+#include "field/probes/volumes.h"
 #include "shared/random.h"
 
 namespace lambent {

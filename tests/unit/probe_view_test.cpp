@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "field/probe_store.h"
+#include "field/probes/probe_store.h"
 #include "lambent/renderer.h"
 #include "shared/constants.h"
 #include "support/field_scenes.h"

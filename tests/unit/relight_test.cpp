@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/relight.h"
+#include "field/transport/relight.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "field/distances.h"
-#include "field/tile_fit.h"
-#include "field/volumes.h"
+#include "field/probes/tile_fit.h"
+#include "field/probes/volumes.h"
+#include "field/transport/distances.h"
 #include "support/field_scenes.h"
 
 namespace lambent {

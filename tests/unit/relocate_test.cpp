@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/relocate.h"
+#include "field/placement/relocate.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -9,8 +9,8 @@
 #include <atomic>
 #include <numeric>
 
-#include "field/visibility.h"
-#include "field/volumes.h"
+#include "field/lookup/visibility.h"
+#include "field/probes/volumes.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"

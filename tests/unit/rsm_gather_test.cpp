@@ -6,8 +6,8 @@
 
 #include "lambent/rsm.h"
 #include "rsm/geometry.h"
+#include "rsm/maps/projection.h"
 #include "rsm/pattern.h"
-#include "rsm/projection.h"
 #include "shared/sampling.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"

@@ -8,7 +8,7 @@
 
 #include "rsm/deinterleave.h"
 #include "rsm/gather.h"
-#include "rsm/lights.h"
+#include "rsm/maps/lights.h"
 #include "rsm/mosaic.h"
 #include "rsm/passes.h"
 #include "support/field_scenes.h"

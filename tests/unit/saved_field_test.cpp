@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/file_bytes.h"
-#include "field/field_file.h"
+#include "field/file/field_file.h"
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "field/visibility.h"
+#include "field/lookup/visibility.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numeric>
 
-#include "field/lookup.h"
-#include "field/volumes.h"
+#include "field/lookup/lookup.h"
+#include "field/probes/volumes.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "shared/random.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fields of several volumes: which there are, what each has to say, and how they follow the viewer.
-#include "field/volumes.h"
+#include "field/probes/volumes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "field/lookup_volumes.h"
+#include "field/lookup/lookup_volumes.h"
 #include "support/field_scenes.h"
 #include "support/random_store.h"
 

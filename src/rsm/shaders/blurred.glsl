@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that is being blurred.
-#include "rsm/device_passes.h"
+#include "rsm/vulkan/device_passes.h"
 #include "shared/color.h"
 #include "shared/cross_bilateral.h"
 #include "shared/octahedral.h"

@@ -2,7 +2,7 @@
 // What all gathers do with a pixel before and after.
 layout(local_size_x = 32, local_size_y = 8) in;
 
-#include "rsm/device_passes.h"
+#include "rsm/vulkan/device_passes.h"
 #include "rsm/gather_texel.h"
 #include "rsm/shaders/sub_image.glsl"
 #include "shared/octahedral.h"

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 16, local_size_y = 16) in;
-#include "rsm/device_passes.h"
+#include "rsm/vulkan/device_passes.h"
 #include "rsm/shaders/blurred.glsl"
 #include "rsm/shaders/sub_image.glsl"
 

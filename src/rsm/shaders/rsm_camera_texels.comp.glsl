@@ -2,8 +2,8 @@
 // What each texel of a camera's map reflects.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "rsm/device_maps.h"
-#include "rsm/map_texel.h"
+#include "rsm/vulkan/device_maps.h"
+#include "rsm/maps/map_texel.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform Push {

@@ -2,7 +2,7 @@
 // Brings the texels of each block of a map together.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "rsm/device_maps.h"
+#include "rsm/vulkan/device_maps.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push {
@@ -36,7 +36,7 @@ void put_cluster(int index, RsmTexelRecord texel, int seed) {
       texel, uint(place.y * args.resolution + place.x), 1u, TermSums(0.0f, 0.0f));
 }
 
-#include "rsm/cluster_block.inl.h"
+#include "rsm/maps/cluster_block.inl.h"
 
 void main() {
   if (block().x >= args.blocks || block().y >= args.blocks) return;

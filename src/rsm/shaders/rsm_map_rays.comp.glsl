@@ -2,7 +2,7 @@
 // A ray through the middle of each texel of a map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "rsm/device_maps.h"
+#include "rsm/vulkan/device_maps.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform Push {

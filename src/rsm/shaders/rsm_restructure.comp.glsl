@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/deinterleave.h"
-#include "rsm/device_passes.h"
+#include "rsm/vulkan/device_passes.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(push_constant, scalar) uniform Push {

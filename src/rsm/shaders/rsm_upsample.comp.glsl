@@ -2,7 +2,7 @@
 // Gives each surface of the frame the light of the pixels of the small picture that show it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "rsm/device_passes.h"
+#include "rsm/vulkan/device_passes.h"
 #include "rsm/upsample.h"
 
 layout(local_size_x = 32, local_size_y = 8) in;

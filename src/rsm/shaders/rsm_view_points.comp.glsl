@@ -3,7 +3,7 @@
 // of draws.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "rsm/device_maps.h"
+#include "rsm/vulkan/device_maps.h"
 
 layout(local_size_x = 256) in;
 layout(push_constant, scalar) uniform Push {

@@ -2,7 +2,7 @@
 // What a watt of each cluster brings to points of the view.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "rsm/device_maps.h"
+#include "rsm/vulkan/device_maps.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

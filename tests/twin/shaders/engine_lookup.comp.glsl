@@ -2,7 +2,7 @@
 // A shader as engines have them: looks a field of the default settings up.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/shaders/field_lookup.glsl"
+#include "lambent/shaders/field_lookup.glsl"
 #include "twin/engine_lookup.h"
 
 layout(local_size_x = 64) in;

@@ -6,7 +6,7 @@
 #define LAMBENT_DISTANCE_TEXELS 8
 #define LAMBENT_IRRADIANCE_FORMAT kR11g11b10f
 #define LAMBENT_DISTANCE_FORMAT kRg32f
-#include "field/shaders/field_lookup.glsl"
+#include "lambent/shaders/field_lookup.glsl"
 #include "twin/engine_lookup.h"
 
 layout(local_size_x = 64) in;

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR: every layer of every part, float or half.
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfVersion.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <exception>
+#include <new>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "core/image/formats.h"
+
+namespace lambent {
+namespace {
+
+/// No codec of OpenEXR shrinks a picture more than this; a file that claims more is not worth
+/// allocating for. (Deflate reaches 1032:1; DWA on top of it stores one coefficient for 64 pixels
+/// of a flat picture first.)
+constexpr std::uint64_t kMaxExrCompression = 1 << 16;
+
+class MemoryInput final : public Imf::IStream {
+ public:
+  explicit MemoryInput(ByteView bytes) : Imf::IStream(""), bytes_(bytes) {}
+
+  bool read(char c[], int n) override {
+    const std::uint64_t count = static_cast<std::uint64_t>(std::max(n, 0));
+    if (position_ > bytes_.size() || count > bytes_.size() - position_) {
+      throw std::runtime_error("the file is truncated");
+    }
+    std::memcpy(c, bytes_.data() + position_, count);
+    position_ += count;
+    return position_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return position_; }
+  void seekg(std::uint64_t position) override { position_ = position; }
+
+ private:
+  ByteView bytes_;
+  std::uint64_t position_ = 0;
+};
+
+class MemoryOutput final : public Imf::OStream {
+ public:
+  explicit MemoryOutput(std::vector<std::byte>& bytes) : Imf::OStream(""), bytes_(bytes) {}
+
+  void write(const char c[], int n) override {
+    const std::size_t count = static_cast<std::size_t>(n);
+    if (position_ + count > bytes_.size()) bytes_.resize(position_ + count);
+    std::memcpy(bytes_.data() + position_, c, count);
+    position_ += count;
+  }
+  std::uint64_t tellp() override { return position_; }
+  void seekp(std::uint64_t position) override { position_ = position; }
+
+ private:
+  std::vector<std::byte>& bytes_;
+  std::uint64_t position_ = 0;
+};
+
+/// OpenEXR opens its messages with the name of the (here unnamed) file, which our errors hold
+/// already.
+std::string exr_cause(const std::exception& error) {
+  std::string cause = error.what();
+  const std::size_t named = cause.find("file \"\". ");
+  if (named != std::string::npos) cause.erase(0, named + std::string_view("file \"\". ").size());
+  return "broken or unsupported EXR: " + cause;
+}
+
+/// Channels of one layer, in the order in which the image interleaves them.
+struct ChannelGroup {
+  std::string layer;
+  std::vector<std::string> channels;
+};
+
+/// Which letters, in which order, make one image when they follow the same layer name.
+constexpr std::string_view kComponentSets[] = {"RGBA", "XYZW", "UV"};
+
+/// "direct.R" is component 'R' of the layer "direct"; a channel without a one-letter end has none
+/// (0).
+std::pair<std::string, char> split_channel_name(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  const std::string end = dot == std::string::npos ? name : name.substr(dot + 1);
+  if (end.size() != 1) return {name, '\0'};
+  const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(end[0])));
+  return {dot == std::string::npos ? "" : name.substr(0, dot), letter};
+}
+
+/// Moves from `left` the channels that make up one image of `layer`, or one channel on its own.
+ChannelGroup take_group(const std::string& layer, std::vector<std::string>& left) {
+  const auto is_component = [](const std::string& name, char letter) {
+    return split_channel_name(name).second == letter;
+  };
+  for (std::string_view set : kComponentSets) {
+    ChannelGroup group{layer, {}};
+    for (char letter : set) {
+      const auto found = std::find_if(left.begin(), left.end(), [&](const std::string& name) {
+        return is_component(name, letter);
+      });
+      if (found == left.end()) continue;
+      group.channels.push_back(*found);
+      left.erase(found);
+    }
+    if (!group.channels.empty()) return group;
+  }
+  ChannelGroup group{left.front(), {left.front()}};
+  left.erase(left.begin());
+  return group;
+}
+
+/// The layers of one part: the whole picture first, then by name, as EXR keeps its channels sorted.
+std::vector<ChannelGroup> group_channels(const Imf::ChannelList& list) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> by_layer;
+  for (auto channel = list.begin(); channel != list.end(); ++channel) {
+    const std::string layer = split_channel_name(channel.name()).first;
+    const auto same = [&](const auto& entry) { return entry.first == layer; };
+    auto found = std::find_if(by_layer.begin(), by_layer.end(), same);
+    if (found == by_layer.end()) found = by_layer.insert(by_layer.end(), {layer, {}});
+    found->second.emplace_back(channel.name());
+  }
+  std::sort(by_layer.begin(), by_layer.end());
+
+  std::vector<ChannelGroup> groups;
+  for (auto& [layer, names] : by_layer) {
+    groups.push_back(take_group(layer, names));
+    // What does not fit into the layer's colour or vector (say, a root "Z" beside "R", "G", "B")
+    // stands alone.
+    while (!names.empty()) {
+      groups.push_back({names.front(), {names.front()}});
+      names.erase(names.begin());
+    }
+  }
+  return groups;
+}
+
+/// Adds the part's channels to `channels`.
+Expected<void> check_part(const std::string& path, const std::string& place,
+                          const Imf::Header& header, std::int64_t& channels) {
+  if (header.hasType() && Imf::isDeepData(header.type())) {
+    return fail(path, place, "deep images are not supported");
+  }
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+    ++channels;
+    if (c.channel().xSampling != 1 || c.channel().ySampling != 1) {
+      return fail(path, place + "channel " + c.name(), "subsampled channels are not supported");
+    }
+  }
+  return {};
+}
+
+void read_part(Imf::InputPart& part, const std::string& prefix, LayeredImage& result) {
+  const Imath::Box2i window = part.header().dataWindow();
+  Imf::FrameBuffer frame;
+  std::vector<Layer> layers;
+  for (const ChannelGroup& group : group_channels(part.header().channels())) {
+    const bool nested = !prefix.empty() && !group.layer.empty();
+    Layer layer{nested ? prefix + "." + group.layer : prefix + group.layer,
+                Image(result.width, result.height, static_cast<int>(group.channels.size()))};
+    const std::size_t pixel_bytes = sizeof(float) * group.channels.size();
+    const std::size_t row_bytes = pixel_bytes * static_cast<std::size_t>(result.width);
+    for (std::size_t c = 0; c < group.channels.size(); ++c) {
+      char* base = reinterpret_cast<char*>(layer.image.pixels.data() + c);
+      frame.insert(group.channels[c],
+                   Imf::Slice::Make(Imf::FLOAT, base, window, pixel_bytes, row_bytes));
+    }
+    layers.push_back(
+        std::move(layer));  // The vector inside, and so the slice's pointer, stays in place.
+  }
+  part.setFrameBuffer(frame);
+  part.readPixels(window.min.y, window.max.y);
+  std::move(layers.begin(), layers.end(), std::back_inserter(result.layers));
+}
+
+/// The names of a layer's channels as write_exr documents them.
+std::vector<std::string> channel_names(const Layer& layer) {
+  const std::string prefix = layer.name.empty() ? "" : layer.name + ".";
+  switch (layer.image.channels) {
+    case 1:
+      return {prefix + "Y"};
+    case 2:
+      return {prefix + "U", prefix + "V"};
+    case 3:
+      return {prefix + "R", prefix + "G", prefix + "B"};
+    case 4:
+      return {prefix + "R", prefix + "G", prefix + "B", prefix + "A"};
+    default:
+      return {};
+  }
+}
+
+}  // namespace
+
+bool is_exr(ByteView bytes) {
+  return bytes.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(bytes.data()));
+}
+
+Expected<LayeredImage> decode_exr(const std::string& path, ByteView bytes) try {
+  MemoryInput stream(bytes);
+  Imf::MultiPartInputFile file(stream, /*numThreads=*/0, /*reconstructChunkOffsetTable=*/false);
+
+  // Check every part against the limits before any of them is allocated.
+  const Imath::Box2i window = file.header(0).dataWindow();
+  const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+  const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
+  std::int64_t channels = 0;
+  for (int i = 0; i < file.parts(); ++i) {
+    const Imf::Header& header = file.header(i);
+    const std::string place = file.parts() > 1 ? "part " + std::to_string(i) + " " : "";
+    if (const auto ok = check_part(path, place, header, channels); !ok)
+      return tl::unexpected(ok.error());
+    if (header.dataWindow() != window) return fail(path, place, "parts differ in size");
+  }
+  if (const auto ok = check_image_size(path, width, height, channels); !ok) {
+    return tl::unexpected(ok.error());
+  }
+
+  const std::uint64_t decoded_bytes =
+      static_cast<std::uint64_t>(width * height * channels) * sizeof(float);
+  if (decoded_bytes / kMaxExrCompression > bytes.size()) {
+    return fail(path, "",
+                "broken EXR: " + std::to_string(bytes.size()) + " bytes cannot hold " +
+                    std::to_string(decoded_bytes) + " bytes of pixels");
+  }
+
+  LayeredImage result{static_cast<int>(width), static_cast<int>(height), {}};
+  for (int i = 0; i < file.parts(); ++i) {
+    Imf::InputPart part(file, i);
+    const Imf::Header& header = file.header(i);
+    read_part(part, file.parts() > 1 && header.hasName() ? header.name() : "", result);
+  }
+  return result;
+} catch (const std::bad_alloc&) {
+  throw;
+} catch (const std::exception& error) {
+  return fail(path, "", exr_cause(error));
+}
+
+Expected<std::vector<std::byte>> encode_exr(const std::string& path, const LayeredImage& image) {
+  Imf::Header header(std::max(image.width, 1), std::max(image.height, 1));
+  header.compression() = Imf::ZIP_COMPRESSION;
+  Imf::FrameBuffer frame;
+  std::int64_t channels = 0;
+  for (const Layer& layer : image.layers) {
+    const std::string place = "layer \"" + layer.name + "\"";
+    const std::vector<std::string> names = channel_names(layer);
+    if (names.empty()) return fail(path, place, "an EXR layer has 1 to 4 channels");
+    const std::size_t floats = static_cast<std::size_t>(image.width) * image.height * names.size();
+    if (layer.image.width != image.width || layer.image.height != image.height ||
+        layer.image.pixels.size() != floats) {
+      return fail(path, place, "layers differ in size");
+    }
+    const std::size_t pixel_bytes = sizeof(float) * names.size();
+    for (std::size_t c = 0; c < names.size(); ++c) {
+      if (header.channels().findChannel(names[c]) != nullptr) {
+        return fail(path, place, "two layers share a name");
+      }
+      header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
+      // OpenEXR's slices are not const, though writing only reads them.
+      char* base = reinterpret_cast<char*>(const_cast<float*>(layer.image.pixels.data() + c));
+      frame.insert(names[c], Imf::Slice(Imf::FLOAT, base, pixel_bytes, pixel_bytes * image.width));
+    }
+    channels += layer.image.channels;
+  }
+  if (const auto ok = check_image_size(path, image.width, image.height, channels); !ok) {
+    return tl::unexpected(ok.error());
+  }
+
+  std::vector<std::byte> bytes;
+  try {
+    MemoryOutput stream(bytes);
+    Imf::OutputFile file(stream, header, /*numThreads=*/0);
+    file.setFrameBuffer(frame);
+    file.writePixels(image.height);
+  } catch (const std::exception& error) {
+    return fail(path, "", std::string("cannot encode the EXR: ") + error.what(),
+                Error::Kind::failed);
+  }
+  return bytes;
+}
+
+}  // namespace lambent

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/image/tone_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "shared/tone_map.h"
+
+namespace lambent {
+
+static_assert(static_cast<uint>(ToneMap::linear) == kToneMapLinear &&
+              static_cast<uint>(ToneMap::aces) == kToneMapAces &&
+              static_cast<uint>(ToneMap::neutral) == kToneMapNeutral);
+
+std::optional<ToneMap> tone_map_from_name(std::string_view name) {
+  if (name == "linear") return ToneMap::linear;
+  if (name == "aces") return ToneMap::aces;
+  if (name == "neutral") return ToneMap::neutral;
+  return std::nullopt;
+}
+
+Image display_image(const Image& linear, ToneMap tone_map, float exposure_stops) {
+  const bool grey = linear.channels < 3;
+  const bool alpha = linear.channels == 4;
+  const auto number = [](float value) { return std::isnan(value) ? 0.0f : value; };
+  Image shown(linear.width, linear.height, alpha ? 4 : 3);
+  for (int y = 0; y < linear.height; ++y) {
+    for (int x = 0; x < linear.width; ++x) {
+      const float* in = linear.at(x, y);
+      float* out = shown.at(x, y);
+      const vec3 radiance(number(in[0]), number(in[grey ? 0 : 1]), number(in[grey ? 0 : 2]));
+      const vec3 color = display_from_linear(radiance, static_cast<uint>(tone_map), exposure_stops);
+      for (int c = 0; c < 3; ++c) out[c] = color[c];
+      if (alpha) out[3] = std::clamp(number(in[3]), 0.0f, 1.0f);
+    }
+  }
+  return shown;
+}
+
+}  // namespace lambent

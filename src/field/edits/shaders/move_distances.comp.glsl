@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moves what tiles hold by as much as the distances that rays saw changed: a lane a texel. The
+// average of many updates knows more than the rays of one: it keeps what did not change.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/vulkan/device_arguments.h"
+#include "field/probes/moments_encoding.h"
+#include "field/probes/shaders/volume_of.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Push {
+  MoveDistancesArguments args;
+};
+
+void main() {
+  int t = int(gl_GlobalInvocationID.x);
+  int k = int(gl_GlobalInvocationID.y);
+  if (k >= args.count || t >= kDistanceTexels * kDistanceTexels) return;
+  int probe = args.list.probes.at[k];
+  RaySetRecord set = args.list.sets.at[args.list.ray_sets.at[k]];
+  const int texels = kDistanceTexels * kDistanceTexels;
+  const int columns = (texels + kDistanceBlock - 1) / kDistanceBlock * kDistanceBlock;
+
+  // Blend what rays saw before and what they see now
+  vec2 before = vec2(0.0);
+  vec2 now = vec2(0.0);
+  float total = 0.0;
+  for (int ray = 0; ray < set.rays; ++ray) {
+    float weight = set.distance_weights.at[ray * columns + t];
+    float seen_before = args.seen_before.at[k * args.stride + ray];
+    float seen = args.seen.at[k * args.stride + ray];
+    before += weight * vec2(seen_before, seen_before * seen_before);
+    now += weight * vec2(seen, seen * seen);
+    total += weight;
+  }
+  bool was_blocked = args.blocked_before.at[k] != 0u;
+  bool is_blocked = args.blocked.at[k] != 0u;
+  before = was_blocked ? vec2(0.0) : before / total;
+  now = is_blocked ? vec2(0.0) : now / total;
+  if (before == now) return;
+
+  // A probe that came out of solid matter or went into it knows nothing worth keeping
+  int width = kDistanceTexels + 2;
+  int index = (probe * width + t / kDistanceTexels + 1) * width + t % kDistanceTexels + 1;
+  float unit = distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
+  vec2 units = vec2(unit, unit * unit);
+  bool keeps = !was_blocked && !is_blocked;
+  if (kDistanceFormat == kRg16f) {
+    uint word = args.store.distance.at[index];
+    vec2 moved = keeps ? moved_moments(decode_half2(word) * units, before, now) : now;
+    args.store.distance.at[index] =
+        blended_halves(word, moved, 1.0, 1.0 / unit, uint(index) + args.salt);
+    return;
+  }
+  vec2 held = vec2(uintBitsToFloat(args.store.distance.at[2 * index]),
+                   uintBitsToFloat(args.store.distance.at[2 * index + 1]));
+  vec2 moved = (keeps ? moved_moments(held * units, before, now) : now) / units;
+  args.store.distance.at[2 * index] = floatBitsToUint(moved.x);
+  args.store.distance.at[2 * index + 1] = floatBitsToUint(moved.y);
+}

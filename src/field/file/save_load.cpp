@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fields to and from files.
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "core/atomic_file.h"
+#include "field/field_state.h"
+#include "field/file/field_file.h"
+#include "field/probes/tile_light.h"
+#include "lambent/world.h"
+
+namespace lambent {
+namespace {
+
+std::string size_of(const SceneIdentity& scene) {
+  return std::to_string(scene.triangles) + " triangles in " + std::to_string(scene.instances) +
+         " instances";
+}
+
+Expected<void> check_scene(const std::string& path, const SceneIdentity& made_for,
+                           const SceneIdentity& given) {
+  if (made_for.same_place(given)) return {};
+  const std::string told = size_of(made_for), seen = size_of(given);
+  if (told != seen) {
+    return fail(path, "", "is of another scene: one of " + told + ", not of " + seen);
+  }
+  return fail(path, "", "is of another scene: one as large, but of another shape");
+}
+
+bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
+  return a.irradiance_texels == b.irradiance_texels && a.distance_texels == b.distance_texels &&
+         a.irradiance_format == b.irradiance_format && a.distance_format == b.distance_format;
+}
+
+}  // namespace
+
+/// Takes the place of all light that the field holds.
+void IrradianceField::State::restore(const FieldFile& file, const World& world) {
+  for (int v = 0; v < store.volumes(); ++v) {
+    const FieldVolume& volume = file.volumes[v];
+    const int first = store.grid(v).first;
+    store.restore(first, volume.offsets, volume.irradiance, volume.distance);
+    std::copy(volume.records.begin(), volume.records.end(), records.begin() + first);
+  }
+  updates = static_cast<int>(file.updates);
+  placed_revision = world.revision();
+  agenda.changed_all();
+  const int n = settings.irradiance_texels;
+  const auto texels = static_cast<std::size_t>(tile_texels());
+  double sum = 0.0;
+  bool never_served = false;
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    vec4* tile = &light[probe * texels];
+    for (int t = 0; t < n * n; ++t) {
+      tile[t] = vec4(store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
+    }
+    sum += mean_luminance(TileLight(tile, texels));
+    records[probe].revision = world.revision();
+    // An exact number of bounces is carried through all probes at once
+    if (settings.max_bounces >= 0) records[probe].state = ProbeState::newly_vigilant;
+    never_served = never_served || (is_live(records[probe]) && records[probe].served == 0);
+  }
+  mean_light = static_cast<float>(sum / store.probes());
+  starting = updates == 0 || never_served;
+  // What the first update finds of the scene, where that has been
+  if (updates == 0) return;
+  std::vector<int> all(records.size());
+  std::iota(all.begin(), all.end(), 0);
+  find_reaches(world, all);
+  look_across_cells(world, all);
+}
+
+/// A volume as a file holds it: probes in the order of the grid, wherever they are in memory.
+FieldVolume IrradianceField::State::volume_for_file(int volume, const World& world) const {
+  FieldVolume result;
+  result.grid = store.grid(volume);
+  result.role = roles[volume];
+  result.irradiance_texels = store.irradiance_texels();
+  result.distance_texels = store.distance_texels();
+  result.irradiance_format = store.irradiance_format();
+  result.distance_format = store.distance_format();
+  const ProbeGrid& stored = store.grid(volume);
+  result.grid.scroll = ivec3(0);
+  result.grid.first = 0;
+  const std::size_t irradiance_tile = store.irradiance_words().size() / store.probes();
+  const std::size_t distance_tile = store.distance_words().size() / store.probes();
+  for (int i = 0; i < probe_count(stored); ++i) {
+    const int probe = probe_index(stored, probe_coords(result.grid, i));
+    ProbeRecord& record = result.records.emplace_back(records[probe]);
+    // What waits to follow an edit has averaged another light than the world's
+    if (record.revision != world.revision()) record.samples = 0.0f;
+    result.offsets.push_back(store.offset_words()[probe]);
+    const auto irradiance =
+        store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
+    const auto distance = store.distance_words().subspan(probe * distance_tile, distance_tile);
+    result.irradiance.insert(result.irradiance.end(), irradiance.begin(), irradiance.end());
+    result.distance.insert(result.distance.end(), distance.begin(), distance.end());
+  }
+  return result;
+}
+
+Expected<void> save_field(const std::string& path, const IrradianceField& field,
+                          const World& world) {
+  const IrradianceField::State& state = *field.state_;
+  state.fetch_store();
+  FieldFile file;
+  file.updates = static_cast<std::uint32_t>(state.updates);
+  file.scene = identify(world.scene(), state.settings);
+  for (int volume = 0; volume < state.store.volumes(); ++volume) {
+    file.volumes.push_back(state.volume_for_file(volume, world));
+  }
+  return write_file_atomically(path, encode_field(file));
+}
+
+Expected<LoadedField> load_field(const std::string& path, const FieldSettings& settings,
+                                 const World& world) {
+  Expected<FieldFile> file = read_field_file(path);
+  if (!file) return tl::unexpected(file.error());
+  const SceneIdentity scene = identify(world.scene(), settings);
+  if (const auto fine = check_scene(path, file->scene, scene); !fine) {
+    return tl::unexpected(fine.error());
+  }
+  const FieldVolume& last = file->volumes.back();
+  std::vector<Volume> volumes;
+  for (const FieldVolume& volume : file->volumes) {
+    if (!same_tiles(volume, last)) return fail(path, "", "has volumes whose tiles differ");
+    volumes.push_back({volume.grid, volume.role});
+  }
+  const FieldSettings merged = last.store_settings(settings);
+  Expected<IrradianceField> field = IrradianceField::make(merged, {});
+  if (!field) return tl::unexpected(field.error());
+  // The very grids, to the bit
+  field->state_ = std::make_unique<IrradianceField::State>(merged, volumes);
+
+  const bool same_light = file->scene.light == scene.light;
+  if (!same_light) {
+    // What it holds is where to start from, but no average of what is to be found
+    for (FieldVolume& volume : file->volumes) {
+      for (ProbeRecord& record : volume.records) record.samples = 0.0f;
+    }
+  }
+  field->state_->restore(*file, world);
+  return LoadedField{std::move(*field), same_light};
+}
+
+}  // namespace lambent

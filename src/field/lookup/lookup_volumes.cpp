@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/lookup/lookup_volumes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "field/lookup/lookup.h"
+
+namespace lambent {
+namespace {
+
+// Small batches keep the weights between the two kernels in the first-level cache.
+constexpr std::size_t kBatch = 256;
+
+bool knows_nothing(const CornerWeights& corners) {
+  return std::all_of(std::begin(corners.weight), std::end(corners.weight),
+                     [](float weight) { return weight == 0.0f; });
+}
+
+/// Many volumes: asks each for the queries that it has a share in.
+std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
+                           std::span<const FieldQuery> queries, QueryWeights& result) {
+  result.corners.clear();
+  result.query.clear();
+  std::vector<float> left(queries.size(), 1.0f);
+  std::vector<FieldQuery> asking;
+  std::vector<std::uint32_t> which;
+  std::vector<float> shares;
+  std::vector<CornerWeights> corners;
+  std::uint64_t traced = 0;
+  for (int volume = 0; volume < store.volumes(); ++volume) {
+    const bool last = volume == store.volumes() - 1;
+    asking.clear();
+    which.clear();
+    shares.clear();
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+      if (left[i] <= kNothingLeft) continue;
+      const float share = last ? 1.0f : volume_share(store.grid(volume), queries[i].position_ws);
+      if (share <= 0.0f) continue;
+      asking.push_back(queries[i]);
+      which.push_back(static_cast<std::uint32_t>(i));
+      shares.push_back(share);
+    }
+    corners.resize(asking.size());
+    traced += visible_corner_weights(store, volume, by, asking, corners);
+    for (std::size_t k = 0; k < asking.size(); ++k) {
+      // Where the volume knows nothing, coarser ones answer for it
+      if (knows_nothing(corners[k])) continue;
+      const float share = left[which[k]] * shares[k];
+      left[which[k]] -= share;
+      for (float& weight : corners[k].weight) weight *= share;
+      result.corners.push_back(corners[k]);
+      result.query.push_back(which[k]);
+    }
+  }
+  // Where it is the last that knows nothing, those before answer for all
+  for (std::size_t k = 0; k < result.corners.size(); ++k) {
+    const float unanswered = left[result.query[k]];
+    if (unanswered <= kNothingLeft) continue;
+    for (float& weight : result.corners[k].weight) weight /= 1.0f - unanswered;
+  }
+  return traced;
+}
+
+}  // namespace
+
+std::uint64_t find_weights(const ProbeStore& store, const VisibilityRays& by,
+                           std::span<const FieldQuery> queries, QueryWeights& result) {
+  if (store.volumes() > 1) return find_blended(store, by, queries, result);
+  result.corners.resize(queries.size());
+  result.query.resize(queries.size());
+  std::iota(result.query.begin(), result.query.end(), 0u);
+  return visible_corner_weights(store, 0, by, queries, result.corners);
+}
+
+std::uint64_t lookup_irradiance(const ProbeStore& store, const VisibilityRays& by,
+                                std::span<const FieldQuery> queries, std::span<vec3> result) {
+  assert(queries.size() == result.size());
+  QueryWeights weights;
+  std::fill(result.begin(), result.end(), vec3(0.0f));
+  std::uint64_t traced = 0;
+  for (std::size_t first = 0; first < queries.size(); first += kBatch) {
+    const std::size_t count = std::min(kBatch, queries.size() - first);
+    const std::span<const FieldQuery> batch = queries.subspan(first, count);
+    traced += find_weights(store, by, batch, weights);
+    add_irradiance(store, batch, weights.corners, weights.query, result.subspan(first, count));
+  }
+  return traced;
+}
+
+}  // namespace lambent

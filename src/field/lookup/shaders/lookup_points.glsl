@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Points that look the field up; the includer has declared push constants with `args.points`.
+#ifndef LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_POINTS_GLSL
+#define LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_POINTS_GLSL
+
+#include "field/vulkan/device_arguments.h"
+#include "field/probes/shaders/tiles.glsl"
+#include "shared/octahedral.h"
+
+struct LookupPoint {
+  bool exists;
+  int row, column;
+  int place;   // among the points of this dispatch
+  int lookup;  // the first of its lookups
+};
+
+/// The point of an invocation.
+LookupPoint lookup_point() {
+  int column = int(gl_GlobalInvocationID.x), row = int(gl_GlobalInvocationID.y);
+  int place = row * args.points.stride + column, among_all = place;
+  bool exists = row < args.points.rows && column < args.points.stride;
+  if (args.points.count > 0) {
+    exists = exists && place < args.points.count;
+  } else if (exists) {
+    among_all = args.points.list.probes.at[row] * args.points.stride + column;
+  }
+  return LookupPoint(exists, row, column, place, among_all * kLookups);
+}
+
+RaySetRecord rays_of(LookupPoint point) {
+  return args.points.list.sets.at[args.points.list.ray_sets.at[point.row]];
+}
+
+/// Whether a point that exists reflects what it would look up.
+bool reads_field(LookupPoint point) {
+  if (args.points.count > 0) return true;
+  SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
+  return point.column < rays_of(point).rays && surfel.receives_gi != 0u &&
+         surfel.albedo_over_pi != vec3(0.0);
+}
+
+/// What a point that exists asks.
+QueryRecord query_of(LookupPoint point) {
+  if (args.points.count > 0) return args.points.queries.at[point.place];
+  SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
+  RaySetRecord set = rays_of(point);
+  return QueryRecord(surfel.position_ws, decode_unit_vector(surfel.normal_ws),
+                     -set.directions.at[min(point.column, set.rays - 1)]);
+}
+
+#endif

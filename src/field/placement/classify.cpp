@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Majercik et al., "Scaling Probe-Based Real-Time Dynamic Global Illumination for
+// Production", JCGT 10(2), 2021, sec. 5.
+#include "field/placement/classify.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "field/lookup/lookup.h"
+
+namespace lambent {
+namespace {
+
+// Surfaces this share of a cell beyond the eight cells count, too: points on them are clamped into
+// the grid or have a neighbour's rounding.
+constexpr float kReachSlack = 1e-3f;
+
+bool is_vigilant(ProbeState state) {
+  return state == ProbeState::vigilant || state == ProbeState::newly_vigilant;
+}
+
+bool is_awake(ProbeState state) {
+  return state == ProbeState::awake || state == ProbeState::newly_awake;
+}
+
+}  // namespace
+
+ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position, const vec3& home,
+                       const vec3& spacing) {
+  ProbeReach reach;
+  reach.in_solid_matter = in_solid_matter(sights);
+  for (const Sight& sight : sights) {
+    if (missed(sight)) continue;
+    const vec3 cells = abs((position + sight.distance * sight.direction - home) / spacing);
+    if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kReachSlack) reach.lights_surface = true;
+  }
+  return reach;
+}
+
+ProbeState next_state(ProbeState before, const ProbeReach& reach, bool near_moving) {
+  if (reach.in_solid_matter) return ProbeState::off;
+  if (reach.lights_surface) {
+    return is_vigilant(before) ? before : ProbeState::newly_vigilant;
+  }
+  if (near_moving) return is_awake(before) ? before : ProbeState::newly_awake;
+  return ProbeState::sleeping;
+}
+
+ProbeState state_once_traced(ProbeState state) {
+  if (state == ProbeState::newly_vigilant) return ProbeState::vigilant;
+  if (state == ProbeState::newly_awake) return ProbeState::awake;
+  return state;
+}
+
+namespace {
+
+/// Where probes belong that may light something in a box: around a place in a grid, in cells.
+struct LitCells {
+  vec3 middle, reach;
+
+  LitCells(const Bounds& box, const ProbeGrid& grid) {
+    const vec3 half = 0.5f * (box.max - box.min);
+    middle = grid_coords(grid, box.min + half);
+    // A box along the grid's axes around the box
+    const mat3 turn(abs(grid.axes[0]), abs(grid.axes[1]), abs(grid.axes[2]));
+    const float bias = kBiasScale * kBias * smallest_spacing(grid);
+    reach = (half * turn + bias) / grid.spacing + 1.0f;
+  }
+};
+
+void classify_probe(const ProbeStore& store, const ProbeReach& reach,
+                    std::span<const Bounds> moving, int probe, ProbeRecord& record) {
+  const ProbeGrid& grid = store.grid_of(probe);
+  const vec3 home = store.probe_home_ws(probe);
+  const bool near_moving = std::any_of(moving.begin(), moving.end(),
+                                       [&](const Bounds& b) { return may_light(b, home, grid); });
+  record.state = next_state(record.state, reach, near_moving);
+}
+
+}  // namespace
+
+bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid) {
+  if (moving.empty()) return false;
+  const LitCells cells(moving, grid);
+  return glm::all(glm::lessThanEqual(abs(grid_coords(grid, home_ws) - cells.middle), cells.reach));
+}
+
+void classify_probes(const ProbeStore& store, std::span<const ProbeReach> reaches,
+                     std::span<const Bounds> moving, std::span<ProbeRecord> records) {
+  assert(reaches.size() == records.size());
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    classify_probe(store, reaches[probe], moving, probe, records[probe]);
+  }
+}
+
+std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store,
+                                      std::span<const ProbeReach> reaches,
+                                      std::span<const Bounds> moving,
+                                      std::span<ProbeRecord> records) {
+  std::vector<int> changed;
+  if (box.empty()) return changed;
+  for (const ProbeGrid& grid : store.grids()) {
+    // A probe more on each side, for rounding; the probe's own test decides
+    const LitCells cells(box, grid);
+    const vec3 reach = cells.reach + 1.0f, last(grid.count - 1);
+    const ivec3 low(clamp(cells.middle - reach, vec3(0.0f), last));
+    const ivec3 high(clamp(cells.middle + reach, vec3(0.0f), last));
+    for (int z = low.z; z <= high.z; ++z) {
+      for (int y = low.y; y <= high.y; ++y) {
+        for (int x = low.x; x <= high.x; ++x) {
+          const int probe = probe_index(grid, {x, y, z});
+          const ProbeState before = records[probe].state;
+          classify_probe(store, reaches[probe], moving, probe, records[probe]);
+          if (records[probe].state != before) changed.push_back(probe);
+        }
+      }
+    }
+  }
+  return changed;
+}
+
+}  // namespace lambent

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Moments of distances on their way into a store.
+#ifndef LAMBENT_FIELD_PROBES_MOMENTS_ENCODING_H
+#define LAMBENT_FIELD_PROBES_MOMENTS_ENCODING_H
+
+#include "shared/packing.h"
+#include "shared/random.h"
+
+LAMBENT_BEGIN
+
+/// Moments a share of the way from old ones to new ones; `now` in metres, of which each is `scale`
+/// units of the store.
+LAMBENT_FN vec2 blended_moments(vec2 old, vec2 now, float share, float scale) {
+  return vec2(old.x + share * (scale * now.x - old.x),
+              old.y + share * (scale * scale * now.y - old.y));
+}
+
+/// The same between words of two halves. `seed` is the dither's.
+LAMBENT_FN uint blended_halves(uint word, vec2 now, float share, float scale, uint seed) {
+  vec2 old =
+      vec2(decode_small_float(word & 0x7FFFu, 10), decode_small_float((word >> 16u) & 0x7FFFu, 10));
+  vec2 moments = blended_moments(old, now, share, scale);
+  uint bits = hash_pcg(seed);
+  float u = float(bits & 0xFFFFu) * (1.0f / 65536.0f);
+  float v = float(bits >> 16u) * (1.0f / 65536.0f);
+  return encode_small_float(moments.x, 10, u) | (encode_small_float(moments.y, 10, v) << 16u);
+}
+
+/// Moments that are held, moved by as much as those of a probe's rays changed. Where rounding or
+/// noise leaves no such distances, those of the rays stand.
+LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after) {
+  vec2 moved = held + after - before;
+  return moved.x > 0.0f && moved.y >= moved.x * moved.x ? moved : after;
+}
+
+LAMBENT_END
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the light of two tiles compares. Tiles are spans of linear irradiance of equal length.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+
+#include "field/probes/tile_light_math.h"
+#include "shared/color.h"
+
+namespace lambent {
+
+using TileLight = std::span<const glm::vec4>;
+
+/// Luminance of a tile's texels, on average.
+inline float mean_luminance(TileLight tile) {
+  float sum = 0.0f;
+  for (const glm::vec4& texel : tile) sum += luminance(glm::vec3(texel));
+  return sum / static_cast<float>(tile.size());
+}
+
+/// Mean square of the difference between two tiles over the squared mean of the second, or over
+/// `darkest` squared where it is darker.
+inline float relative_square(TileLight a, TileLight b, float darkest = 0.0f) {
+  float sum = 0.0f;
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    const float difference = luminance(glm::vec3(a[t] - b[t]));
+    sum += difference * difference;
+  }
+  const float mean = glm::max(mean_luminance(b), darkest);
+  return mean_relative_square(sum, static_cast<int>(a.size()), mean);
+}
+
+/// How alike the distributions of two tiles' light over directions are, 0 to 1, whatever their
+/// brightness: the share of one that the other has as well.
+inline float likeness(TileLight a, TileLight b) {
+  const float mean_a = mean_luminance(a), mean_b = mean_luminance(b);
+  if (mean_a <= kTiniestLight || mean_b <= kTiniestLight) return 0.0f;
+  float common = 0.0f, all = 0.0f;
+  for (std::size_t t = 0; t < a.size(); ++t) {
+    const glm::vec3 x = glm::vec3(a[t]) / mean_a, y = glm::vec3(b[t]) / mean_b;
+    common += luminance(glm::min(x, y));
+    all += luminance(glm::max(x, y));
+  }
+  return glm::max(common, 0.0f) / all;
+}
+
+}  // namespace lambent

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much a difference between two tiles matters.
+#ifndef LAMBENT_FIELD_PROBES_TILE_LIGHT_MATH_H
+#define LAMBENT_FIELD_PROBES_TILE_LIGHT_MATH_H
+
+#include "shared/lang.h"
+
+LAMBENT_BEGIN
+
+// Luminance that counts as none [W/m^2]; keeps divisions finite.
+const float kTiniestLight = 1e-20f;
+
+/// Mean square of a difference over the square of `mean`, from the sum of squares over so many
+/// texels.
+LAMBENT_FN float mean_relative_square(float squares, int texels, float mean) {
+  return squares / (float(texels) * max(mean * mean, kTiniestLight));
+}
+
+LAMBENT_END
+#endif

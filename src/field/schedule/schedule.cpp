@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/schedule/schedule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace lambent {
+namespace {
+
+// From a class on to where the next one is as near, as a factor: the root of their ratio.
+constexpr float kBetweenClasses = 1.41421356f;
+
+// Share of the new cost in what a ray is held to cost.
+constexpr double kCostShare = 0.2;
+// Assumed of a ray before any was timed [ms]: a slow processor's.
+constexpr double kFirstGuessMs = 1e-3;
+
+}  // namespace
+
+bool is_live(const ProbeRecord& record) {
+  if (record.state == ProbeState::off) return false;
+  // Points in open air may be asked about: a sleeping probe is traced once, and again where it has
+  // lost its light
+  return record.state != ProbeState::sleeping || record.served == 0 || record.samples == 0.0f;
+}
+
+int ray_class_for(float rays) {
+  for (const int count : kRayClasses) {
+    if (rays <= kBetweenClasses * static_cast<float>(count)) return count;
+  }
+  return kRayClasses.back();
+}
+
+void RayCost::learn(std::uint64_t rays, double ms) {
+  if (rays == 0) return;
+  const double cost = ms / static_cast<double>(rays);
+  ms_per_ray_ = ms_per_ray_ == 0.0 ? cost : ms_per_ray_ + kCostShare * (cost - ms_per_ray_);
+}
+
+std::uint64_t RayCost::rays_within(double ms) const {
+  const double cost = ms_per_ray_ == 0.0 ? kFirstGuessMs : ms_per_ray_;
+  return std::max<std::uint64_t>(kRayClasses.front(), static_cast<std::uint64_t>(ms / cost));
+}
+
+Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
+                      std::span<const ProbeRecord> records, const FieldSettings& settings,
+                      std::uint32_t update) {
+  Schedule schedule;
+  for (int volume = 0; volume < store.volumes(); ++volume) {
+    const std::uint32_t period = settings.max_bounces >= 0 ? 1u : 1u << roles[volume].level;
+    const int first = store.grid(volume).first;
+    for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
+      if (!is_live(records[probe])) continue;
+      // Not all of a volume's probes in the same update
+      const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
+      if (turn || records[probe].served == 0) schedule.probes.push_back(probe);
+    }
+  }
+  schedule.rays.assign(schedule.probes.size(), settings.rays_per_probe);
+  return schedule;
+}
+
+std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,
+                                      uint update) {
+  std::vector<TraceGroup> groups;
+  for (std::size_t k = 0; k < schedule.probes.size(); ++k) {
+    const auto same = [&](const TraceGroup& group) {
+      return group.rays->rays() == schedule.rays[k];
+    };
+    auto group = std::find_if(groups.begin(), groups.end(), same);
+    if (group == groups.end()) {
+      groups.push_back({std::make_shared<RaySet>(settings, schedule.rays[k], update), {}, {}});
+      group = groups.end() - 1;
+    }
+    group->probes.push_back(schedule.probes[k]);
+  }
+  return groups;
+}
+
+void learn_noise(float relative_square, float weight, ProbeRecord& record) {
+  const KnownNoise known = {record.noise, record.noise_samples};
+  const KnownNoise learned = learned_noise(known, relative_square, weight, record.samples);
+  record.noise = learned.noise;
+  record.noise_samples = static_cast<std::uint16_t>(learned.samples);
+  record.samples += weight;
+}
+
+}  // namespace lambent

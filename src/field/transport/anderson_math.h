@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the acceleration of a fixed-point iteration decides by, on the processor and on devices.
+// Walker and Ni, "Anderson Acceleration for Fixed-Point Iterations", SIAM J. Numer. Anal. 49(4),
+// 2011.
+#ifndef LAMBENT_FIELD_TRANSPORT_ANDERSON_MATH_H
+#define LAMBENT_FIELD_TRANSPORT_ANDERSON_MATH_H
+
+#include "shared/wide.h"
+
+LAMBENT_BEGIN
+
+// Steps that the iteration looks back on: more gain little and cost memory.
+const int kAndersonDepth = 3;
+
+// Keeps the small system solvable when steps are almost parallel; relative to the largest squared
+// step.
+const float kAndersonRidge = 1e-10f;
+
+// The error estimate never assumes faster convergence than this, whatever two steps seem to say.
+const float kMinContraction = 0.1f;
+
+/// Estimated relative error of the light that a share of a solution is blended into: a contraction
+/// by q leaves q / (1 - q) of the last step to go. Squares are of the residual and of the image.
+LAMBENT_FN float remaining_error(float contraction, float share, float residual_square,
+                                 float image_square) {
+  float remaining = contraction / (1.0f - contraction);
+  return image_square > 0.0f ? share * remaining * sqrt(residual_square / image_square) : 0.0f;
+}
+
+/// The inner products of the last steps' residual changes, row after row, and of each with the
+/// residual.
+struct StepProducts {
+  Wide gram[9];
+  Wide projection[3];
+};
+
+/// By how much each of the last steps is to be taken back: solves gram * shares = projection by
+/// Gaussian elimination. As the gram matrix is symmetric and, with the ridge, positive definite, it
+/// needs no pivots.
+LAMBENT_FN vec3 step_shares(StepProducts products, int steps) {
+  float largest = 0.0f;
+  for (int i = 0; i < steps; ++i) largest = max(largest, products.gram[4 * i].high);
+  if (largest <= 0.0f) return vec3(0.0f);
+  Wide ridge = exact_product(kAndersonRidge, largest);
+  for (int i = 0; i < steps; ++i) products.gram[4 * i] = wide_add(products.gram[4 * i], ridge);
+  for (int i = 0; i < steps; ++i) {
+    for (int j = i + 1; j < steps; ++j) {
+      Wide factor = wide_negate(wide_divide(products.gram[3 * j + i], products.gram[4 * i]));
+      for (int k = i; k < steps; ++k) {
+        products.gram[3 * j + k] =
+            wide_add(products.gram[3 * j + k], wide_multiply(factor, products.gram[3 * i + k]));
+      }
+      products.projection[j] =
+          wide_add(products.projection[j], wide_multiply(factor, products.projection[i]));
+    }
+  }
+  vec3 shares = vec3(0.0f);
+  for (int i = steps - 1; i >= 0; --i) {
+    for (int j = i + 1; j < steps; ++j) {
+      products.projection[i] =
+          wide_add(products.projection[i],
+                   wide_negate(wide_multiply(products.gram[3 * i + j], products.projection[j])));
+    }
+    products.projection[i] = wide_divide(products.projection[i], products.gram[4 * i]);
+    shares[i] = products.projection[i].high;
+  }
+  return shares;
+}
+
+LAMBENT_END
+#endif

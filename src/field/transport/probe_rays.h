@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#ifndef LAMBENT_FIELD_TRANSPORT_PROBE_RAYS_H
+#define LAMBENT_FIELD_TRANSPORT_PROBE_RAYS_H
+
+#include "raytracing/ray_records.h"
+
+LAMBENT_BEGIN
+
+// Which instances a probe's rays meet: kRayOfProbe of raytracer.h, which the host holds it to.
+const uint kProbeRayMask = 4u;
+
+LAMBENT_FN RayRecord probe_ray_record(vec3 origin_ws, vec3 direction_ws) {
+  RayRecord ray = {origin_ws, 0.0f, direction_ws, uintBitsToFloat(kMissedDistanceBits),
+                   kProbeRayMask};
+  return ray;
+}
+
+LAMBENT_END
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A matrix product of four channels (blend.h): a cluster keeps kIrradianceVectors x kClusterLanes
+// texels of kBlockProbes probes in registers.
+#ifndef LAMBENT_FIELD_TRANSPORT_SHADERS_PRODUCT_GLSL
+#define LAMBENT_FIELD_TRANSPORT_SHADERS_PRODUCT_GLSL
+
+#include "field/transport/shaders/cluster.glsl"
+#include "field/probes/shaders/tiles.glsl"
+
+const int kTexels = kIrradianceTexels * kIrradianceTexels;
+const int kColumns = (kTexels + kIrradianceBlock - 1) / kIrradianceBlock * kIrradianceBlock;
+
+vec4 sums[kIrradianceVectors][kBlockProbes];
+
+/// Texel of this lane in the first vector.
+int first_texel() {
+  return int(gl_WorkGroupID.x) * kIrradianceBlock + cluster_lane();
+}
+
+void clear_sums() {
+  [[unroll]] for (int v = 0; v < kIrradianceVectors; ++v) {
+    [[unroll]] for (int p = 0; p < kBlockProbes; ++p) sums[v][p] = vec4(0.0);
+  }
+}
+
+/// Adds a cluster of rows times what its lanes hold of them.
+void add_rows(FloatArray weights, int row, vec4 values[kBlockProbes]) {
+  [[unroll]] for (int lane = 0; lane < kClusterLanes; ++lane) {
+    float w[kIrradianceVectors];
+    [[unroll]] for (int v = 0; v < kIrradianceVectors; ++v) {
+      w[v] = weights.at[(row + lane) * kColumns + first_texel() + kClusterLanes * v];
+    }
+    [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
+      vec4 value = vec4(from_lane(values[p].x, lane), from_lane(values[p].y, lane),
+                        from_lane(values[p].z, lane), from_lane(values[p].w, lane));
+      [[unroll]] for (int v = 0; v < kIrradianceVectors; ++v) sums[v][p] += w[v] * value;
+    }
+  }
+}
+
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Surfels from what an engine tells of rays: a lane each. Rays that were not traced count for
+// nothing, as those that met back faces.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/vulkan/recorded_arguments.h"
+#include "shared/constants.h"
+#include "shared/octahedral.h"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(push_constant, scalar) uniform Push {
+  RecordedSurfelsArguments args;
+};
+
+// A surfel's light is what it reflects a share of. What glows is told as such light, and reflects
+// at least this share of it: too little for what it reflects besides to be seen.
+const float kLeastGlowingAlbedo = 1e-3;
+
+void main() {
+  int ray = int(gl_GlobalInvocationID.x);
+  int k = int(gl_GlobalInvocationID.y);
+  if (k >= args.count || ray >= args.rays_per_probe) return;
+  int i = k * args.rays_per_probe + ray;
+  RayRecord from = args.rays.at[i];
+  RayResult told = args.results.at[i];
+  if (from.mask == 0u) told = ray_met_back_face(0.0, -from.direction_ws);
+  bool left = told.kind == kRayLeft;
+  bool surface = told.kind == kRayMetSurface;
+
+  SurfelRecord surfel;
+  surfel.kind = left ? kSurfelSky : surface ? kSurfelSurface : kSurfelBackFace;
+  surfel.position_ws = from.origin_ws + (left ? 0.0 : told.distance) * from.direction_ws;
+  surfel.normal_ws = encode_unit_vector(left ? -from.direction_ws : told.normal_ws);
+  surfel.geometric_normal_ws =
+      encode_unit_vector(left ? -from.direction_ws : told.geometric_normal_ws);
+  surfel.material = 0u;
+  surfel.receives_gi = surface ? 1u : 0u;
+  surfel.albedo_over_pi = vec3(0.0);
+  surfel.light = left ? told.radiance : vec3(0.0);
+  if (surface) {
+    vec3 albedo = clamp(told.albedo, 0.0, args.max_albedo);
+    vec3 glows = vec3(greaterThan(told.radiance, vec3(0.0)));
+    albedo = max(albedo, kLeastGlowingAlbedo * glows);
+    surfel.albedo_over_pi = albedo * kInvPi;
+    surfel.light = told.direct_irradiance;
+    for (int c = 0; c < 3; ++c) {
+      if (glows[c] > 0.0) surfel.light[c] += told.radiance[c] / surfel.albedo_over_pi[c];
+    }
+  }
+  args.surfels.at[args.list.at[k] * args.stride + ray] = surfel;
+}

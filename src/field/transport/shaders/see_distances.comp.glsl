@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// What hits count as in distances, and which probes stand in solid matter: a cluster a probe.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/transport/blend_math.h"
+#include "field/transport/shaders/cluster.glsl"
+#include "field/probes/shaders/volume_of.glsl"
+
+layout(local_size_x = kGroupLanes) in;
+layout(push_constant, scalar) uniform Push {
+  SeeDistancesArguments args;
+};
+
+void main() {
+  int k = int(gl_WorkGroupID.x * kGroupClusters + cluster_in_group());
+  if (k >= args.count) return;
+  int probe = args.probes.at[k];
+  float farthest = max_probe_distance(args.grids.at[volume_of(args.grids, probe)]);
+  int back_faces = 0;
+  for (int ray = cluster_lane(); ray < args.seen_stride; ray += kClusterLanes) {
+    float counted = 0.0;
+    if (ray < args.rays_per_probe) {
+      uint kind = args.surfels.at[probe * args.stride + ray].kind;
+      uint back_face = kind == kSurfelBackFace ? 1u : 0u;
+      float seen = args.hits.at[k * args.rays_per_probe + ray].distance;
+      counted = counted_distance(seen, back_face, farthest);
+      back_faces += int(back_face);
+    }
+    args.seen.at[k * args.seen_stride + ray] = counted;
+  }
+  back_faces = cluster_sum(back_faces);
+  if (cluster_lane() == 0) args.blocked.at[k] = stands_in_matter(back_faces, args.rays_per_probe);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// What probes' surfels tell that rays saw, and which probes stand in solid matter: a cluster a
+// probe.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/transport/blend_math.h"
+#include "field/transport/shaders/cluster.glsl"
+#include "field/probes/shaders/volume_of.glsl"
+
+layout(local_size_x = kGroupLanes) in;
+layout(push_constant, scalar) uniform Push {
+  SeeSurfelsArguments args;
+};
+
+void main() {
+  int k = int(gl_WorkGroupID.x * kGroupClusters + cluster_in_group());
+  if (k >= args.count) return;
+  int probe = args.list.probes.at[k];
+  int rays = args.list.sets.at[args.list.ray_sets.at[k]].rays;
+  ProbeGrid grid = args.store.grids.at[volume_of(args.store.grids, probe)];
+  vec3 offset = decode_probe_offset(args.store.offsets.at[probe]);
+  vec3 origin_ws = placed_position(grid, probe_coords(grid, probe), offset);
+  float farthest = max_probe_distance(grid);
+  int back_faces = 0;
+  for (int ray = cluster_lane(); ray < args.seen_stride; ray += kClusterLanes) {
+    float counted = 0.0;
+    if (ray < rays) {
+      SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
+      uint back_face = surfel.kind == kSurfelBackFace ? 1u : 0u;
+      float seen =
+          surfel.kind == kSurfelSky ? farthest : length(surfel.position_ws - origin_ws);
+      counted = counted_distance(seen, back_face, farthest);
+      back_faces += int(back_face);
+    }
+    args.seen.at[k * args.seen_stride + ray] = counted;
+  }
+  back_faces = cluster_sum(back_faces);
+  if (cluster_lane() == 0) args.blocked.at[k] = stands_in_matter(back_faces, rays);
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/transport/surfels.h"
+
+#include <algorithm>
+#include <atomic>
+#include <iterator>
+
+#include "core/parallel.h"
+#include "shared/packing.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kProbesPerTask = 8;
+
+// Rays that no probe has more of: keeps the random numbers of probes apart.
+constexpr std::size_t kMaxRays = 4096;
+
+}  // namespace
+
+RaySet::RaySet(const FieldSettings& settings, int rays, uint update_number)
+    : update(update_number),
+      directions(probe_ray_directions(rays, update_number, settings.seed)),
+      irradiance_blend(settings.irradiance_texels, 1.0f, directions) {}
+
+std::size_t ProbeTrace::bytes() const {
+  return surfels.size() * sizeof(Surfel) + lookups.size() * sizeof(SurfelLookup) +
+         further.size() * sizeof(FurtherLookup);
+}
+
+Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) {
+  Surfel surfel{};
+  surfel.position_ws = shaded.position_ws;
+  surfel.normal_ws = encode_unit_vector(shaded.normal_ws);
+  surfel.geometric_normal_ws = encode_unit_vector(shaded.geometric_normal_ws);
+  if (hit.missed()) {
+    surfel.kind = SurfelKind::sky;
+    surfel.light = shaded.sky_radiance;
+    return surfel;
+  }
+  surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::back_face;
+  surfel.material =
+      static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
+  surfel.albedo_over_pi = shaded.albedo_over_pi;
+  surfel.receives_gi = shaded.receives_gi;
+  surfel.light = shaded.direct_irradiance;
+  return surfel;
+}
+
+Ray probe_ray(const vec3& origin_ws, const vec3& direction) {
+  return {origin_ws, 0.0f, direction, kInfiniteDistance, kRayOfProbe};
+}
+
+std::size_t first_ray_index(int probe) {
+  return static_cast<std::size_t>(probe) * kMaxRays;
+}
+
+void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGroup& group) {
+  const std::vector<vec3>& directions = group.rays->directions;
+  const std::size_t rays = directions.size();
+  group.hits.resize(group.probes.size() * rays);
+  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<Ray> batch(rays);
+    for (std::size_t k = begin; k < end; ++k) {
+      const vec3 origin = store.probe_position_ws(group.probes[k]);
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, directions[i]);
+      tracer.closest_hits(batch, {&group.hits[k * rays], rays});
+    }
+  });
+}
+
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays) {
+  ShadeHitsSettings shading;
+  // Width of the cone that stands for one ray, per metre: that of its share of the sphere.
+  shading.cone_width =
+      2.0f * sqrt(4.0f / static_cast<float>(rays.rays())) * exp2(settings.texture_lod_bias);
+  shading.max_albedo = settings.max_albedo;
+  shading.emissive_samples = settings.emissive_samples;
+  shading.salt = rays.update;
+  shading.seed = settings.seed;
+  return shading;
+}
+
+std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
+                            const FieldSettings& settings, std::span<ProbeTrace> traces) {
+  const std::vector<vec3>& directions = group.rays->directions;
+  const std::size_t rays = directions.size();
+  const ShadeHitsSettings shading = surfel_shading(settings, *group.rays);
+  std::atomic<std::uint64_t> shadow_rays = 0;
+
+  parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<Ray> batch(rays);
+    std::vector<ShadedHit> shaded(rays);
+    ShadeHitsScratch scratch;
+    for (std::size_t k = begin; k < end; ++k) {
+      const int probe = group.probes[k];
+      const vec3 origin = store.probe_position_ws(probe);
+      for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, directions[i]);
+      const std::span<const Hit> hits(&group.hits[k * rays], rays);
+      shadow_rays +=
+          shade_hits(world, batch, hits, shading, first_ray_index(probe), scratch, shaded);
+      ProbeTrace& trace = traces[probe];
+      trace.rays = group.rays;
+      trace.surfels.resize(rays);
+      for (std::size_t i = 0; i < rays; ++i)
+        trace.surfels[i] = make_surfel(world.scene(), hits[i], shaded[i]);
+    }
+  });
+  return shadow_rays;
+}
+
+std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
+                                  std::span<const int> probes, std::span<ProbeTrace> traces) {
+  const int texels = store.irradiance_texels();
+  std::atomic<std::uint64_t> rays = 0;
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    struct Place {
+      int probe;
+      int ray;
+    };
+    std::vector<FieldQuery> queries;
+    std::vector<Place> reflecting;
+    int most_rays = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      ProbeTrace& trace = traces[probes[k]];
+      trace.lookups.resize(trace.surfels.size());
+      trace.further.clear();
+      most_rays = max(most_rays, static_cast<int>(trace.surfels.size()));
+    }
+    // Neighbouring probes' rays of one direction tend to end in the same cell: asked one after the
+    // other, they find its probes in the cache
+    for (int ray = 0; ray < most_rays; ++ray) {
+      for (std::size_t k = begin; k < end; ++k) {
+        ProbeTrace& trace = traces[probes[k]];
+        if (ray >= static_cast<int>(trace.surfels.size())) continue;
+        const Surfel& surfel = trace.surfels[ray];
+        // What reflects nothing does not ask what lights it
+        if (!surfel.reflects()) continue;
+        trace.lookups[ray] = {};
+        if (!surfel.receives_gi) continue;
+        reflecting.push_back({probes[k], ray});
+        queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
+                           -trace.rays->directions[ray]});
+      }
+    }
+    QueryWeights weights;
+    rays += find_weights(store, by, queries, weights);
+    std::vector<std::uint8_t> answered(queries.size(), 0);
+    for (std::size_t i = 0; i < weights.corners.size(); ++i) {
+      const std::uint32_t query = weights.query[i];
+      const TileFetch fetch = tile_fetch(queries[query].normal_ws, texels);
+      const SurfelLookup lookup = {
+          weights.corners[i],
+          static_cast<std::uint32_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
+          fetch.fraction.x, fetch.fraction.y};
+      ProbeTrace& trace = traces[reflecting[query].probe];
+      const int ray = reflecting[query].ray;
+      if (answered[query] == 0) {
+        trace.lookups[ray] = lookup;
+      } else {
+        trace.further.push_back({static_cast<std::uint32_t>(ray), lookup});
+      }
+      answered[query] = 1;
+    }
+  });
+  return rays;
+}
+
+std::vector<int> probes_reading(std::span<const int> read, std::span<const int> among,
+                                const ProbeStore& store, std::span<const ProbeTrace> traces) {
+  std::vector<std::uint8_t> is_read(store.probes(), 0), reads(among.size(), 0);
+  for (const int probe : read) is_read[probe] = 1;
+  const std::span<const CornerOffsets> corner_table = store.corner_table();
+  const auto reads_one = [&](const CornerWeights& corners) {
+    const CornerOffsets& offsets = corner_table[corners.table];
+    return std::any_of(std::begin(offsets.probe), std::end(offsets.probe),
+                       [&](int offset) { return is_read[corners.base + offset] != 0; });
+  };
+  parallel_chunks(among.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const ProbeTrace& trace = traces[among[k]];
+      bool one = std::any_of(trace.further.begin(), trace.further.end(),
+                             [&](const FurtherLookup& f) { return reads_one(f.lookup.corners); });
+      for (std::size_t i = 0; i < trace.lookups.size() && !one; ++i) {
+        one = trace.surfels[i].reflects() && reads_one(trace.lookups[i].corners);
+      }
+      reads[k] = one ? 1 : 0;
+    }
+  });
+  std::vector<int> readers;
+  for (std::size_t k = 0; k < among.size(); ++k) {
+    if (reads[k] != 0) readers.push_back(among[k]);
+  }
+  return readers;
+}
+
+}  // namespace lambent

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/vulkan/device_kernels.h"
+
+#include <array>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "shaders/answer_corners_comp.h"
+#include "shaders/ask_corners_comp.h"
+#include "shaders/blend_distances_comp.h"
+#include "shaders/blend_in_comp.h"
+#include "shaders/blend_weights_comp.h"
+#include "shaders/compare_light_comp.h"
+#include "shaders/find_lookups_comp.h"
+#include "shaders/fit_comp.h"
+#include "shaders/gather_comp.h"
+#include "shaders/gutters_comp.h"
+#include "shaders/lookup_comp.h"
+#include "shaders/make_surfels_comp.h"
+#include "shaders/move_distances_comp.h"
+#include "shaders/probe_rays_comp.h"
+#include "shaders/read_lookups_comp.h"
+#include "shaders/receive_comp.h"
+#include "shaders/scatter_tiles_comp.h"
+#include "shaders/see_distances_comp.h"
+#include "shaders/see_surfels_comp.h"
+#include "shaders/send_back_comp.h"
+#include "shaders/sight_bits_comp.h"
+#include "shaders/sight_rays_comp.h"
+#include "shaders/solve_step_comp.h"
+#include "shaders/solve_sums_comp.h"
+#include "shaders/store_irradiance_comp.h"
+#include "vulkan/device.h"
+
+namespace lambent {
+
+std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, int volumes,
+                                               int lookups) {
+  return {{{0, static_cast<std::uint32_t>(settings.irradiance_texels)},
+           {1, static_cast<std::uint32_t>(settings.distance_texels)},
+           {2, static_cast<std::uint32_t>(settings.irradiance_format)},
+           {3, static_cast<std::uint32_t>(settings.distance_format)},
+           {4, static_cast<std::uint32_t>(volumes)},
+           {5, static_cast<std::uint32_t>(lookups)}}};
+}
+
+namespace {
+
+/// Kernels by their constants.
+template <class Kernels>
+class KernelShelf {
+ public:
+  explicit KernelShelf(const vulkan::Device& device) : device_(device) {}
+
+  const Kernels& get(const FieldSettings& settings, int volumes, int lookups) {
+    std::array<std::uint32_t, 6> key{};
+    for (const vulkan::Constant& constant : tile_constants(settings, volumes, lookups)) {
+      key[constant.id] = constant.value;
+    }
+    const std::lock_guard lock(mutex_);
+    const auto found = kernels_.find(key);
+    if (found != kernels_.end()) return found->second;
+    return kernels_.emplace(key, Kernels(device_, settings, volumes, lookups)).first->second;
+  }
+
+ private:
+  const vulkan::Device& device_;
+  std::mutex mutex_;
+  std::map<std::array<std::uint32_t, 6>, Kernels> kernels_;
+};
+
+}  // namespace
+
+const FieldKernels& FieldKernels::of(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups) {
+  return device.kept<KernelShelf<FieldKernels>>().get(settings, volumes, lookups);
+}
+
+const SightKernels& SightKernels::of(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups) {
+  return device.kept<KernelShelf<SightKernels>>().get(settings, volumes, lookups);
+}
+
+FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+                           int lookups) {
+  const std::array constants = tile_constants(settings, volumes, lookups);
+  const auto make = [&](vulkan::Spirv spirv, const char* name) {
+    return vulkan::Kernel(device, spirv, name, constants);
+  };
+  blend_weights = make(shaders::blend_weights_comp(), "blend_weights");
+  probe_rays = make(shaders::probe_rays_comp(), "probe_rays");
+  make_surfels = make(shaders::make_surfels_comp(), "make_surfels");
+  see_distances = make(shaders::see_distances_comp(), "see_distances");
+  blend_distances = make(shaders::blend_distances_comp(), "blend_distances");
+  gutters = make(shaders::gutters_comp(), "gutters");
+  find_lookups = make(shaders::find_lookups_comp(), "find_lookups");
+  gather = make(shaders::gather_comp(), "gather");
+  receive = make(shaders::receive_comp(), "receive");
+  fit = make(shaders::fit_comp(), "fit");
+  blend_in = make(shaders::blend_in_comp(), "blend_in");
+  solve_sums = make(shaders::solve_sums_comp(), "solve_sums");
+  solve_step = make(shaders::solve_step_comp(), "solve_step");
+  store_irradiance = make(shaders::store_irradiance_comp(), "store_irradiance");
+  compare_light = make(shaders::compare_light_comp(), "compare_light");
+  lookup = make(shaders::lookup_comp(), "lookup");
+  scatter_tiles = make(shaders::scatter_tiles_comp(), "scatter_tiles");
+  see_surfels = make(shaders::see_surfels_comp(), "see_surfels");
+  send_back = make(shaders::send_back_comp(), "send_back");
+  move_distances = make(shaders::move_distances_comp(), "move_distances");
+}
+
+SightKernels::SightKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+                           int lookups) {
+  const std::array constants = tile_constants(settings, volumes, lookups);
+  const auto make = [&](vulkan::Spirv spirv, const char* name) {
+    return vulkan::Kernel(device, spirv, name, constants);
+  };
+  sight_rays = make(shaders::sight_rays_comp(), "sight_rays");
+  sight_bits = make(shaders::sight_bits_comp(), "sight_bits");
+  ask_corners = make(shaders::ask_corners_comp(), "ask_corners");
+  answer_corners = make(shaders::answer_corners_comp(), "answer_corners");
+  read_lookups = make(shaders::read_lookups_comp(), "read_lookups");
+}
+
+}  // namespace lambent

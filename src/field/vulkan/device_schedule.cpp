@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/vulkan/device_schedule.h"
+
+#include <array>
+#include <cassert>
+#include <vector>
+
+#include "field/schedule/schedule.h"
+#include "shaders/schedule_book_comp.h"
+#include "shaders/schedule_choose_comp.h"
+#include "shaders/schedule_list_comp.h"
+#include "shaders/schedule_means_comp.h"
+#include "shaders/schedule_worth_comp.h"
+#include "vulkan/device_memory.h"
+
+namespace lambent {
+
+using vulkan::Buffer, vulkan::Memory;
+
+DeviceSchedule::DeviceSchedule(const DeviceField& field, int most_probes, int rays)
+    : field_(field), chunks_(static_cast<int>(groups_of(field.probes(), kChunkProbes))) {
+  assert(most_probes > 0 && most_probes % kBlockProbes == 0 && most_probes <= field.probes());
+  const vulkan::Device& device = field.device();
+  const std::array constants =
+      tile_constants(field.settings(), field.volumes(), field.lookups_per_surfel());
+  const auto make = [&](vulkan::Spirv spirv, const char* name) {
+    return vulkan::Kernel(device, spirv, name, constants);
+  };
+  worth_ = make(shaders::schedule_worth_comp(), "schedule_worth");
+  choose_ = make(shaders::schedule_choose_comp(), "schedule_choose");
+  list_them_ = make(shaders::schedule_list_comp(), "schedule_list");
+  book_ = make(shaders::schedule_book_comp(), "schedule_book");
+  means_ = make(shaders::schedule_means_comp(), "schedule_means");
+
+  ScheduleState state{};
+  state.live = static_cast<uint>(field.probes());
+  state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
+  // As ProbeRecord begins
+  const std::vector<ProbeService> unknown(field.probes(), {{1.0f, 0u}, 0u});
+  service_ = vulkan::upload(device, unknown, "service of probes");
+  std::vector<ListSize> sizes;
+  for (uint shape = 0; shape < kListShapes; ++shape) {
+    sizes.push_back(field.list_size(shape, rays));
+  }
+  sizes_ = vulkan::upload(device, sizes, "sizes of lists");
+  bins_ = Buffer(device, sizeof(uint) * field.probes(), Memory::device, "bins of probes");
+  chunk_records_ = Buffer(device, sizeof(ScheduleChunk) * chunks_, Memory::device, "chunks");
+  changes_ = Buffer(device, sizeof(vec3) * most_probes, Memory::device, "changes of light");
+
+  list_.probes.resize(most_probes);
+  list_.most_rays = rays;
+  list_.block_count = most_probes / kBlockProbes;
+  list_.chosen = &state_;
+  const std::vector<int> zeros(most_probes, 0);
+  list_.indices = vulkan::upload(device, zeros, "chosen probes");
+  list_.ray_sets = vulkan::upload(device, zeros, "their ray sets");
+  list_.blocks =
+      Buffer(device, sizeof(ProbeBlock) * list_.block_count, Memory::device, "their blocks");
+}
+
+void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& probes,
+                                   std::uint32_t update, bool look) const {
+  const int all = field_.probes();
+  const ScheduleStateArray state = {state_.address()};
+  const ChunkArray chunks = {chunk_records_.address()};
+  const ScheduleWorthArguments worth = {{field_.grids().address()},
+                                        probes,
+                                        {service_.address()},
+                                        state,
+                                        {bins_.address()},
+                                        chunks,
+                                        all,
+                                        update + 1,
+                                        longest_average(field_.settings()),
+                                        look ? 1u : 0u};
+  const ScheduleChooseArguments choose = {
+      state, chunks, list_.block_array(), {sizes_.address()}, chunks_, list_.count()};
+  const ScheduleListArguments list = {state, chunks, {bins_.address()}, list_.index_array(), all};
+  to.run(worth_, worth, all);
+  to.barrier();
+  to.run(choose_, choose, kChunkProbes);
+  to.barrier();
+  to.run(list_them_, list, all);
+  to.barrier();
+}
+
+void DeviceSchedule::record_book(vulkan::Recorder& to, const DeviceProbes& list, FloatArray shares,
+                                 Vec4Array before, std::uint32_t update) const {
+  const uint chosen = list.chosen != nullptr ? 1u : 0u;
+  const ScheduleStateArray state = {state_.address()};
+  const Vec3Array changes = {changes_.address()};
+  const ScheduleBookArguments book = {state,
+                                      {service_.address()},
+                                      list.index_array(),
+                                      shares,
+                                      changes,
+                                      list.count(),
+                                      chosen,
+                                      update + 1,
+                                      0u};
+  const ScheduleMeansArguments means = {
+      state, {chunk_records_.address()}, shares, changes, chunks_, list.count(), chosen, 0u};
+  field_.record_compare_light(to, list, before, /*darkest=*/0.0f, changes);
+  field_.run_over(to, book_, book, list, kOverLanes);
+  to.barrier();
+  to.run(means_, means, kGroupLanes);
+  to.barrier();
+}
+
+}  // namespace lambent

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a recorded field is made of.
+#include "field/vulkan/recorded_state.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "field/lookup/field_record.h"
+#include "field/transport/blend.h"
+#include "shaders/closest_rchit.h"
+#include "shaders/closest_rmiss.h"
+#include "shaders/engine_closest_rgen.h"
+#include "shaders/fade_samples_comp.h"
+#include "shaders/maintain_probes_comp.h"
+#include "shaders/recorded_rays_comp.h"
+#include "shaders/recorded_shares_comp.h"
+#include "shaders/recorded_surfels_comp.h"
+#include "vulkan/device_memory.h"
+#include "vulkan/recorder.h"
+
+namespace lambent::vulkan {
+namespace {
+
+template <class T>
+Buffer device_buffer(const Device& device, std::size_t count, const char* name) {
+  return {device, count * sizeof(T), Memory::device, name};
+}
+
+/// A list of as many probes as an update may have, for what makes room for it.
+DeviceProbes largest_list(const TurnPlan& plan, const FieldSettings& settings) {
+  DeviceProbes list;
+  list.probes.resize(plan.most_probes());
+  list.most_rays = settings.rays_per_probe;
+  return list;
+}
+
+}  // namespace
+
+RecordedKernels::RecordedKernels(const Device& device, const FieldSettings& settings, int volumes) {
+  const std::array constants = tile_constants(settings, volumes, /*lookups=*/1);
+  const auto make = [&](Spirv spirv, const char* name) {
+    return Kernel(device, spirv, name, constants);
+  };
+  rays = make(shaders::recorded_rays_comp(), "recorded_rays");
+  fade_samples = make(shaders::fade_samples_comp(), "fade_samples");
+  shares = make(shaders::recorded_shares_comp(), "recorded_shares");
+  surfels = make(shaders::recorded_surfels_comp(), "recorded_surfels");
+  maintain = make(shaders::maintain_probes_comp(), "maintain_probes");
+}
+
+EngineTracer::EngineTracer(const Device& device)
+    : closest(device,
+              {shaders::engine_closest_rgen(),
+               shaders::closest_rmiss(),
+               shaders::closest_rchit(),
+               {},
+               /*any_record=*/true},
+              "closest hits of engines") {}
+
+LookupSet::LookupSet(const Device& device, const DeviceField& field) : device_(device) {
+  const Functions& f = device.fn();
+  const std::array<const Buffer*, 4> buffers = {&field.grids(), &field.offsets(),
+                                                &field.irradiance(), &field.distance()};
+  std::array<VkDescriptorSetLayoutBinding, 4> bindings{};
+  for (std::uint32_t i = 0; i < bindings.size(); ++i) {
+    bindings[i] = {i, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_ALL, nullptr};
+  }
+  VkDescriptorSetLayoutCreateInfo layout{};
+  layout.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+  layout.bindingCount = static_cast<std::uint32_t>(bindings.size());
+  layout.pBindings = bindings.data();
+  check(f.vkCreateDescriptorSetLayout(device.handle(), &layout, nullptr, &layout_),
+        "vkCreateDescriptorSetLayout");
+  const VkDescriptorPoolSize size = {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, layout.bindingCount};
+  VkDescriptorPoolCreateInfo pool{};
+  pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  pool.maxSets = 1;
+  pool.poolSizeCount = 1;
+  pool.pPoolSizes = &size;
+  check(f.vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_),
+        "vkCreateDescriptorPool");
+  VkDescriptorSetAllocateInfo set{};
+  set.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  set.descriptorPool = pool_;
+  set.descriptorSetCount = 1;
+  set.pSetLayouts = &layout_;
+  check(f.vkAllocateDescriptorSets(device.handle(), &set, &set_), "vkAllocateDescriptorSets");
+  std::array<VkDescriptorBufferInfo, 4> infos{};
+  std::array<VkWriteDescriptorSet, 4> writes{};
+  for (std::uint32_t i = 0; i < writes.size(); ++i) {
+    infos[i] = {buffers[i]->handle(), buffers[i]->offset(), buffers[i]->bytes()};
+    writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+    writes[i].dstSet = set_;
+    writes[i].dstBinding = i;
+    writes[i].descriptorCount = 1;
+    writes[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    writes[i].pBufferInfo = &infos[i];
+  }
+  f.vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()),
+                           writes.data(), 0, nullptr);
+}
+
+LookupSet::~LookupSet() {
+  device_.fn().vkDestroyDescriptorPool(device_.handle(), pool_, nullptr);
+  device_.fn().vkDestroyDescriptorSetLayout(device_.handle(), layout_, nullptr);
+}
+
+UpdateMemory::UpdateMemory(const DeviceField& field, int most_probes, int rays,
+                           FloatArray irradiance_weights, FloatArray distance_weights) {
+  const Device& device = field.device();
+  const auto probes = static_cast<std::size_t>(most_probes);
+  list.indices = Buffer(device, probes * sizeof(int), Memory::upload, "probes");
+  // All are of set 0, as memory begins
+  list.ray_sets = Buffer(device, probes * sizeof(int), Memory::upload, "their ray sets");
+  list.blocks = Buffer(device, groups_of(most_probes, kBlockProbes) * sizeof(ProbeBlock),
+                       Memory::upload, "blocks of probes");
+  list.most_rays = rays;
+  directions = Buffer(device, rays * sizeof(vec3), Memory::upload, "directions of rays");
+  set = Buffer(device, sizeof(RaySetRecord), Memory::upload, "ray set");
+  set.as<RaySetRecord>()[0] = {
+      {directions.address()}, irradiance_weights, distance_weights, rays, 0u};
+  list.sets = {set.address()};
+}
+
+void UpdateMemory::write(const Turn& turn, const FieldSettings& settings) {
+  const std::vector<vec3> drawn =
+      probe_ray_directions(settings.rays_per_probe, turn.update, settings.seed);
+  std::copy(drawn.begin(), drawn.end(), directions.as<vec3>().begin());
+  set.as<RaySetRecord>()[0].update = turn.update;
+  list.probes.resize(turn.count);
+  std::iota(list.probes.begin(), list.probes.end(), turn.first);
+  std::copy(list.probes.begin(), list.probes.end(), list.indices.as<int>().begin());
+  list.block_count = static_cast<int>(groups_of(turn.count, kBlockProbes));
+  for (int b = 0; b < list.block_count; ++b) {
+    const int first = b * kBlockProbes;
+    list.blocks.as<ProbeBlock>()[b] = {first, std::min(kBlockProbes, turn.count - first), 0};
+  }
+}
+
+RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
+                            const RecordedFieldSettings& recorded, const ProbeStore& shape)
+    : device(std::move(on)),
+      settings(of),
+      ray_mask(recorded.ray_mask),
+      plan(of, recorded, shape.probes()),
+      field(*device, of, shape),
+      solver(field),
+      kernels(*device, of, shape.volumes()),
+      tracer(device->kept<EngineTracer>()),
+      lookup_set(*device, field) {
+  const auto all = static_cast<std::size_t>(shape.probes());
+  const auto probes = static_cast<std::size_t>(plan.most_probes());
+  const std::size_t ray_room = probes * of.rays_per_probe;
+  standing = device_buffer<ProbeStanding>(*device, all, "standing of probes");
+  states = device_buffer<uint>(*device, all, "states of probes");
+  rays = device_buffer<RayRecord>(*device, ray_room, "rays of probes");
+  hits = device_buffer<HitRecord>(*device, ray_room, "hits of probes' rays");
+  results = device_buffer<RayResult>(*device, ray_room, "results of probes' rays");
+  shares = device_buffer<float>(*device, probes, "shares");
+  irradiance_weights = Buffer(*device, field.irradiance_weight_bytes(of.rays_per_probe),
+                              Memory::device, "weights of rays");
+  distance_weights = Buffer(*device, field.distance_weight_bytes(of.rays_per_probe), Memory::device,
+                            "weights of rays");
+  const FieldRecord lookup = {field.store(), shape.volumes(), 0};
+  record = upload(*device, std::span(&lookup, 1), "field");
+  device->run([&](Recorder& to) {
+    to.fill(standing, 0u);
+    to.fill(states, kProbeOn);
+  });
+  const DeviceProbes largest = largest_list(plan, of);
+  field.reserve_surfels(of.rays_per_probe);
+  field.reserve_seen(largest);
+  solver.reserve(largest);
+  if (recorded.rays_per_update > 0) {
+    schedule = std::make_unique<DeviceSchedule>(field, plan.most_probes(), of.rays_per_probe);
+  }
+  for (int i = 0; i < recorded.frames_in_flight; ++i) {
+    ring.emplace_back(field, plan.most_probes(), of.rays_per_probe,
+                      FloatArray{irradiance_weights.address()},
+                      FloatArray{distance_weights.address()});
+  }
+}
+
+}  // namespace lambent::vulkan

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Segovia et al., "Bidirectional Instant Radiosity", EGSR 2006: lights are worth what
+// they bring to the camera. Here that is asked of whole blocks of texels, at few points of the
+// view.
+#include "rsm/maps/lights.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "rsm/gather.h"
+#include "shared/color.h"
+#include "shared/random.h"
+#include "shared/sampling.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kClustersPerTask = 256;
+// Clusters matter by their power times this power of the sum of squares of what a watt brings to
+// the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
+// their error falls with their size.
+constexpr float kBroughtExponent = 0.4f;
+// Clusters are scaled by at most this factor to bring what their texels brought.
+constexpr float kMostScale = 2.0f;
+// Weight that power alone has beside what is brought to the points: light that none of them sees is
+// not left to a few huge clusters.
+constexpr float kPowerShare = 0.1f;
+// Keeps these random numbers apart from others.
+constexpr uint kDealSalt = 0x4445414cu;
+
+/// What each cluster brings to the points; all 1 where there are none.
+std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Cluster>& clusters) {
+  std::vector<TermSums> sums(clusters.size(), TermSums{1.0f, 1.0f});
+  if (points.count == 0) return sums;
+  parallel_chunks(clusters.size(), kClustersPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<RsmTexel> texels;
+    for (std::size_t i = begin; i < end; ++i) texels.push_back(clusters[i].texel);
+    sum_terms(points.planes(), points.capacity, texels, &sums[begin]);
+  });
+  return sums;
+}
+
+/// Tells each cluster how much it matters, and what it brings.
+void weigh(std::span<const TermSums> sums, std::vector<Cluster>& clusters) {
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    Cluster& cluster = clusters[i];
+    const vec3& flux = cluster.texel.flux;
+    cluster.weight =
+        std::max({flux.x, flux.y, flux.z}) * std::pow(sums[i].squares, kBroughtExponent);
+    cluster.brought = luminance(flux) * sums[i].terms;
+  }
+
+  // Mix with power alone, both of the same sum
+  double power = 0.0, brought = 0.0;
+  for (const Cluster& cluster : clusters) {
+    const vec3& flux = cluster.texel.flux;
+    power += std::max({flux.x, flux.y, flux.z});
+    brought += cluster.weight;
+  }
+  if (!(power > 0.0)) return;
+  const double share = brought > 0.0 ? kPowerShare * brought / power : 1.0;
+  for (Cluster& cluster : clusters) {
+    const vec3& flux = cluster.texel.flux;
+    cluster.weight += static_cast<float>(share * std::max({flux.x, flux.y, flux.z}));
+  }
+}
+
+}  // namespace
+
+ViewPoints::ViewPoints(int most) : floats(static_cast<std::size_t>(6 * most)), capacity(most) {}
+
+void ViewPoints::add(const vec3& position_ws, const vec3& normal_ws) {
+  for (int c = 0; c < 3; ++c) {
+    floats[(kPositionPlane + c) * capacity + count] = position_ws[c];
+    floats[(kNormalPlane + c) * capacity + count] = normal_ws[c];
+  }
+  ++count;
+}
+
+ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
+  ViewPoints points(kViewPoints);
+  RandomStream random = make_random_stream(0u, kViewSalt, seed);
+  const vec2 shift = next_uniform2(random);
+  for (uint i = 0; i < kViewPointDraws && points.count < points.capacity; ++i) {
+    const ivec2 at = view_point_pixel(i, shift, {view.width, view.height});
+    const std::size_t pixel = static_cast<std::size_t>(at.y) * view.width + at.x;
+    if (view.normals_ws[pixel] == vec3(0.0f)) continue;
+    points.add(view.positions_ws[pixel], view.normals_ws[pixel]);
+  }
+  return points;
+}
+
+std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<const TermSums> sums,
+                                     const ViewPoints& points, const RsmSettings& settings) {
+  weigh(sums, clusters);
+  const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
+  clusters = merge_clusters(std::move(clusters),
+                            (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs);
+
+  // One normal and one place do not bring quite what many did: scale each cluster to do so
+  const std::vector<TermSums> now = brought_to(points, clusters);
+  for (std::size_t i = 0; i < clusters.size(); ++i) {
+    RsmTexel& texel = clusters[i].texel;
+    const float brings = luminance(texel.flux) * now[i].terms;
+    if (!(brings > 0.0f) || points.count == 0) continue;
+    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMostScale, kMostScale);
+    texel.flux *= scale;
+  }
+  return clusters;
+}
+
+std::vector<std::uint32_t> morton_order(int resolution) {
+  const auto size = static_cast<std::uint32_t>(resolution);
+  const std::uint32_t edge = std::bit_ceil(size);
+  const auto every_second_bit = [](std::uint32_t v) {
+    v &= 0x55555555u;
+    v = (v | (v >> 1u)) & 0x33333333u;
+    v = (v | (v >> 2u)) & 0x0F0F0F0Fu;
+    v = (v | (v >> 4u)) & 0x00FF00FFu;
+    return (v | (v >> 8u)) & 0x0000FFFFu;
+  };
+  std::vector<std::uint32_t> order;
+  order.reserve(static_cast<std::size_t>(size) * size);
+  for (std::uint32_t code = 0; code < edge * edge; ++code) {
+    const std::uint32_t x = every_second_bit(code), y = every_second_bit(code >> 1u);
+    if (x < size && y < size) order.push_back(y * size + x);
+  }
+  return order;
+}
+
+namespace {
+
+void shuffle(std::vector<std::uint32_t>& deal, RandomStream& random) {
+  for (auto left = static_cast<std::uint32_t>(deal.size()); left > 1; --left) {
+    const auto other = static_cast<std::uint32_t>(next_uniform(random) * static_cast<float>(left));
+    std::swap(deal[left - 1], deal[std::min(other, left - 1)]);
+  }
+}
+
+}  // namespace
+
+RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings) {
+  const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
+  struct Dealt {
+    RsmTexel texel;
+    std::uint32_t place;
+  };
+  std::vector<std::vector<Dealt>> dealt(subs);
+  std::uint32_t first = 0;
+  for (std::size_t m = 0; m < maps.size(); ++m) {
+    // Deal each run of neighbours to all sub-maps: in order, or in one of its own
+    const std::vector<Cluster>& chosen = maps[m].chosen;
+    std::vector<std::uint32_t> deal(subs);
+    std::iota(deal.begin(), deal.end(), 0u);
+    RandomStream random = make_random_stream(static_cast<uint>(m), kDealSalt, settings.seed);
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+      if (settings.shuffle && k % subs == 0) shuffle(deal, random);
+      // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
+      // is spread no wider for that, as the blurs bring all sub-maps together
+      Dealt light = {chosen[k].texel, first + chosen[k].place};
+      light.texel.flux *= static_cast<float>(subs);
+      light.texel.softening *= settings.softening;
+      dealt[deal[k % subs]].push_back(light);
+    }
+    first += maps[m].texels;
+  }
+
+  // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
+  std::size_t longest = 0;
+  for (const std::vector<Dealt>& sub_map : dealt) longest = std::max(longest, sub_map.size());
+  Dealt dark = {{}, first};
+  dark.texel.softening = 1.0f;
+  for (std::vector<Dealt>& sub_map : dealt) sub_map.resize(longest, dark);
+
+  // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
+  // together the ways to all
+  for (std::size_t s = 0; s < dealt.size(); ++s) {
+    for (std::size_t k = 0; k + kTexelsPerWay <= longest; k += kTexelsPerWay) {
+      const auto begin = dealt[s].begin() + static_cast<std::ptrdiff_t>(k);
+      std::rotate(begin, begin + static_cast<std::ptrdiff_t>(s % kTexelsPerWay),
+                  begin + kTexelsPerWay);
+    }
+  }
+
+  RsmLights lights;
+  lights.starts.push_back(0);
+  for (const std::vector<Dealt>& sub_map : dealt) {
+    for (const Dealt& light : sub_map) {
+      lights.places.push_back(light.place);
+      lights.restructured.push_back(light.texel);
+    }
+    lights.starts.push_back(static_cast<std::uint32_t>(lights.places.size()));
+  }
+  return lights;
+}
+
+std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
+  std::vector<Cluster> chosen;
+  for (const std::uint32_t i : morton_order(map.resolution)) {
+    if (map.texels[i].flux != vec3(0.0f)) chosen.push_back({map.texels[i], i, 0.0f, 0.0f});
+  }
+  return chosen;
+}
+
+void place_rendered(std::span<const ReflectiveShadowMap> maps, RsmLights& lights) {
+  lights.rendered.clear();
+  for (const ReflectiveShadowMap& map : maps) {
+    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
+  }
+  lights.rendered.emplace_back().softening = 1.0f;
+  for (std::size_t k = 0; k < lights.places.size(); ++k) {
+    lights.rendered[lights.places[k]] = lights.restructured[k];
+  }
+}
+
+RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+                        const RsmSettings& settings) {
+  const ViewPoints points =
+      settings.view_importance ? view_points(view, settings.seed) : ViewPoints(0);
+  std::vector<ChosenOfMap> chosen;
+  for (const ReflectiveShadowMap& map : maps) {
+    ChosenOfMap of_map;
+    of_map.texels = static_cast<std::uint32_t>(map.texels.size());
+    if (settings.texels == 0) {
+      of_map.chosen = all_texels(map);
+    } else {
+      std::vector<Cluster> clusters = cluster_blocks(map);
+      const std::vector<TermSums> sums = brought_to(points, clusters);
+      of_map.chosen = choose_clusters(std::move(clusters), sums, points, settings);
+    }
+    chosen.push_back(std::move(of_map));
+  }
+  RsmLights lights = deal_lights(chosen, settings);
+  place_rendered(maps, lights);
+  return lights;
+}
+
+}  // namespace lambent

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The gather on a Vulkan device: compute kernels over buffers.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <span>
+
+#include "lambent/rsm.h"
+#include "rsm/maps/lights.h"
+#include "rsm/vulkan/maps_vulkan.h"
+#include "rsm/vulkan/passes_vulkan.h"
+#include "vulkan/device.h"
+
+namespace lambent {
+
+/// Gathers the light of maps on a device, and keeps its buffers there from frame to frame: 44 bytes
+/// a pixel (12 for what is not blurred), and 40 a ray for visibility.
+class RsmGathererVulkan {
+ public:
+  /// The device must outlive it.
+  explicit RsmGathererVulkan(const vulkan::Device& device);
+
+  /// Brings the texels that RsmPattern::whole gathers to the device. Waits for the copy.
+  void set_lights(const RsmLights& lights, const RsmSettings& settings);
+  /// Brings maps to the device, as RsmPattern::disk reads them. Waits.
+  void set_maps(std::span<const ReflectiveShadowMap> maps, const RsmSettings& settings);
+  /// The same of maps that are there, and must stay.
+  void set_maps(const RsmMapsOnDevice& maps, const RsmSettings& settings);
+
+  /// Records all passes and a barrier after each. What was set must have been so with the same
+  /// settings, which must be in range. `tracer` is asked for visibility alone, and may be null
+  /// without. The view and this must outlive the execution, which must have ended when this is
+  /// called again.
+  void record(vulkan::Recorder& recorder, const RsmViewOnDevice& view, const RsmSettings& settings,
+              const DeviceTracer* tracer = nullptr, bool keep_stages = false);
+
+  /// Records the upsampling of the last view's light, which must have had these settings, to
+  /// surfaces of a larger frame, or of its rows from `first_row` on: where their depth is 0,
+  /// `irradiance` becomes 0. Then a barrier.
+  void record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& small,
+                         const RsmSettings& settings, const RsmViewOnDevice& frame, int first_row,
+                         Vec3Array irradiance) const;
+
+  /// Irradiance of the last view recorded: width * height of vec3, rows from the top [W/m^2]. The
+  /// buffer may be larger.
+  const vulkan::Buffer& irradiance() const { return picture_.picture; }
+
+  /// Gathers the light of maps that `mapper` made, and leaves it on the device; the result's times,
+  /// rays and stages are filled in. Waits.
+  void light(RsmMapperVulkan& mapper, const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
+             const RsmSettings& settings, const DeviceWorld& world, RsmIrradiance& result,
+             bool keep_stages = false);
+
+  /// All of it, as RsmGatherer does: brings everything to the device, and the light back. Textures
+  /// that the tracer needs: `textures`.
+  void gather(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+              const RsmSettings& settings, RsmIrradiance& result,
+              const DeviceTracer* tracer = nullptr, VkDescriptorSet textures = VK_NULL_HANDLE,
+              bool keep_stages = false);
+
+ private:
+  const RsmKernels& kernels(int sub_images);
+  struct DiskSource;
+  void set_disks(std::span<const DiskSource> sources, const RsmSettings& settings);
+  void run(const RsmViewOnDevice& view, const RsmSettings& settings, const DeviceTracer* tracer,
+           VkDescriptorSet textures, bool keep_stages, RsmIrradiance& result);
+  void reserve_picture(int width, int height, const RsmSettings& settings, bool keep_stages);
+
+  const vulkan::Device& device_;
+  std::map<int, RsmKernels> kernels_;
+  vulkan::Kernel restructure_, upsample_;
+  RsmTexelsOnDevice texels_;
+  vulkan::Buffer uploaded_maps_;
+  RsmPictureOnDevice picture_;
+};
+
+}  // namespace lambent

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps on a Vulkan device: traced there, and their texels brought together there.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "lambent/rsm.h"
+#include "raytracing/vulkan/device_world.h"
+#include "raytracing/vulkan/hit_shading.h"
+#include "rsm/maps/lights.h"
+#include "rsm/vulkan/device_maps.h"
+#include "rsm/vulkan/passes_vulkan.h"
+#include "vulkan/buffer.h"
+#include "vulkan/kernel.h"
+#include "vulkan/recorder.h"
+
+namespace lambent {
+
+/// Maps in a device's memory: resolution^2 RsmTexelRecords of each, one map after the other.
+struct RsmMapsOnDevice {
+  int resolution = 0;
+  std::vector<RsmProjection> projections;  ///< One a map.
+  vulkan::Buffer texels;                   ///< May be larger.
+
+  std::size_t texels_of_map() const { return static_cast<std::size_t>(resolution) * resolution; }
+  /// Where a map's texels begin.
+  RsmTexelArray of(std::size_t map) const {
+    return {texels.address() + map * texels_of_map() * sizeof(RsmTexelRecord)};
+  }
+};
+
+/// Copies maps to the host. Waits.
+std::vector<ReflectiveShadowMap> download_maps(const vulkan::Device& device,
+                                               const RsmMapsOnDevice& maps);
+
+/// Makes maps and chooses what is gathered of them. Keeps memory for one map's rays (76 bytes a
+/// texel; for a camera's 168) and clusters (12 bytes a texel).
+class RsmMapperVulkan {
+ public:
+  /// The device must outlive it.
+  explicit RsmMapperVulkan(const vulkan::Device& device);
+
+  /// render_rsms, for a world on this device; `maps` keeps its memory from frame to frame. Waits.
+  void render(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,
+              RsmMapsOnDevice& maps);
+
+  /// choose_lights. Blocks of texels are brought together and weighed on the device, and the few
+  /// clusters that are left on the host. Waits for the view, too.
+  RsmLights choose(const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
+                   const RsmSettings& settings);
+
+ private:
+  void trace(vulkan::Recorder& to, const DeviceWorld& world, const MapProjection& projection,
+             int resolution);
+  void make_texels(vulkan::Recorder& to, const DeviceWorld& world, const RsmMapsOnDevice& maps,
+                   std::size_t light);
+  void make_camera_texels(vulkan::Recorder& to, const DeviceWorld& world,
+                          const RsmMapsOnDevice& maps, const RsmSettings& settings);
+  ViewPoints find_view_points(const RsmViewOnDevice& view, const RsmSettings& settings);
+  std::vector<ClusterRecord> cluster_blocks(const RsmMapsOnDevice& maps, std::size_t map,
+                                            bool weigh);
+
+  const vulkan::Device& device_;
+  vulkan::Kernel map_rays_, map_texels_, camera_texels_, view_points_, clusters_, weigh_;
+  HitShading shading_;
+  vulkan::Buffer rays_, hits_, points_, shaded_, irradiance_, first_index_;
+  vulkan::Buffer view_point_memory_, view_point_count_, cluster_memory_;
+};
+
+}  // namespace lambent

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a file's animations to curves and a rig.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/gltf/document/document.h"
+#include "scene/gltf/nodes.h"
+
+namespace lambent::gltf {
+
+/// Gathers what animations move while a scene is imported, and makes its rig in the end.
+class MotionImporter {
+ public:
+  /// Reads the curves; channels that make no sense are dropped with a warning. The tree must
+  /// outlive it.
+  MotionImporter(Document& document, const NodeTree& tree);
+
+  /// Whether the node moves in the world.
+  bool moves(int node) const { return moves_[node]; }
+  /// Whether the vertices of a mesh in this node move by themselves: weights or joints do.
+  bool bends(int node) const;
+
+  void add_instance(int node, int instance, const glm::mat4& node_from_object);
+  /// `source`: index into the file's lights.
+  void add_light(int node, int source, int light);
+  void add_camera(int node, int camera);
+  /// `mesh`: all but its node and skin; `joint_from_bind` of the skin, where it has one.
+  void add_mesh(int node, RigMesh mesh, const std::vector<glm::mat4>& joint_from_bind);
+
+  /// Adds animations and rig to the scene whose parts were told. Nothing where nothing moves.
+  void finish(Scene& scene);
+
+ private:
+  enum class List { nodes, meshes, materials, lights, cameras };
+  /// A channel, its target still by the file's index.
+  struct Driver {
+    std::size_t animation;
+    List list;
+    int index;
+    Channel channel;
+  };
+  void read(std::size_t animation, const ChannelSource& source);
+  void mark_moving();
+  const char* read_curve(const ChannelSource& source, Driver& driver) const;
+  int weights_of(int mesh) const;
+  bool is_driven(List list, int index) const;
+  int rig_skin(int skin, const std::vector<glm::mat4>& joint_from_bind);
+  void add_nodes();
+  void add_materials(const Scene& scene);
+  void add_channel(const Driver& driver, Animation& animation) const;
+
+  Document& document_;
+  const NodeTree& tree_;
+  std::vector<Driver> drivers_;
+  std::vector<int> rig_node_of_;                     // by the file's node
+  std::vector<bool> moves_, weighted_;               // by the file's node
+  std::vector<int> rig_skin_of_;                     // by the file's skin; -1: not yet
+  std::vector<int> light_sources_, camera_sources_;  // of the rig's, by the file's index
+  Rig rig_;
+};
+
+}  // namespace lambent::gltf

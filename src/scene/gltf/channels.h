@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the JSON says of animations and in the extras of nodes. Nothing here makes a file fail: what
+// cannot be understood is dropped with a warning.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "scene/gltf/document/document.h"
+
+namespace lambent::gltf {
+
+/// Fills Document::animations.
+void read_channels(Document& document, const nlohmann::json& root);
+
+/// Fills Document::node_flags.
+void read_node_flags(Document& document, const nlohmann::json& root);
+
+}  // namespace lambent::gltf

@@ -1,0 +1,359 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Khronos Group, glTF 2.0 specification, sec. 5 "Properties Reference", and the README of
+// each extension. One row a property; properties that are not listed are not read.
+#include "scene/gltf/document/schema.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "scene/limits.h"
+
+namespace lambent::gltf {
+namespace {
+
+using nlohmann::json;
+
+enum class Kind {
+  object,          // of the shape `of`
+  list,            // of objects of the shape `of`
+  index,           // into the array at the JSON pointer `of`
+  indices,         // a list of such
+  attributes,      // an object whose members are such indices
+  attribute_sets,  // a list of such objects
+  ids,             // an object whose members are whole numbers
+  whole,           // an integer from `low` to `high`
+  number,          // from `low` to `high`
+  numbers,         // a list of `high` finite numbers; any number of them where `high` is 0. Their
+                   // absolute values are at most `low`, where that is not 0
+  string,
+  strings,
+  boolean,
+};
+
+struct Rule {
+  const char* shape;
+  const char* key;
+  Kind kind;
+  const char* of = "";
+  double low = 0.0;
+  double high = 0.0;
+  bool required = false;
+};
+
+constexpr double kAnyInt = 2147483647.0;         // Fits the 32-bit integers of the parsed model.
+constexpr double kAnySize = 9007199254740991.0;  // 2^53 - 1: the largest that JSON keeps exact.
+constexpr double kAnyFloat = 3.0e38;             // Fits a 32-bit float.
+constexpr double kTiny = 1e-30;                  // "Greater than zero".
+constexpr double kQuarterTurn = 1.5707964;  // pi/2 rounded up to what files hold as 32-bit floats.
+constexpr bool kRequired = true;
+constexpr double kSmallestFov = 1e-3;      // kMinFov before it is rounded to a float.
+constexpr double kLargestFov = 3.1405926;  // kMaxFov before that.
+
+constexpr Rule kRules[] = {
+    {"root", "asset", Kind::object, "asset", 0, 0, kRequired},
+    {"asset", "version", Kind::string, "", 0, 0, kRequired},
+    {"asset", "minVersion", Kind::string},
+    {"asset", "generator", Kind::string},
+    {"root", "extensionsUsed", Kind::strings},
+    {"root", "extensionsRequired", Kind::strings},
+    {"root", "scene", Kind::index, "/scenes"},
+    {"root", "scenes", Kind::list, "scene"},
+    {"scene", "nodes", Kind::indices, "/nodes"},
+
+    {"root", "buffers", Kind::list, "buffer"},
+    {"buffer", "byteLength", Kind::whole, "", 1, kAnySize, kRequired},
+    {"buffer", "uri", Kind::string},
+    {"buffer", "extensions", Kind::object, "bufferExtensions"},
+    {"bufferExtensions", "EXT_meshopt_compression", Kind::object, "meshoptBuffer"},
+    {"meshoptBuffer", "fallback", Kind::boolean},
+    {"root", "bufferViews", Kind::list, "bufferView"},
+    {"bufferView", "buffer", Kind::index, "/buffers", 0, 0, kRequired},
+    {"bufferView", "byteOffset", Kind::whole, "", 0, kAnySize},
+    {"bufferView", "byteLength", Kind::whole, "", 1, kAnySize, kRequired},
+    {"bufferView", "byteStride", Kind::whole, "", 1, 252},
+    {"bufferView", "extensions", Kind::object, "bufferViewExtensions"},
+    {"bufferViewExtensions", "EXT_meshopt_compression", Kind::object, "meshoptView"},
+    {"meshoptView", "buffer", Kind::index, "/buffers", 0, 0, kRequired},
+    {"meshoptView", "byteOffset", Kind::whole, "", 0, kAnyInt},
+    {"meshoptView", "byteLength", Kind::whole, "", 1, kAnyInt, kRequired},
+    {"meshoptView", "byteStride", Kind::whole, "", 1, 256, kRequired},
+    {"meshoptView", "count", Kind::whole, "", 1, kAnyInt, kRequired},
+    {"meshoptView", "mode", Kind::string, "", 0, 0, kRequired},
+    {"meshoptView", "filter", Kind::string},
+
+    {"root", "accessors", Kind::list, "accessor"},
+    {"accessor", "bufferView", Kind::index, "/bufferViews"},
+    {"accessor", "byteOffset", Kind::whole, "", 0, kAnySize},
+    {"accessor", "componentType", Kind::whole, "", 5120, 5126, kRequired},
+    {"accessor", "normalized", Kind::boolean},
+    {"accessor", "count", Kind::whole, "", 1, kAnySize, kRequired},
+    {"accessor", "type", Kind::string, "", 0, 0, kRequired},
+    {"accessor", "sparse", Kind::object, "sparse"},
+    {"sparse", "count", Kind::whole, "", 1, kAnyInt, kRequired},
+    {"sparse", "indices", Kind::object, "sparseIndices", 0, 0, kRequired},
+    {"sparse", "values", Kind::object, "sparseValues", 0, 0, kRequired},
+    {"sparseIndices", "bufferView", Kind::index, "/bufferViews", 0, 0, kRequired},
+    {"sparseIndices", "byteOffset", Kind::whole, "", 0, kAnyInt},
+    {"sparseIndices", "componentType", Kind::whole, "", 5121, 5125, kRequired},
+    {"sparseValues", "bufferView", Kind::index, "/bufferViews", 0, 0, kRequired},
+    {"sparseValues", "byteOffset", Kind::whole, "", 0, kAnyInt},
+
+    {"root", "meshes", Kind::list, "mesh"},
+    {"mesh", "name", Kind::string},
+    {"mesh", "weights", Kind::numbers},
+    {"mesh", "primitives", Kind::list, "primitive", 0, 0, kRequired},
+    {"primitive", "attributes", Kind::attributes, "/accessors", 0, 0, kRequired},
+    {"primitive", "indices", Kind::index, "/accessors"},
+    {"primitive", "material", Kind::index, "/materials"},
+    {"primitive", "mode", Kind::whole, "", 0, 6},
+    {"primitive", "targets", Kind::attribute_sets, "/accessors"},
+    {"primitive", "extensions", Kind::object, "primitiveExtensions"},
+    {"primitiveExtensions", "KHR_draco_mesh_compression", Kind::object, "draco"},
+    {"draco", "bufferView", Kind::index, "/bufferViews", 0, 0, kRequired},
+    {"draco", "attributes", Kind::ids, "", 0, kAnyInt, kRequired},
+
+    {"root", "nodes", Kind::list, "node"},
+    {"node", "name", Kind::string},
+    {"node", "children", Kind::indices, "/nodes"},
+    {"node", "mesh", Kind::index, "/meshes"},
+    {"node", "skin", Kind::index, "/skins"},
+    {"node", "camera", Kind::index, "/cameras"},
+    {"node", "matrix", Kind::numbers, "", 0, 16},
+    {"node", "rotation", Kind::numbers, "", 0, 4},
+    {"node", "scale", Kind::numbers, "", 0, 3},
+    {"node", "translation", Kind::numbers, "", 0, 3},
+    {"node", "weights", Kind::numbers},
+    {"node", "extensions", Kind::object, "nodeExtensions"},
+    {"nodeExtensions", "KHR_lights_punctual", Kind::object, "nodeLight"},
+    {"nodeLight", "light", Kind::index, "/extensions/KHR_lights_punctual/lights", 0, 0, kRequired},
+    {"nodeExtensions", "EXT_mesh_gpu_instancing", Kind::object, "instancing"},
+    {"instancing", "attributes", Kind::attributes, "/accessors", 0, 0, kRequired},
+    {"root", "skins", Kind::list, "skin"},
+    {"skin", "joints", Kind::indices, "/nodes", 0, 0, kRequired},
+    {"skin", "inverseBindMatrices", Kind::index, "/accessors"},
+
+    {"root", "materials", Kind::list, "material"},
+    {"material", "name", Kind::string},
+    {"material", "pbrMetallicRoughness", Kind::object, "metallicRoughness"},
+    {"material", "normalTexture", Kind::object, "textureInfo"},
+    {"material", "occlusionTexture", Kind::object, "textureInfo"},
+    {"material", "emissiveTexture", Kind::object, "textureInfo"},
+    {"material", "emissiveFactor", Kind::numbers, "", 0, 3},
+    {"material", "alphaMode", Kind::string},
+    {"material", "alphaCutoff", Kind::number, "", 0, kAnyFloat},
+    {"material", "doubleSided", Kind::boolean},
+    {"material", "extensions", Kind::object, "materialExtensions"},
+    {"metallicRoughness", "baseColorFactor", Kind::numbers, "", 0, 4},
+    {"metallicRoughness", "metallicFactor", Kind::number, "", 0, 1},
+    {"metallicRoughness", "roughnessFactor", Kind::number, "", 0, 1},
+    {"metallicRoughness", "baseColorTexture", Kind::object, "textureInfo"},
+    {"metallicRoughness", "metallicRoughnessTexture", Kind::object, "textureInfo"},
+    {"textureInfo", "index", Kind::index, "/textures", 0, 0, kRequired},
+    {"textureInfo", "texCoord", Kind::whole, "", 0, kAnyInt},
+    {"textureInfo", "scale", Kind::number, "", -kMaxFactor, kMaxFactor},
+    {"textureInfo", "extensions", Kind::object, "textureInfoExtensions"},
+    {"textureInfoExtensions", "KHR_texture_transform", Kind::object, "textureTransform"},
+    {"textureTransform", "offset", Kind::numbers, "", kMaxTextureCoordinate, 2},
+    {"textureTransform", "rotation", Kind::number, "", -kAnyFloat, kAnyFloat},
+    {"textureTransform", "scale", Kind::numbers, "", kMaxTextureCoordinate, 2},
+    {"textureTransform", "texCoord", Kind::whole, "", 0, kAnyInt},
+    {"materialExtensions", "KHR_materials_emissive_strength", Kind::object, "emissiveStrength"},
+    {"emissiveStrength", "emissiveStrength", Kind::number, "", 0, kAnyFloat},
+    {"materialExtensions", "KHR_materials_ior", Kind::object, "ior"},
+    {"ior", "ior", Kind::number, "", 0, kMaxFactor},
+    {"materialExtensions", "KHR_materials_specular", Kind::object, "specular"},
+    {"specular", "specularFactor", Kind::number, "", 0, 1},
+    {"specular", "specularColorFactor", Kind::numbers, "", 0, 3},
+    {"specular", "specularTexture", Kind::object, "textureInfo"},
+    {"specular", "specularColorTexture", Kind::object, "textureInfo"},
+    {"materialExtensions", "KHR_materials_unlit", Kind::object, "unlit"},
+
+    {"root", "textures", Kind::list, "texture"},
+    {"texture", "source", Kind::index, "/images"},
+    {"texture", "sampler", Kind::index, "/samplers"},
+    {"texture", "extensions", Kind::object, "textureExtensions"},
+    {"textureExtensions", "EXT_texture_webp", Kind::object, "textureSource"},
+    {"textureSource", "source", Kind::index, "/images", 0, 0, kRequired},
+    {"root", "samplers", Kind::list, "sampler"},
+    {"sampler", "magFilter", Kind::whole, "", 9728, 9729},
+    {"sampler", "minFilter", Kind::whole, "", 9728, 9987},
+    {"sampler", "wrapS", Kind::whole, "", 10497, 33648},
+    {"sampler", "wrapT", Kind::whole, "", 10497, 33648},
+    {"root", "images", Kind::list, "image"},
+    {"image", "name", Kind::string},
+    {"image", "uri", Kind::string},
+    {"image", "mimeType", Kind::string},
+    {"image", "bufferView", Kind::index, "/bufferViews"},
+
+    {"root", "cameras", Kind::list, "camera"},
+    {"camera", "name", Kind::string},
+    {"camera", "type", Kind::string, "", 0, 0, kRequired},
+    {"camera", "perspective", Kind::object, "perspective"},
+    {"camera", "orthographic", Kind::object, "orthographic"},
+    {"perspective", "yfov", Kind::number, "", kSmallestFov, kLargestFov, kRequired},
+    {"perspective", "aspectRatio", Kind::number, "", kTiny, kAnyFloat},
+    {"perspective", "znear", Kind::number, "", 0, kAnyFloat, kRequired},
+    {"orthographic", "xmag", Kind::number, "", -kAnyFloat, kAnyFloat, kRequired},
+    {"orthographic", "ymag", Kind::number, "", -kAnyFloat, kAnyFloat, kRequired},
+    {"orthographic", "znear", Kind::number, "", 0, kAnyFloat, kRequired},
+    {"orthographic", "zfar", Kind::number, "", 0, kAnyFloat, kRequired},
+
+    {"root", "extensions", Kind::object, "rootExtensions"},
+    {"rootExtensions", "KHR_lights_punctual", Kind::object, "lights"},
+    {"lights", "lights", Kind::list, "light", 0, 0, kRequired},
+    {"light", "name", Kind::string},
+    {"light", "type", Kind::string, "", 0, 0, kRequired},
+    {"light", "color", Kind::numbers, "", 0, 3},
+    {"light", "intensity", Kind::number, "", 0, kAnyFloat},
+    {"light", "range", Kind::number, "", kTiny, kAnyFloat},
+    {"light", "spot", Kind::object, "spot"},
+    {"spot", "innerConeAngle", Kind::number, "", 0, kQuarterTurn},
+    {"spot", "outerConeAngle", Kind::number, "", kTiny, kQuarterTurn},
+};
+
+// A bound as people write it: whole numbers without an exponent.
+std::string text_of(double bound) {
+  char text[32];
+  const bool whole = bound == std::floor(bound) && std::abs(bound) <= kAnySize;
+  std::snprintf(text, sizeof text, whole ? "%.0f" : "%.6g", bound);
+  return text;
+}
+
+class Checker {
+ public:
+  Checker(const json& root, const std::string& file) : root_(root), file_(file) {}
+
+  Expected<void> check_object(const json& value, const char* shape,
+                              const std::string& place) const {
+    if (!value.is_object()) return wrong(place.empty() ? "JSON" : place, "must be an object");
+    for (const Rule& rule : kRules) {
+      if (std::strcmp(rule.shape, shape) != 0) continue;
+      const auto member = value.find(rule.key);
+      const std::string member_place = place.empty() ? rule.key : place + "." + rule.key;
+      if (member == value.end()) {
+        if (rule.required) return wrong(member_place, "is required but missing");
+        continue;
+      }
+      if (Expected<void> fine = check_value(*member, rule, member_place); !fine) return fine;
+    }
+    return {};
+  }
+
+ private:
+  tl::unexpected<Error> wrong(const std::string& place, const std::string& cause) const {
+    return fail(file_, place, cause);
+  }
+
+  // Applies `check(entry, place)` to each entry of a list.
+  template <class Check>
+  Expected<void> each(const json& value, const std::string& place, Check check) const {
+    if (!value.is_array()) return wrong(place, "must be a list");
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string entry_place = place + "[" + std::to_string(i) + "]";
+      if (Expected<void> fine = check(value[i], entry_place); !fine) return fine;
+    }
+    return {};
+  }
+
+  template <class Check>
+  Expected<void> each_member(const json& value, const std::string& place, Check check) const {
+    if (!value.is_object()) return wrong(place, "must be an object");
+    for (const auto& [key, member] : value.items()) {
+      if (Expected<void> fine = check(member, place + "." + key); !fine) return fine;
+    }
+    return {};
+  }
+
+  Expected<void> check_index(const json& value, const char* target,
+                             const std::string& place) const {
+    const json::json_pointer pointer(target);
+    const std::size_t size = root_.contains(pointer) ? root_[pointer].size() : 0;
+    if (!value.is_number_unsigned()) return wrong(place, "must be a whole number of 0 or more");
+    const auto index = value.get<std::uint64_t>();
+    if (index < size) return {};
+    return wrong(place, "is " + std::to_string(index) + ", but there are only " +
+                            std::to_string(size) + " " + (std::strrchr(target, '/') + 1));
+  }
+
+  Expected<void> check_number(const json& value, const Rule& rule, const std::string& place) const {
+    if (!value.is_number()) return wrong(place, "must be a number");
+    const double number = value.get<double>();
+    if (number >= rule.low && number <= rule.high) return {};
+    return wrong(place, "is " + value.dump() + ", which is not within " + text_of(rule.low) +
+                            " to " + text_of(rule.high));
+  }
+
+  Expected<void> check_numbers(const json& value, const Rule& rule,
+                               const std::string& place) const {
+    const double largest = rule.low != 0.0 ? rule.low : kAnyFloat;
+    const Rule any = {"", "", Kind::number, "", -largest, largest, false};
+    const auto length = static_cast<std::size_t>(rule.high);
+    if (length != 0 && value.is_array() && value.size() != length) {
+      return wrong(place, "must be a list of " + std::to_string(length) + " numbers");
+    }
+    return each(value, place,
+                [&](const json& v, const std::string& p) { return check_number(v, any, p); });
+  }
+
+  Expected<void> check_value(const json& value, const Rule& rule, const std::string& place) const {
+    const auto as_index = [&](const json& v, const std::string& p) {
+      return check_index(v, rule.of, p);
+    };
+    const auto as_string = [&](const json& v, const std::string& p) -> Expected<void> {
+      if (!v.is_string()) return wrong(p, "must be a string");
+      return {};
+    };
+    const auto as_whole = [&](const json& v, const std::string& p) -> Expected<void> {
+      if (!v.is_number_integer()) return wrong(p, "must be a whole number");
+      return check_number(v, rule, p);
+    };
+    switch (rule.kind) {
+      case Kind::object:
+        return check_object(value, rule.of, place);
+      case Kind::list:
+        return each(value, place, [&](const json& v, const std::string& p) {
+          return check_object(v, rule.of, p);
+        });
+      case Kind::index:
+        return as_index(value, place);
+      case Kind::indices:
+        return each(value, place, as_index);
+      case Kind::attributes:
+        return each_member(value, place, as_index);
+      case Kind::attribute_sets:
+        return each(value, place, [&](const json& v, const std::string& p) {
+          return each_member(v, p, as_index);
+        });
+      case Kind::ids:
+        return each_member(value, place, as_whole);
+      case Kind::whole:
+        return as_whole(value, place);
+      case Kind::number:
+        return check_number(value, rule, place);
+      case Kind::numbers:
+        return check_numbers(value, rule, place);
+      case Kind::string:
+        return as_string(value, place);
+      case Kind::strings:
+        return each(value, place, as_string);
+      case Kind::boolean:
+        if (!value.is_boolean()) return wrong(place, "must be true or false");
+        return {};
+    }
+    return {};
+  }
+
+  const json& root_;
+  const std::string& file_;
+};
+
+}  // namespace
+
+Expected<void> check_schema(const json& root, const std::string& file) {
+  return Checker(root, file).check_object(root, "root", "");
+}
+
+}  // namespace lambent::gltf

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "lambent/scene.h"
+#include "scene/gltf/document/document.h"
+
+namespace lambent::gltf {
+
+/// Light `light` of KHR_lights_punctual as placed by `node`.
+Expected<Light> import_light(Document& document, int light, int node,
+                             const glm::mat4& world_from_node);
+
+/// The camera of `node`, without the node's scale.
+Expected<Camera> import_camera(Document& document, int node, const glm::mat4& world_from_node);
+
+}  // namespace lambent::gltf

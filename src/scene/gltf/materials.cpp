@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf/materials.h"
+
+#include <algorithm>
+
+#include "scene/limits.h"
+
+namespace lambent::gltf {
+namespace {
+
+constexpr bool kColor = true;  // Texels are sRGB-encoded
+constexpr bool kData = false;  // Texels are numbers
+
+glm::vec3 vec3_of(const std::vector<double>& numbers, const glm::vec3& fallback) {
+  return numbers.size() == 3 ? glm::vec3(numbers[0], numbers[1], numbers[2]) : fallback;
+}
+
+// Reads one material; errors and warnings name it.
+class MaterialReader {
+ public:
+  MaterialReader(Document& document, const tinygltf::Material& source, std::string place,
+                 TextureLibrary& textures)
+      : document_(document), source_(source), place_(std::move(place)), textures_(textures) {}
+
+  Expected<Material> read(const LoadOptions& options) {
+    material_.name = source_.name;
+    material_.lambert = options.lambert;
+    material_.double_sided = source_.doubleSided;
+    LAMBENT_CHECK(read_metallic_roughness());
+    LAMBENT_CHECK(read_emission());
+    LAMBENT_CHECK(read_specular());
+    if (options.normal_maps) {
+      LAMBENT_CHECK(take(source_.normalTexture, kData, material_.normal_texture));
+      material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
+    }
+    LAMBENT_CHECK(read_alpha());
+    material_.unlit = find_extension(source_.extensions, "KHR_materials_unlit") != nullptr;
+    if (const auto* ior = find_extension(source_.extensions, "KHR_materials_ior")) {
+      read_ior(*ior);
+    }
+    // occlusionTexture is left out on purpose: ambient occlusion is what global illumination
+    // computes
+    return std::move(material_);
+  }
+
+ private:
+  template <class TextureInfo>
+  Expected<void> take(const TextureInfo& info, bool srgb, TextureView& view) {
+    if (info.index < 0) return {};
+    LAMBENT_TRY(made, textures_.view(info.index, info.texCoord, info.extensions, srgb, place_));
+    view = made;
+    return {};
+  }
+
+  // A textureInfo inside an extension, which tinygltf leaves unparsed.
+  Expected<void> take(const tinygltf::Value& extension, const char* key, bool srgb,
+                      TextureView& view) {
+    if (!extension.Has(key)) return {};
+    const tinygltf::Value& source = extension.Get(key);
+    tinygltf::TextureInfo info;
+    info.index = integer_or(source, "index", -1);
+    info.texCoord = integer_or(source, "texCoord", 0);
+    if (source.Has("extensions")) {
+      info.extensions = source.Get("extensions").Get<tinygltf::Value::Object>();
+    }
+    return take(info, srgb, view);
+  }
+
+  Expected<void> read_metallic_roughness() {
+    const tinygltf::PbrMetallicRoughness& pbr = source_.pbrMetallicRoughness;
+    for (int k = 0; k < 4 && k < static_cast<int>(pbr.baseColorFactor.size()); ++k) {
+      const auto factor = static_cast<float>(pbr.baseColorFactor[k]);
+      material_.base_color[k] = std::clamp(factor, 0.0f, 1.0f);
+      if (factor != material_.base_color[k]) {
+        document_.repaired("base colors were clamped to 0 to 1", 1, place_);
+      }
+    }
+    material_.metallic = static_cast<float>(pbr.metallicFactor);
+    material_.roughness = static_cast<float>(pbr.roughnessFactor);
+    LAMBENT_CHECK(take(pbr.baseColorTexture, kColor, material_.base_color_texture));
+    return take(pbr.metallicRoughnessTexture, kData, material_.metallic_roughness_texture);
+  }
+
+  Expected<void> read_emission() {
+    glm::dvec3 emission = vec3_of(source_.emissiveFactor, glm::vec3(0.0f));
+    if (glm::any(glm::lessThan(emission, glm::dvec3(0.0)))) {
+      document_.repaired("negative emissive factors were set to 0", 1, place_);
+      emission = glm::max(emission, glm::dvec3(0.0));
+    }
+    const auto* strength = find_extension(source_.extensions, "KHR_materials_emissive_strength");
+    if (strength) {
+      emission *= number_or(*strength, "emissiveStrength", 1.0);
+    }
+    const bool too_bright = glm::any(glm::greaterThan(emission, glm::dvec3(kMaxRadiance)));
+    document_.repaired("emissions were reduced to 1e10 W/(m^2 sr)", too_bright ? 1 : 0, place_);
+    material_.emission = limited(emission, kMaxRadiance);
+    LAMBENT_CHECK(take(source_.emissiveTexture, kColor, material_.emission_texture));
+    // A map restricts emission to lamps and screens: without it all of the surface would glow
+    const bool lost = source_.emissiveTexture.index >= 0 && material_.emission_texture.texture < 0;
+    if (lost) material_.emission = glm::vec3(0.0f);
+    return {};
+  }
+
+  Expected<void> read_specular() {
+    const auto* specular = find_extension(source_.extensions, "KHR_materials_specular");
+    if (!specular) return {};
+    material_.specular = static_cast<float>(number_or(*specular, "specularFactor", 1.0));
+    if (specular->Has("specularColorFactor")) {
+      const tinygltf::Value& color = specular->Get("specularColorFactor");
+      for (int k = 0; k < 3; ++k) {
+        material_.specular_color[k] =
+            std::clamp(static_cast<float>(color.Get(k).GetNumberAsDouble()), 0.0f, kMaxFactor);
+      }
+    }
+    LAMBENT_CHECK(take(*specular, "specularTexture", kData, material_.specular_texture));
+    return take(*specular, "specularColorTexture", kColor, material_.specular_color_texture);
+  }
+
+  Expected<void> read_alpha() {
+    material_.alpha_cutoff = static_cast<float>(source_.alphaCutoff);
+    if (source_.alphaMode == "OPAQUE") {
+      material_.alpha_mode = AlphaMode::opaque;
+    } else if (source_.alphaMode == "MASK") {
+      material_.alpha_mode = AlphaMode::mask;
+    } else if (source_.alphaMode == "BLEND") {
+      material_.alpha_mode = AlphaMode::blend;
+    } else {
+      return document_.fail_at(place_ + ".alphaMode", "must be OPAQUE, MASK or BLEND");
+    }
+    return {};
+  }
+
+  void read_ior(const tinygltf::Value& extension) {
+    material_.ior = static_cast<float>(number_or(extension, "ior", material_.ior));
+    if (material_.ior >= 1.0f) return;
+    // 0 asks for F0 = 1 "for backwards compatibility", which no physical index gives
+    document_.repaired("indices of refraction below 1 were set to 1", 1, place_);
+    material_.ior = 1.0f;
+  }
+
+  Document& document_;
+  const tinygltf::Material& source_;
+  std::string place_;
+  TextureLibrary& textures_;
+  Material material_;
+};
+
+}  // namespace
+
+Expected<std::vector<Material>> import_materials(Document& document, const LoadOptions& options,
+                                                 TextureLibrary& textures) {
+  std::vector<Material> materials;
+  for (std::size_t i = 0; i < document.model.materials.size(); ++i) {
+    MaterialReader reader(document, document.model.materials[i], entry("materials", i), textures);
+    LAMBENT_TRY(material, reader.read(options));
+    materials.push_back(std::move(material));
+  }
+  Material fallback;
+  fallback.name = "default";
+  fallback.lambert = options.lambert;
+  materials.push_back(fallback);
+  return materials;
+}
+
+}  // namespace lambent::gltf

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf/meshes.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+#include "scene/gltf/deform.h"
+#include "scene/gltf/document/accessors.h"
+#include "scene/gltf/document/draco.h"
+#include "scene/limits.h"
+#include "scene/mesh_repair.h"
+
+namespace lambent::gltf {
+namespace {
+
+std::string primitive_place(int mesh, int primitive) {
+  return entry("meshes", mesh) + "." + entry("primitives", primitive);
+}
+
+// A primitive's attributes and indices, from accessors or from its Draco stream.
+class PrimitiveReader {
+ public:
+  static Expected<PrimitiveReader> open(const Document& document, int mesh, int primitive) {
+    PrimitiveReader reader(document, mesh, primitive);
+    const auto* draco = find_extension(reader.source_.extensions, "KHR_draco_mesh_compression");
+    if (draco) {
+      LAMBENT_TRY(decoded, decode_draco(document, reader.source_, *draco, reader.place()));
+      reader.draco_ = std::move(decoded);
+    }
+    return reader;
+  }
+
+  const std::string& place() const { return place_; }
+
+  // An attribute with one element a vertex; without elements where the primitive lacks it.
+  Expected<Elements> attribute(const std::string& name) const {
+    Elements elements;
+    if (draco_ && draco_->attributes.contains(name)) {
+      elements = draco_->attributes.at(name);
+    } else if (const auto found = source_.attributes.find(name);
+               found != source_.attributes.end()) {
+      LAMBENT_TRY(decoded, read_elements(*document_, found->second));
+      elements = std::move(decoded);
+    } else {
+      return elements;
+    }
+    if (vertices_ != 0 && elements.size() != vertices_) {
+      return document_->fail_at(place_ + ".attributes." + name,
+                                "has " + std::to_string(elements.size()) + " elements for " +
+                                    std::to_string(vertices_) + " vertices");
+    }
+    return elements;
+  }
+
+  // The same, where elements must have one of two numbers of components.
+  Expected<Elements> attribute(const std::string& name, int components, int alternative) const {
+    LAMBENT_TRY(elements, attribute(name));
+    const bool fits = elements.components == components || elements.components == alternative;
+    if (elements.size() != 0 && !fits) {
+      return document_->fail_at(place_ + ".attributes." + name,
+                                "has " + std::to_string(elements.components) +
+                                    " components where " + std::to_string(components) +
+                                    " are needed");
+    }
+    return std::move(elements);
+  }
+
+  void expect_vertices(std::size_t vertices) { vertices_ = vertices; }
+
+  // How indices make triangles. Draco streams hold triangles, also of what was a strip.
+  int mode() const { return draco_ ? TINYGLTF_MODE_TRIANGLES : source_.mode; }
+
+  // The primitive's vertex indices in its own order: 0, 1, 2.. where it has none.
+  Expected<std::vector<std::uint32_t>> indices() const {
+    if (draco_) return checked(draco_->indices, place_);
+    const int accessor = document_->primitive_indices[mesh_][primitive_];
+    if (accessor >= 0) {
+      LAMBENT_TRY(indices, read_indices(*document_, accessor));
+      return checked(std::move(indices), entry("accessors", accessor));
+    }
+    std::vector<std::uint32_t> indices(vertices_);
+    for (std::size_t i = 0; i < vertices_; ++i) indices[i] = static_cast<std::uint32_t>(i);
+    return indices;
+  }
+
+ private:
+  PrimitiveReader(const Document& document, int mesh, int primitive)
+      : document_(&document),
+        mesh_(mesh),
+        primitive_(primitive),
+        source_(document.model.meshes[mesh].primitives[primitive]),
+        place_(primitive_place(mesh, primitive)) {}
+
+  Expected<std::vector<std::uint32_t>> checked(std::vector<std::uint32_t> indices,
+                                               const std::string& place) const {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      if (indices[i] < vertices_) continue;
+      return document_->fail_at(place, "index " + std::to_string(indices[i]) + " at " +
+                                           std::to_string(i) + " is out of range: " + place_ +
+                                           " has " + std::to_string(vertices_) + " vertices");
+    }
+    return indices;
+  }
+
+  const Document* document_;
+  int mesh_;
+  int primitive_;
+  const tinygltf::Primitive& source_;
+  std::string place_;
+  std::size_t vertices_ = 0;
+  std::optional<DracoPrimitive> draco_;
+};
+
+// Specification, sec. 3.7.2.1: which vertices each triangle of a mode has.
+std::vector<glm::uvec3> triangles_of(int mode, const std::vector<std::uint32_t>& v) {
+  std::vector<glm::uvec3> triangles;
+  if (v.size() < 3) return triangles;
+  if (mode == TINYGLTF_MODE_TRIANGLES) {
+    triangles.reserve(v.size() / 3);
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) {
+      triangles.emplace_back(v[i], v[i + 1], v[i + 2]);
+    }
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+    triangles.reserve(v.size() - 2);
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) {
+      triangles.emplace_back(v[i], v[i + 1 + i % 2], v[i + 2 - i % 2]);
+    }
+  } else if (mode == TINYGLTF_MODE_TRIANGLE_FAN) {
+    triangles.reserve(v.size() - 2);
+    for (std::size_t i = 0; i + 2 < v.size(); ++i) {
+      triangles.emplace_back(v[i + 1], v[i + 2], v[0]);
+    }
+  }
+  return triangles;
+}
+
+template <class Vector>
+std::vector<Vector> vectors_of(const Elements& elements) {
+  std::vector<Vector> vectors(elements.size());
+  for (std::size_t i = 0; i < vectors.size(); ++i) {
+    for (int k = 0; k < Vector::length(); ++k) vectors[i][k] = elements[i][k];
+  }
+  return vectors;
+}
+
+std::vector<glm::vec4> colors_of(const Elements& elements) {
+  std::vector<glm::vec4> colors(elements.size(), glm::vec4(1.0f));
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    for (int k = 0; k < elements.components; ++k) {
+      colors[i][k] = std::clamp(elements[i][k], 0.0f, 1.0f);
+    }
+  }
+  return colors;
+}
+
+Expected<void> read_vertices(PrimitiveReader& reader, Mesh& mesh) {
+  LAMBENT_TRY(positions, reader.attribute("POSITION", 3, 3));
+  mesh.positions = vectors_of<glm::vec3>(positions);
+  if (mesh.positions.empty()) return {};
+  reader.expect_vertices(mesh.positions.size());
+  LAMBENT_TRY(normals, reader.attribute("NORMAL", 3, 3));
+  mesh.normals = vectors_of<glm::vec3>(normals);
+  LAMBENT_TRY(tangents, reader.attribute("TANGENT", 4, 4));
+  mesh.tangents = vectors_of<glm::vec4>(tangents);
+  LAMBENT_TRY(uv0, reader.attribute("TEXCOORD_0", 2, 2));
+  mesh.uvs[0] = vectors_of<glm::vec2>(uv0);
+  LAMBENT_TRY(uv1, reader.attribute("TEXCOORD_1", 2, 2));
+  mesh.uvs[1] = vectors_of<glm::vec2>(uv1);
+  LAMBENT_TRY(colors, reader.attribute("COLOR_0", 4, 3));
+  mesh.colors = colors_of(colors);
+  return {};
+}
+
+// What vertices may hold beyond the ranges of limits.h: coordinates are an error, since nothing can
+// stand in for a place; texture coordinates become 0, as where there are none.
+Expected<void> check_ranges(Document& document, const std::string& place, Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (is_in_reach(mesh.positions[i])) continue;
+    return document.fail_at(place, "vertex " + std::to_string(i) +
+                                       " has a coordinate that is not within -1e9 to 1e9 m");
+  }
+  std::size_t far = 0;
+  for (auto& uvs : mesh.uvs) {
+    for (glm::vec2& uv : uvs) {
+      const glm::vec2 size = glm::abs(uv);
+      if (size.x <= kMaxTextureCoordinate && size.y <= kMaxTextureCoordinate) continue;
+      uv = glm::vec2(0.0f);
+      ++far;
+    }
+  }
+  document.repaired("texture coordinates beyond 1e8 were set to 0", far, place);
+  return {};
+}
+
+Expected<std::vector<SkinInfluences>> read_influences(const PrimitiveReader& reader) {
+  std::vector<SkinInfluences> sets;
+  for (int set = 0;; ++set) {
+    const std::string suffix = std::to_string(set);
+    LAMBENT_TRY(joints, reader.attribute("JOINTS_" + suffix, 4, 4));
+    LAMBENT_TRY(weights, reader.attribute("WEIGHTS_" + suffix, 4, 4));
+    if (joints.size() == 0 || weights.size() == 0) break;
+    sets.push_back({std::move(joints), std::move(weights)});
+  }
+  return sets;
+}
+
+// What bends the vertices in other poses, for the vertices as the file has them.
+Expected<RigMesh> read_rig(const Document& document, const tinygltf::Primitive& source,
+                           const Mesh& unbent, const std::vector<SkinInfluences>& sets,
+                           std::size_t joints) {
+  RigMesh rig;
+  rig.positions = unbent.positions;
+  rig.normals = unbent.normals;
+  // Stored tangents mean nothing without normals
+  if (!unbent.normals.empty()) rig.tangents = unbent.tangents;
+  for (const auto& target : source.targets) {
+    RigMesh::MorphTarget& made = rig.targets.emplace_back();
+    const auto read = [&](const char* name, std::vector<glm::vec3>& offsets) -> Expected<void> {
+      const auto accessor = target.find(name);
+      if (accessor == target.end()) return {};
+      LAMBENT_TRY(elements, read_elements(document, accessor->second, 3));
+      offsets = vectors_of<glm::vec3>(elements);
+      if (offsets.size() == unbent.positions.size()) return {};
+      return document.fail_at(entry("accessors", accessor->second),
+                              "a morph target has not one element a vertex");
+    };
+    LAMBENT_CHECK(read("POSITION", made.positions));
+    LAMBENT_CHECK(read("NORMAL", made.normals));
+    LAMBENT_CHECK(read("TANGENT", made.tangents));
+  }
+  rig.influences = joints == 0 ? 0 : static_cast<int>(4 * sets.size());
+  for (std::size_t v = 0; rig.influences > 0 && v < unbent.positions.size(); ++v) {
+    for (const SkinInfluences& set : sets) {
+      for (int k = 0; k < 4; ++k) {
+        // Without weight a joint need not exist
+        const float joint = set.joints[v][k];
+        const bool exists = joint >= 0.0f && joint < static_cast<float>(joints);
+        rig.joints.push_back(exists ? static_cast<std::uint32_t>(joint) : 0u);
+        rig.weights.push_back(set.weights[v][k]);
+      }
+    }
+  }
+  return rig;
+}
+
+template <class T>
+void gather(std::vector<T>& values, const VertexOrigins& origins, std::size_t a_vertex = 1) {
+  if (values.empty()) return;
+  std::vector<T> gathered;
+  gathered.reserve(origins.size() * a_vertex);
+  for (const std::uint32_t origin : origins) {
+    const auto first = values.begin() + static_cast<std::ptrdiff_t>(origin * a_vertex);
+    gathered.insert(gathered.end(), first, first + static_cast<std::ptrdiff_t>(a_vertex));
+  }
+  values = std::move(gathered);
+}
+
+// Brings what bends the file's vertices to those that the mesh has come to have.
+void follow_repairs(const VertexOrigins& origins, const Mesh& mesh, RigMesh& rig) {
+  gather(rig.positions, origins);
+  gather(rig.normals, origins);
+  gather(rig.tangents, origins);
+  if (mesh.tangents.empty()) rig.tangents.clear();
+  for (RigMesh::MorphTarget& target : rig.targets) {
+    gather(target.positions, origins);
+    gather(target.normals, origins);
+    gather(target.tangents, origins);
+  }
+  gather(rig.joints, origins, static_cast<std::size_t>(rig.influences));
+  gather(rig.weights, origins, static_cast<std::size_t>(rig.influences));
+}
+
+// Fills in and repairs normals and tangents.
+void complete(Document& document, const std::string& place, int tangent_uv_set, Mesh& mesh,
+              VertexOrigins& origins) {
+  if (mesh.normals.empty()) {
+    // Stored tangents mean nothing without the normals they belong to (specification, sec. 3.7.2.1)
+    mesh.tangents.clear();
+    make_flat_normals(mesh, &origins);
+  }
+  document.repaired("normals without direction were replaced", repair_normals(mesh), place);
+  const bool wanted = tangent_uv_set >= 0 && !mesh.uvs[tangent_uv_set].empty();
+  if (!wanted) {
+    mesh.tangents.clear();
+  } else if (mesh.tangents.empty()) {
+    make_tangents(mesh, tangent_uv_set, &origins);
+  } else {
+    document.repaired("tangents without direction were replaced", repair_tangents(mesh), place);
+  }
+}
+
+}  // namespace
+
+Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_index, int primitive,
+                                               const Deformation& deformation, int tangent_uv_set,
+                                               RigMesh* rig) {
+  const tinygltf::Mesh& source_mesh = document.model.meshes[mesh_index];
+  const tinygltf::Primitive& source = source_mesh.primitives[primitive];
+  const std::string place = primitive_place(mesh_index, primitive);
+  if (source.mode < TINYGLTF_MODE_TRIANGLES) {
+    document.repaired("primitives of points or lines were left out", 1, place);
+    return std::nullopt;
+  }
+
+  LAMBENT_TRY(reader, PrimitiveReader::open(document, mesh_index, primitive));
+  Mesh mesh;
+  mesh.name = source_mesh.name;
+  mesh.material = source.material;
+  LAMBENT_CHECK(read_vertices(reader, mesh));
+  if (mesh.positions.empty()) {
+    document.repaired("primitives without positions were left out", 1, place);
+    return std::nullopt;
+  }
+  LAMBENT_CHECK(check_ranges(document, place, mesh));
+  LAMBENT_TRY(indices, reader.indices());
+  mesh.triangles = triangles_of(reader.mode(), indices);
+
+  std::vector<SkinInfluences> influences;
+  if (!deformation.joint_matrices.empty()) {
+    LAMBENT_TRY(sets, read_influences(reader));
+    influences = std::move(sets);
+  }
+  if (rig != nullptr) {
+    LAMBENT_TRY(made,
+                read_rig(document, source, mesh, influences, deformation.joint_matrices.size()));
+    *rig = std::move(made);
+  }
+  LAMBENT_CHECK(bend_by_morph_targets(document, source, place, deformation.morph_weights, mesh));
+  if (!deformation.joint_matrices.empty()) {
+    LAMBENT_CHECK(bend_by_joints(document, place, influences, deformation.joint_matrices, mesh));
+  }
+  document.repaired("triangles without area were dropped", drop_degenerate_triangles(mesh), place);
+  if (mesh.triangles.empty()) return std::nullopt;
+  VertexOrigins origins(mesh.positions.size());
+  std::iota(origins.begin(), origins.end(), 0u);
+  drop_unused_vertices(mesh, &origins);
+  complete(document, place, tangent_uv_set, mesh, origins);
+  if (rig != nullptr) follow_repairs(origins, mesh, *rig);
+  return mesh;
+}
+
+}  // namespace lambent::gltf

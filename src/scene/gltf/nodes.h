@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The node hierarchy: which nodes a scene shows, and where they stand.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scene/gltf/document/document.h"
+
+namespace lambent::gltf {
+
+struct NodeTree {
+  std::vector<glm::mat4> world_from_node;  ///< One a node of the file; finite and affine.
+  std::vector<int> order;                  ///< All nodes of the file, parents before children.
+  std::vector<int> parents;                ///< Of each node of the file; -1: none.
+  int scene = -1;                          ///< The chosen scene; -1: the file has none.
+  std::vector<int> visible;  ///< Nodes of the chosen scene, parents before children, in file order.
+};
+
+/// Builds the tree. Fails on cycles, nodes with two parents and transforms that are not finite.
+/// `scene` is an index, or -1 for the file's default.
+Expected<NodeTree> build_node_tree(Document& document, int scene);
+
+}  // namespace lambent::gltf

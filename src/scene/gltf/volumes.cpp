@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/gltf/volumes.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "scene/limits.h"
+
+namespace lambent::gltf {
+namespace {
+
+using json = nlohmann::json;
+
+constexpr const char* kKey = "lambent_probe_volume";
+
+// More probes along one axis than any field has.
+constexpr double kMostProbes = 1048576.0;
+// Priorities need not be larger, and fit an int.
+constexpr double kMostPriority = 1e6;
+// Columns of a transform whose cosine is larger are sheared.
+constexpr float kMaxShear = 1e-3f;
+
+/// A number within bounds, or false.
+bool read_number(const json& value, double low, double high, double& number) {
+  if (!value.is_number()) return false;
+  number = value.get<double>();
+  return number >= low && number <= high;
+}
+
+template <class Vector>
+bool read_vector(const json& value, double low, double high, Vector& vector) {
+  if (!value.is_array() || value.size() != 3) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    double number = 0.0;
+    if (!read_number(value[axis], low, high, number)) return false;
+    constexpr bool whole = std::is_integral_v<typename Vector::value_type>;
+    if (whole && number != std::floor(number)) return false;
+    vector[axis] = static_cast<typename Vector::value_type>(number);
+  }
+  return true;
+}
+
+/// Null where all went well, else what is wrong.
+const char* read_volume(const json& extras, ProbeVolume& volume) {
+  if (!extras.is_object()) return "is not an object";
+  for (const auto& [key, value] : extras.items()) {
+    double number = 0.0;
+    if (key == "size") {
+      if (!read_vector(value, 0.0, kMaxCoordinate, volume.size))
+        return "has no three numbers as size";
+    } else if (key == "probes") {
+      if (!read_vector(value, 2.0, kMostProbes, volume.probe_count)) {
+        return "has no three whole numbers of 2 or more as probes";
+      }
+    } else if (key == "spacing") {
+      if (!read_number(value, 0.0, kMaxCoordinate, number) || !(number > 0.0)) {
+        return "has no number above 0 as spacing";
+      }
+      volume.probe_spacing = static_cast<float>(number);
+    } else if (key == "priority") {
+      if (!read_number(value, -kMostPriority, kMostPriority, number) ||
+          number != std::floor(number)) {
+        return "has no whole number as priority";
+      }
+      volume.priority = static_cast<int>(number);
+    } else {
+      return "has a member that means nothing to us";
+    }
+  }
+  const bool counted = volume.probe_count != glm::ivec3(0);
+  return counted && volume.probe_spacing > 0.0f ? "has both probes and spacing" : nullptr;
+}
+
+}  // namespace
+
+void read_node_volumes(Document& document, const json& root) {
+  const json nodes = root.value("nodes", json::array());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const json::json_pointer pointer(std::string("/extras/") + kKey);
+    if (!nodes[i].contains(pointer)) continue;
+    ProbeVolume volume;
+    if (const char* flaw = read_volume(nodes[i][pointer], volume)) {
+      document.warn(entry("nodes", i) + ".extras." + kKey + " " + flaw + " and was ignored.");
+      continue;
+    }
+    document.node_volumes.emplace(static_cast<int>(i), std::move(volume));
+  }
+}
+
+void place_volume(Document& document, int node, const glm::mat4& world_from_node, Scene& scene) {
+  const auto asked = document.node_volumes.find(node);
+  if (asked == document.node_volumes.end()) return;
+  ProbeVolume volume = asked->second;
+  volume.name = document.model.nodes[node].name;
+  volume.centre = glm::vec3(world_from_node[3]);
+  bool flat = false, sheared = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const glm::vec3 column(world_from_node[axis]);
+    const float scale = glm::length(column);
+    flat = flat || !(scale > 0.0f);
+    volume.axes[axis] = column / scale;
+    volume.size[axis] *= scale;
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const float cosine = glm::dot(volume.axes[axis], volume.axes[(axis + 1) % 3]);
+    sheared = sheared || std::abs(cosine) > kMaxShear;
+  }
+  const bool far = !is_in_reach(volume.centre) || !is_in_reach(volume.size);
+  if (flat || sheared || far) {
+    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: " +
+                  (flat      ? "the node is scaled to nothing."
+                   : sheared ? "the node is sheared."
+                             : "it reaches beyond 1e9 m from the origin."));
+    return;
+  }
+  scene.volumes.push_back(std::move(volume));
+}
+
+}  // namespace lambent::gltf
