@@ -44,7 +44,7 @@ Camera camera_in(float size) {
   return look_at(size * glm::vec3(0.3f, 0.2f, 0.45f), glm::vec3(0.0f), 1.0f);
 }
 
-void expect_finite(const LayeredImage& image, const std::string& what) {
+void expect_finite(const LayeredImage& image, const std::string& what, bool lit) {
   double sum = 0.0;
   for (const Layer& layer : image.layers) {
     for (const float value : layer.image.pixels) {
@@ -52,7 +52,9 @@ void expect_finite(const LayeredImage& image, const std::string& what) {
       if (layer.name.empty()) sum += value;
     }
   }
-  EXPECT_GT(sum, 0.0) << what;
+  if (lit) {
+    EXPECT_GT(sum, 0.0) << what;
+  }
 }
 
 /// Renders by every method. The field goes through its packed stores.
@@ -72,21 +74,21 @@ void expect_finite_pictures(const Scene& scene, float size) {
     auto field = IrradianceField::make(settings, world_bounds(scene));
     ASSERT_TRUE(field) << field.error().message();
     for (int update = 0; update < 3; ++update) field->update(world);
-    expect_finite(render_frame(world, &*field, camera, frame).image, "field");
+    expect_finite(render_frame(world, &*field, camera, frame).image, "field", true);
     frame.gather_rays = 1;
-    expect_finite(render_frame(world, &*field, camera, frame).image, "gathered");
+    expect_finite(render_frame(world, &*field, camera, frame).image, "gathered", true);
     frame.gather_rays = 0;
   }
   RsmSettings rsm;
   rsm.resolution = 32;
   IndirectSources sources;
   sources.rsm = &rsm;
-  expect_finite(render_frame(world, sources, camera, frame).image, "rsm");
+  expect_finite(render_frame(world, sources, camera, frame).image, "rsm", !scene.lights.empty());
   ReferenceSettings reference;
   reference.width = 32;
   reference.height = 18;
   reference.samples = 4;
-  expect_finite(render_reference(world, camera, reference).image, "reference");
+  expect_finite(render_reference(world, camera, reference).image, "reference", true);
 }
 
 TEST(Limits, TheBrightestLightsGiveFinitePictures) {
@@ -100,12 +102,13 @@ TEST(Limits, TheBrightestLightsGiveFinitePictures) {
   Light spot = point;
   spot.type = Light::Type::spot;
 
-  // On a wall, where squared distances come to 0; in the middle of the room; and in a corner
+  // On the floor, where squared distances come to 0; above the ball; and in a corner
   for (const glm::vec3& place :
-       {glm::vec3(0.0f, -0.5f, 0.0f), glm::vec3(0.0f, 0.4f, 0.0f), glm::vec3(0.5f)}) {
+       {glm::vec3(0.0f, -0.5f, 0.0f), glm::vec3(0.0f, 0.4f, 0.0f), glm::vec3(0.49f)}) {
     Scene scene = room(kSize);
     point.position_ws = spot.position_ws = kSize * place;
     scene.lights = {point, spot, sun};
+    SCOPED_TRACE(::testing::Message() << "light at " << place.x << " " << place.y);
     expect_finite_pictures(scene, kSize);
   }
   Scene glowing = room(kSize);

@@ -111,9 +111,13 @@ TEST(Rgb9e5, EveryInputHasACode) {
         const vec3 decoded = decode_rgb9e5(encode_rgb9e5(vec3(a, b, 1.0f), vec3(u)));
         EXPECT_TRUE(decoded.x >= 0.0f && decoded.x <= kRgb9e5Max) << a << " " << b;
         EXPECT_TRUE(decoded.y >= 0.0f && decoded.y <= kRgb9e5Max) << a << " " << b;
-        if (std::isnan(a)) EXPECT_EQ(decoded.x, 0.0f) << b;
+        if (std::isnan(a)) {
+          EXPECT_EQ(decoded.x, 0.0f) << b;
+        }
         // Channels beside one that is no number keep what they hold
-        if (std::isnan(a) && !(b > 1.0f)) EXPECT_EQ(decoded.z, 1.0f) << b;
+        if (std::isnan(a) && !(b > 1.0f)) {
+          EXPECT_EQ(decoded.z, 1.0f) << b;
+        }
         const vec3 small = decode_r11g11b10f(encode_r11g11b10f(vec3(a, b, 1.0f), vec3(u)));
         EXPECT_TRUE(std::isfinite(small.x) && small.x >= 0.0f) << a;
         EXPECT_TRUE(std::isfinite(small.y) && small.y >= 0.0f) << b;
