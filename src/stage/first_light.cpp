@@ -33,8 +33,10 @@ constexpr float kSkyThroughWindows = 0.5f;
 // Rays down onto a scene's footprint, along each edge.
 constexpr int kRaysAlongEdge = 16;
 // A scene has a ground where rays meet something over this share of its footprint, this share of
-// them in the lowest part of its height, which is so large.
-constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kGroundHeight = 0.12f;
+// them at one height, and this share at least above that: things that stand on it. One height is
+// a band as thick as this share of the footprint's longer side.
+constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
+constexpr float kGroundBand = 0.03f;
 // What is flatter than this share of its width is a ground itself.
 constexpr float kFlatShare = 0.1f;
 
@@ -66,15 +68,26 @@ bool has_ground(const World& world, const Bounds& bounds) {
                     0.0f,
                     {0.0f, -1.0f, 0.0f}});
   }
-  float met = 0.0f, low = 0.0f;
+  std::vector<float> heights;
   for (const Hit& hit : trace(world, rays)) {
-    if (hit.missed()) continue;
-    met += 1.0f;
-    const float height = bounds.max.y + size.y - hit.distance - bounds.min.y;
-    if (height < kGroundHeight * size.y) low += 1.0f;
+    if (!hit.missed()) heights.push_back(bounds.max.y + size.y - hit.distance);
   }
   constexpr float kRays = kRaysAlongEdge * kRaysAlongEdge;
-  return met >= kMinFootprint * kRays && low >= kMinGround * met;
+  if (static_cast<float>(heights.size()) < kMinFootprint * kRays) return false;
+
+  // Find the band of heights that holds most of them
+  std::sort(heights.begin(), heights.end());
+  const float band = kGroundBand * std::max(size.x, size.z);
+  std::size_t most = 0, above = 0, first = 0;
+  for (std::size_t last = 0; last < heights.size(); ++last) {
+    while (heights[last] - heights[first] > band) ++first;
+    if (last - first + 1 <= most) continue;
+    most = last - first + 1;
+    above = heights.size() - last - 1;
+  }
+  const auto count = static_cast<float>(heights.size());
+  return static_cast<float>(most) >= kMinGround * count &&
+         static_cast<float>(above) >= kMinThings * count;
 }
 
 /// Whether much of the scene's enclosed air is below the open sky.

@@ -20,8 +20,9 @@ constexpr std::size_t kRaysPerTask = 128;
 constexpr std::uint32_t kSurfaceSeed = 1;
 constexpr std::uint32_t kSpaceSeed = 2;
 
-// A part of the scene dwarfs the others where they span less than this share of it.
-constexpr float kDwarfedShare = 0.3f;
+// A ground dwarfs what stands on it where that spans less than this share of it; what encloses
+// the rest, less than this: a sky does, a room seldom.
+constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
 // A ground is flatter than this share of its width.
 constexpr float kFlatShare = 0.05f;
 
@@ -165,14 +166,15 @@ Subject find_subject(const World& world) {
   while (kept > 1) {
     const Bounds& rest = around[kept - 2];
     const Bounds& largest = boxes[order[kept - 1]];
-    if (diagonal(rest) == 0.0f || diagonal(rest) > kDwarfedShare * diagonal(around[kept - 1])) {
-      break;
-    }
+    const float share = diagonal(rest) / diagonal(around[kept - 1]);
+    if (share == 0.0f) break;
     const glm::vec3 size = largest.max - largest.min;
     const bool flat = size.y <= kFlatShare * std::max(size.x, size.z);
     const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
                           glm::all(glm::greaterThanEqual(largest.max, rest.max));
-    if (!flat && !encloses) break;
+    const bool ground = flat && share < kDwarfedByGround;
+    const bool sky = encloses && share < kDwarfedBySky;
+    if (!ground && !sky) break;
     --kept;
   }
   if (kept == 0) return {};
