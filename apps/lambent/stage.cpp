@@ -16,6 +16,8 @@ namespace lambent::cli {
 namespace {
 
 constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
+// Narrower and wider views show nothing that people would recognize [degrees].
+constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   for (const Camera& camera : scene.cameras) {
@@ -56,7 +58,7 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
   command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
   command
       .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
-      ->check(CLI::Range(1.0f, 170.0f));
+      ->check(CLI::Range(kSmallestFov, kLargestFov));
 }
 
 Expected<Scene> open_stage(const StageOptions& options) {
@@ -67,6 +69,9 @@ Expected<Scene> open_stage(const StageOptions& options) {
   if (!scene) return scene;
   for (const std::string& warning : scene->source.warnings) {
     std::fprintf(stderr, "lambent: warning: %s\n", warning.c_str());
+  }
+  if (triangle_count(*scene) == 0) {
+    return fail(options.scene, "", "the scene has no triangles: there is nothing to render");
   }
   if (const auto done = add_asked_light(options.light, *scene); !done) {
     return tl::unexpected(done.error());
@@ -85,6 +90,11 @@ Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene
 
 Expected<View> choose_view(const StageOptions& options, const World& world, float aspect) {
   const Scene& scene = world.scene();
+  // Written so that NaN fails
+  const float fov_degrees = options.fov_degrees.value_or(kDefaultFov);
+  if (!(fov_degrees >= kSmallestFov && fov_degrees <= kLargestFov)) {
+    return fail("--fov", "", "must be 1 to 170 degrees");
+  }
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
   }
