@@ -11,6 +11,7 @@
 
 #include "core/image/heat_map.h"
 #include "core/image/metrics.h"
+#include "core/memory.h"
 #include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
@@ -18,6 +19,7 @@
 #include "lambent/image.h"
 #include "lambent/input.h"
 #include "lambent/layers.h"
+#include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/step.h"
@@ -226,8 +228,9 @@ Expected<void> compare(const CompareOptions& options) {
   files.writes(options.heat_map_path, "--heatmap");
   if (const auto distinct = files.check(); !distinct) return distinct;
   begin_step("reading the images");
-  const Expected<LayeredImage> a = read_image(options.path_a), b = read_image(options.path_b);
+  const Expected<LayeredImage> a = read_image(options.path_a);
   if (!a) return tl::unexpected(a.error());
+  const Expected<LayeredImage> b = read_image(options.path_b);
   if (!b) return tl::unexpected(b.error());
   LayeredImage noise;
   if (!options.noise_path.empty()) {
@@ -244,6 +247,8 @@ Expected<void> compare(const CompareOptions& options) {
         "the images differ in size: " + size(*a) + ", but " + options.path_b + " is " + size(*b));
   }
 
+  const auto fits = check_comparison_memory({a->width, a->height}, available_memory());
+  if (!fits) return fits;
   Expected<std::vector<Comparison>> comparisons = choose_layers(options, *a, *b);
   if (!comparisons) return tl::unexpected(comparisons.error());
   begin_step("comparing the images");

@@ -23,6 +23,9 @@ constexpr std::uint64_t kReferenceBytes = 16 * 3 * sizeof(double) + 10 * kLayerB
 constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);
 // ... of which each of five stages is a layer of the frame where layers are kept.
 constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
+// Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP
+// (measured).
+constexpr std::uint64_t kComparisonBytes = 180;
 // What the bands, the maps and the file's buffers take whatever the size [bytes].
 constexpr std::uint64_t kFixedBytes = std::uint64_t{100} << 20;
 // Fewest rays that a probe may have.
@@ -102,6 +105,16 @@ Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, 
   if (fitting_rays >= kMinRays) cause += "--rays " + std::to_string(fitting_rays) + ", or ";
   cause += std::to_string(fitting_probes) + " probes would fit";
   return fail("the field", "", cause, Error::Kind::failed);
+}
+
+Expected<void> check_comparison_memory(const glm::ivec2& size, std::uint64_t available) {
+  const std::uint64_t bytes = pixels_of(size) * kComparisonBytes;
+  if (bytes <= available) return {};
+  return fail("compare", "",
+              std::to_string(size.x) + "x" + std::to_string(size.y) +
+                  " pixels: " + need(bytes, available) + "; " +
+                  std::to_string(available / kComparisonBytes) + " pixels would fit",
+              Error::Kind::failed);
 }
 
 int host_rays(const FieldSettings& settings, const World& world) {

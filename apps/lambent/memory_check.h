@@ -27,6 +27,10 @@ Expected<void> check_picture_memory(const RenderOptions& options, const glm::ive
 Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, int fields,
                                   std::uint64_t available);
 
+/// Fails where comparing two images of that size takes more than is available [bytes], beside the
+/// images themselves.
+Expected<void> check_comparison_memory(const glm::ivec2& size, std::uint64_t available);
+
 /// Rays of a probe whose surfels will be in the processor's memory: none where a device keeps them,
 /// which tells on its own what it can hold.
 int host_rays(const FieldSettings& settings, const World& world);

@@ -158,7 +158,7 @@ Expected<RenderedFrame> Painter::render(const World& world, const Camera& camera
   if (!rsm) return tl::unexpected(rsm.error());
   IndirectSources sources;
   sources.rsm = uses_rsm(options_.method) ? &*rsm : nullptr;
-  sources.rsm_stages = options_.layers;
+  sources.rsm_stages = options_.layers && sources.rsm != nullptr;
   sources.field = field_ ? &*field_ : nullptr;
   sources.taken_out = first_bounce_ ? &*first_bounce_ : nullptr;
   return render_frame(world, sources, camera, frame, progress);

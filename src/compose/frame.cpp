@@ -38,7 +38,7 @@ RenderedFrame render_frame(const World& world, const IndirectSources& sources, c
   const std::unique_ptr<FramePasses> passes = make_frame_passes({world, sources, camera, settings});
   const Band all = rendered_rows(settings);
   assert(all.first_row >= 0 && all.rows > 0 && all.first_row + all.rows <= settings.height);
-  assert(!sources.rsm_stages || all.rows == settings.height);
+  assert(sources.rsm == nullptr || !sources.rsm_stages || all.rows == settings.height);
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = std::max(1, kBandPixels / settings.width);
 

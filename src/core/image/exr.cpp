@@ -184,7 +184,7 @@ Expected<LayeredImage> decode_exr(const std::string& path, ByteView bytes) try {
       return tl::unexpected(ok.error());
     if (header.dataWindow() != window) return fail(path, place, "parts differ in size");
   }
-  if (const auto ok = check_image_size(path, width, height, channels); !ok) {
+  if (const auto ok = check_image_size(path, width, height, channels, kMaxExrFloats); !ok) {
     return tl::unexpected(ok.error());
   }
 

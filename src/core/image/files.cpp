@@ -4,10 +4,14 @@
 
 #include "core/file_bytes.h"
 #include "core/image/formats.h"
+#include "core/memory.h"
 
 namespace lambent {
 
 namespace {
+
+/// Smaller images [bytes] are not worth asking the system how much memory there is.
+constexpr std::uint64_t kLargeBytes = std::uint64_t{1} << 28;
 
 std::string shape_of(std::int64_t width, std::int64_t height, std::int64_t channels) {
   return std::to_string(width) + "x" + std::to_string(height) + " pixels, " +
@@ -27,14 +31,21 @@ Expected<void> check_image_sides(const std::string& path, std::int64_t width, st
 }
 
 Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
-                                std::int64_t channels) {
+                                std::int64_t channels, std::uint64_t max_floats) {
   if (const auto fine = check_image_sides(path, width, height, channels); !fine) return fine;
   const std::uint64_t texels =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (static_cast<std::uint64_t>(channels) > kMaxImageFloats / texels) {
+  if (static_cast<std::uint64_t>(channels) > max_floats / texels) {
     return fail(path, "",
                 "image too large: " + shape_of(width, height, channels) + ", the limit is " +
-                    std::to_string(kMaxImageFloats) + " numbers");
+                    std::to_string(max_floats) + " numbers");
+  }
+  const std::uint64_t bytes = texels * static_cast<std::uint64_t>(channels) * sizeof(float);
+  if (bytes > kLargeBytes && bytes > available_memory()) {
+    return fail(path, "",
+                shape_of(width, height, channels) + " need " + bytes_text(bytes) +
+                    " of memory, and " + bytes_text(available_memory()) + " are available",
+                Error::Kind::failed);
   }
   return {};
 }

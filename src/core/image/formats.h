@@ -20,14 +20,19 @@ inline constexpr int kMaxImageSide = 1 << 16;
 /// layers.
 inline constexpr std::uint64_t kMaxImageFloats = std::uint64_t{1} << 29;
 
+/// The same of EXR files, which a few bytes cannot make large (16 GiB, a 16k frame of 5 RGB
+/// layers).
+inline constexpr std::uint64_t kMaxExrFloats = std::uint64_t{1} << 32;
+
 /// Fails, naming `path`, unless an image of that shape is not empty and its sides are within the
 /// limit: all that is asked of what is written.
 Expected<void> check_image_sides(const std::string& path, std::int64_t width, std::int64_t height,
                                  std::int64_t channels);
 
-/// Fails, naming `path`, unless an image of that shape is within the limits and not empty.
+/// Fails, naming `path`, unless an image of that shape is not empty, within the limits, and fits
+/// into memory.
 Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
-                                std::int64_t channels);
+                                std::int64_t channels, std::uint64_t max_floats = kMaxImageFloats);
 
 bool is_exr(ByteView bytes);
 bool is_hdr(ByteView bytes);
