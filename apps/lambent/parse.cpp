@@ -11,6 +11,7 @@
 
 #include "core/nearest_word.h"
 #include "lambent/validators.h"
+#include "scene/limits.h"
 
 namespace lambent::cli {
 namespace {
@@ -114,11 +115,9 @@ Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& tex
 }
 
 Expected<glm::vec3> parse_place(const std::string& option, const std::string& text) {
-  // Squares of distances to it are still numbers
-  constexpr float kFarthest = 1e15f;
   const auto place = parse_vec3(option, text);
-  if (place && glm::any(glm::greaterThan(glm::abs(*place), glm::vec3(kFarthest)))) {
-    return malformed(option, text, "a place within 1e15 m of the origin");
+  if (place && !is_in_reach(*place)) {
+    return malformed(option, text, "a place within 1e9 m of the origin");
   }
   return place;
 }
@@ -129,6 +128,9 @@ Expected<Bounds> parse_box(const std::string& option, const std::string& text) {
   if (!n) return tl::unexpected(n.error());
   const Bounds box{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
   if (!glm::all(glm::lessThan(box.min, box.max))) return malformed(option, text, kWanted);
+  if (!is_in_reach(box.min) || !is_in_reach(box.max)) {
+    return malformed(option, text, "a box within 1e9 m of the origin");
+  }
   return box;
 }
 

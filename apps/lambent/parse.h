@@ -17,10 +17,10 @@ bool has_ending(const std::string& path, const char* ending);
 /// "x,y,z", finite numbers. `option` names the culprit in the error.
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text);
 
-/// The same for a place [m], no coordinate of which is beyond what rays can start from, 1e15.
+/// The same for a place [m], no coordinate of which is beyond kMaxCoordinate (scene/limits.h).
 Expected<glm::vec3> parse_place(const std::string& option, const std::string& text);
 
-/// "x0,y0,z0,x1,y1,z1": two corners of a box with min < max.
+/// "x0,y0,z0,x1,y1,z1": two corners of a box with min < max, within kMaxCoordinate.
 Expected<Bounds> parse_box(const std::string& option, const std::string& text);
 
 /// "WxH", each 1 to 16384, or a name of a usual size: "480p", "720p", "1080p", "1440p", "2160p" or

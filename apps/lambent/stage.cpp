@@ -19,6 +19,8 @@ namespace lambent::cli {
 namespace {
 
 constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
+// Narrower and wider views show nothing that people would recognize [degrees].
+constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   for (const Camera& camera : scene.cameras) {
@@ -62,7 +64,7 @@ void add_stage_options(CLI::App& command, StageOptions& o) {
   command
       .add_option("--fov", o.fov_degrees,
                   "Vertical field of view [degrees], 1 to 170 (the camera's, or 45)")
-      ->check(number(1.0, 170.0))
+      ->check(number(kSmallestFov, kLargestFov))
       ->type_name("DEG");
 }
 
@@ -74,6 +76,9 @@ Expected<Scene> open_stage(const StageOptions& options) {
   if (!scene) return scene;
   for (const std::string& warning : scene->source.warnings) {
     warn(warning);
+  }
+  if (triangle_count(*scene) == 0) {
+    return fail(options.scene, "", "the scene has no triangles: there is nothing to render");
   }
   if (const auto done = add_asked_light(options.light, *scene); !done) {
     return tl::unexpected(done.error());
@@ -92,6 +97,11 @@ Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene
 
 Expected<View> choose_view(const StageOptions& options, const World& world, float aspect) {
   const Scene& scene = world.scene();
+  // Written so that NaN fails
+  const float fov_degrees = options.fov_degrees.value_or(kDefaultFov);
+  if (!(fov_degrees >= kSmallestFov && fov_degrees <= kLargestFov)) {
+    return fail("--fov", "", "must be 1 to 170 degrees");
+  }
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
   }

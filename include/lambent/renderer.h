@@ -66,13 +66,14 @@ struct IndirectSources {
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the
 /// sources. What shines by its coat alone reflects the field, or without one, the maps' light.
-/// Settings must be in range. Runs on all cores; the same bits on any number of threads.
+/// Settings must be in range, and the camera one that validate accepts in a scene. Runs on all
+/// cores; the same bits on any number of threads.
 RenderedFrame render_frame(const World& world, const IndirectSources& sources, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress = {});
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the field.
-/// A null field gives direct light and emission alone. Settings must be in range. Runs on all
-/// cores; the same bits on any number of threads.
+/// A null field gives direct light and emission alone. Settings must be in range, and the camera
+/// one that validate accepts in a scene. Runs on all cores; the same bits on any number of threads.
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress = {});
 

@@ -6,6 +6,7 @@
 #include "compose/frame_passes.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
+#include "scene/validate.h"
 
 namespace lambent {
 namespace {
@@ -33,6 +34,7 @@ RenderedFrame render_frame(const World& world, const IndirectSources& sources, c
                            const FrameSettings& settings, const ProgressFn& progress) {
   assert(sources.rsm == nullptr || settings.gather_rays == 0);
   assert(settings.width > 0 && settings.height > 0 && settings.samples > 0);
+  assert(flaw_of(camera) == nullptr);
   const std::unique_ptr<FramePasses> passes = make_frame_passes({world, sources, camera, settings});
   const Band all = rendered_rows(settings);
   assert(all.first_row >= 0 && all.rows > 0 && all.first_row + all.rows <= settings.height);

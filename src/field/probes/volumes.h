@@ -8,6 +8,7 @@
 #include "field/probes/probe_grid.h"
 #include "lambent/error.h"
 #include "lambent/field.h"
+#include "scene/limits.h"
 
 namespace lambent {
 
@@ -15,8 +16,13 @@ inline constexpr int kMaxCascades = 16;
 // Volumes of one field: more are a typing error or a broken file.
 inline constexpr std::uint32_t kMaxVolumes = 64;
 
-// Spacings beyond these [m] have cells whose size or its square is no number.
-inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = 1e15f;
+// Spacings below the first [m] have cells whose squared size is no number; none is wider than the
+// range of coordinates.
+inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = kMaxCoordinate;
+
+// No volume starts farther from the world's origin along an axis [m]: some millions of the widest
+// cells, which is how far cascades follow a viewer.
+inline constexpr float kMaxOrigin = 1e16f;
 
 /// Whether all three coordinates are numbers.
 bool is_finite(const vec3& v);

@@ -11,6 +11,7 @@
 #include "scene/gltf/document/meshopt.h"
 #include "scene/gltf/document/schema.h"
 #include "scene/gltf/volumes.h"
+#include "scene/limits.h"
 
 namespace lambent::gltf {
 namespace {
@@ -135,13 +136,14 @@ std::vector<std::string> strings_of(const json& root, const char* key) {
 
 // The constant sky that our own writer leaves in a scene's extras; glTF has no word for it.
 Expected<glm::vec3> read_sky(const json& sky) {
-  constexpr double kAnyRadiance = 3.0e38;  // Fits a 32-bit float
   if (!sky.is_array() || sky.size() != 3) return fail("", "", "is not a list of three numbers");
   glm::vec3 radiance(0.0f);
   for (int c = 0; c < 3; ++c) {
     if (!sky[c].is_number()) return fail("", "", "is not a list of three numbers");
     const double value = sky[c].get<double>();
-    if (!(value >= 0.0 && value <= kAnyRadiance)) return fail("", "", "is out of range");
+    if (!(value >= 0.0 && value <= kMaxRadiance)) {
+      return fail("", "", "is not within 0 to 1e10 W/(m^2 sr)");
+    }
     radiance[c] = static_cast<float>(value);
   }
   return radiance;
@@ -314,6 +316,16 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   if (!same_sizes(document, root)) return document.fail_at("JSON", "the structure is malformed");
   LAMBENT_CHECK(decompress_views(document));
   return document;
+}
+
+void Document::warn(std::string sentence) {
+  // Names come from files: nothing in them may reach a terminal as a control sequence
+  constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
+  for (char& c : sentence) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < kFirstPrintable || byte == kDelete) c = '?';
+  }
+  warnings.push_back(std::move(sentence));
 }
 
 void Document::repaired(const std::string& what, std::size_t count, const std::string& place) {

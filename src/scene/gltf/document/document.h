@@ -74,7 +74,7 @@ struct Document {
   tl::unexpected<Error> fail_at(std::string place, std::string cause) const {
     return fail(file, std::move(place), std::move(cause));
   }
-  void warn(std::string sentence) { warnings.push_back(std::move(sentence)); }
+  void warn(std::string sentence);
   /// Counts `count` repairs of one kind; warn_of_repairs makes one warning of each kind.
   void repaired(const std::string& what, std::size_t count, const std::string& place);
   void warn_of_repairs();

@@ -6,6 +6,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "stage/survey.h"
 
 namespace lambent {
 namespace {
@@ -31,7 +32,7 @@ constexpr int kMaxSurfaces = 16;
 
 /// How deep below the starts of rays the solid matter that each meets first ends, of those where it
 /// does. Rays go on through surfaces together.
-std::vector<float> depths_of_wall(const World& world, std::vector<Ray> rays) {
+std::vector<float> depths_of_wall(const World& world, bool room, std::vector<Ray> rays) {
   const Scene& scene = world.scene();
   std::vector<float> depths;
   std::vector<Hit> hits;
@@ -42,9 +43,10 @@ std::vector<float> depths_of_wall(const World& world, std::vector<Ray> rays) {
     for (std::size_t r = 0; r < rays.size(); ++r) {
       const Hit& hit = hits[r];
       if (hit.missed()) continue;
-      // The far side of a wall, or a single sheet that faces inwards, is met from behind
+      // The far side of a wall, or a single sheet that faces inwards, is met from behind; around a
+      // room a sheet with two sides is a wall, and around an object its skin
       const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];
-      if (!hit.front_face || scene.materials[mesh.material].double_sided) {
+      if (!hit.front_face || (room && scene.materials[mesh.material].double_sided)) {
         depths.push_back(hit.distance);
         continue;
       }
@@ -83,11 +85,11 @@ SideRays rays_at_side(const Bounds& bounds, int axis, bool upper) {
 }
 
 /// How far the open space keeps from a side of the bounds; negative: it reaches out of them.
-float side_inset(const World& world, const Bounds& bounds, int axis, bool upper) {
+float side_inset(const World& world, bool room, const Bounds& bounds, int axis, bool upper) {
   const glm::vec3 size = bounds.max - bounds.min;
   const float longest = std::max({size.x, size.y, size.z});
   const SideRays side = rays_at_side(bounds, axis, upper);
-  std::vector<float> depths = depths_of_wall(world, side.rays);
+  std::vector<float> depths = depths_of_wall(world, room, side.rays);
   for (float& depth : depths) depth -= side.start;
   constexpr auto kEnough =
       static_cast<std::size_t>(kMinWalledShare * kRaysAlongEdge * kRaysAlongEdge);
@@ -111,10 +113,11 @@ float side_inset(const World& world, const Bounds& bounds, int axis, bool upper)
 Bounds open_bounds(const World& world) {
   const Bounds bounds = world_bounds(world.scene());
   if (bounds.empty()) return bounds;
+  const bool room = is_room(world, find_subject(world));
   Bounds open = bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    open.min[axis] += side_inset(world, bounds, axis, false);
-    open.max[axis] -= side_inset(world, bounds, axis, true);
+    open.min[axis] += side_inset(world, room, bounds, axis, false);
+    open.max[axis] -= side_inset(world, room, bounds, axis, true);
   }
   return open;
 }
