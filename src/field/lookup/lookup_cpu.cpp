@@ -284,8 +284,8 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const TileFetch fetch = tile_fetch(queries[query[i]].normal_ws, t.texels);
     const vec2 f = fetch.fraction;
-    const float shares[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
-                             f.x * f.y};
+    const float tap_weights[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y),
+                                  (1.0f - f.x) * f.y, f.x * f.y};
     const uint* first = t.words + static_cast<std::ptrdiff_t>(tile_words) * weights[i].base +
                         kWords * (fetch.corner.y * width + fetch.corner.x);
     const int steps[4] = {0, kWords, kWords * width, kWords * (width + 1)};
@@ -296,13 +296,13 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
     // Read the four texels of each corner's tile
     float red[kCorners] = {}, green[kCorners] = {}, blue[kCorners] = {};
     for (int tap = 0; tap < 4; ++tap) {
-      const float share = shares[tap];
+      const float tap_weight = tap_weights[tap];
       for (int k = 0; k < kCorners; ++k) {
         float r, g, b;
         decode_irradiance<format>(first + steps[tap] + tile_offset[k], r, g, b);
-        red[k] += share * r;
-        green[k] += share * g;
-        blue[k] += share * b;
+        red[k] += tap_weight * r;
+        green[k] += tap_weight * g;
+        blue[k] += tap_weight * b;
       }
     }
 

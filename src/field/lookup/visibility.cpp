@@ -20,7 +20,7 @@ Ray to_ray(const RayRecord& ray) {
 }
 
 std::uint64_t sight(int corner, int other) {
-  return std::uint64_t{1} << sight_bit(corner, other);
+  return std::uint64_t{1} << visibility_bit(corner, other);
 }
 
 /// A ray that decides whether a corner counts.
@@ -41,8 +41,8 @@ class CornerRays {
     const vec3 start =
         biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
     const int probe = base + store_.corner_table()[table].probe[corner];
-    rays_.push_back(to_ray(sight_ray(start, store_.probe_position_ws(probe))));
-    questions_.push_back({index, corner});
+    rays_.push_back(to_ray(visibility_ray(start, store_.probe_position_ws(probe))));
+    tests_.push_back({index, corner});
   }
 
   /// Calls hidden(question) for every corner that is not seen.
@@ -51,7 +51,7 @@ class CornerRays {
     occluded_.resize(rays_.size());
     tracer.occlusions(rays_, occluded_);
     for (std::size_t r = 0; r < rays_.size(); ++r) {
-      if (occluded_[r] != 0) hidden(questions_[r]);
+      if (occluded_[r] != 0) hidden(tests_[r]);
     }
     return rays_.size();
   }
@@ -60,7 +60,7 @@ class CornerRays {
   const ProbeStore& store_;
   float spacing_min_;
   std::vector<Ray> rays_;
-  std::vector<Question> questions_;
+  std::vector<Question> tests_;
   std::vector<std::uint8_t> occluded_;
 };
 
@@ -96,13 +96,13 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
   CornerRays rays(store, volume);
   std::vector<std::size_t> checked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const std::uint64_t cell = by.sights->of_cell(result[i].base);
+    const std::uint64_t cell = by.cell_visibility->of_cell(result[i].base);
     if (cell == kAllSeen) continue;
-    const auto seen = static_cast<uint>(cell >> sight_bit(heaviest_corner(result[i]), 0));
-    const CornerDoubts doubts = doubtful_corners(result[i], seen, 1.0f);
+    const auto seen = static_cast<uint>(cell >> visibility_bit(heaviest_corner(result[i]), 0));
+    const VisibilityMask mask = visibility_mask(result[i], seen, 1.0f);
     for (int k = 0; k < kCorners; ++k) {
-      if (((doubts.hidden >> k) & 1u) != 0) result[i].weight[k] = 0.0f;
-      if (((doubts.asked >> k) & 1u) != 0) {
+      if (((mask.hidden >> k) & 1u) != 0) result[i].weight[k] = 0.0f;
+      if (((mask.tested >> k) & 1u) != 0) {
         rays.ask(queries[i], result[i].base, result[i].table, i, k);
       }
     }
@@ -118,10 +118,10 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
 
 }  // namespace
 
-ProbeSights::ProbeSights(int probes) : cells_(probes, kAllSeen) {}
+CellVisibility::CellVisibility(int probes) : cells_(probes, kAllSeen) {}
 
-std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store,
-                                std::span<const int> probes) {
+std::uint64_t CellVisibility::update(const RayTracer& tracer, const ProbeStore& store,
+                                     std::span<const int> probes) {
   std::atomic<std::uint64_t> traced = 0;
   const std::size_t batch = batch_of(tracer, kCellPairs, kCellsPerTask);
   parallel_chunks(probes.size(), batch, [&](std::size_t begin, std::size_t end) {
@@ -141,7 +141,7 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
         const vec3 start = store.probe_position_ws(base + offsets.probe[i]);
         for (int k = i + 1; k < kCorners; ++k) {
           const vec3 other = store.probe_position_ws(base + offsets.probe[k]);
-          rays.push_back(to_ray(sight_ray(start, other)));
+          rays.push_back(to_ray(visibility_ray(start, other)));
           pairs.push_back(sight(i, k) | sight(k, i));
           cells.push_back(base);
         }
@@ -181,7 +181,7 @@ std::uint64_t visible_corner_weights(const ProbeStore& store, int volume, const 
     return exact_weights(store, volume, *by.tracer, queries, result);
   }
   if (by.tracer != nullptr && by.mode == Visibility::hybrid) {
-    assert(by.sights != nullptr);
+    assert(by.cell_visibility != nullptr);
     return hybrid_weights(store, volume, by, queries, result);
   }
   corner_weights(store, volume, queries, result);

@@ -124,7 +124,7 @@ struct Step {
 /// Along a long axis the range is centred on the viewer and ends before the slabs that come and go.
 /// Along a short one that would leave too little: it reaches a cell beyond the probes, as that of a
 /// volume that keeps still, and withdraws only when the volume is about to move on.
-Step follow_along(float off, const Range& counts, int count) {
+Step scroll_along(float off, const Range& counts, int count) {
   const float last = static_cast<float>(count - 1);
   const int cells = static_cast<int>(std::round(off));
   if (count >= kLongAxis) {
@@ -154,7 +154,7 @@ Volume plan_cascade(const FieldSettings& settings, int level, const vec3& middle
   FieldGrid grid;
   grid.count = settings.probe_count != ivec3(0) ? settings.probe_count : kCascadeProbes;
   grid.spacing = vec3(std::ldexp(finest_spacing(settings), level));
-  return {around(still_grid(grid), middle), {true, level}};
+  return {centred(still_grid(grid), middle), {true, level}};
 }
 
 }  // namespace
@@ -183,7 +183,7 @@ FieldGrid field_grid(const ProbeGrid& grid) {
   return {grid.origin_ws, grid.spacing, grid.count, grid.axes};
 }
 
-bool can_follow(const ProbeGrid& grid) {
+bool can_scroll(const ProbeGrid& grid) {
   const vec3 place = grid.origin_ws / grid.spacing;
   return grid.axes == mat3(1.0f) &&
          glm::all(glm::greaterThanEqual(grid.count, ivec3(kMinCascadeProbes))) &&
@@ -191,15 +191,15 @@ bool can_follow(const ProbeGrid& grid) {
          glm::round(place) * grid.spacing == grid.origin_ws;
 }
 
-ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws) {
+ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws) {
   // From far away it comes at once
   ProbeGrid away = grid;
   const vec3 viewer = clamp(viewer_ws / grid.spacing, vec3(-kFarthestCell), vec3(kFarthestCell));
   away.origin_ws = (floor(viewer) - 2.0f * vec3(grid.count)) * grid.spacing;
-  return following(away, viewer_ws);
+  return scrolled(away, viewer_ws);
 }
 
-ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
+ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws) {
   ProbeGrid next = grid;
   // Of probe 0, counted in cells from the world's origin
   ivec3 place = ivec3(glm::round(grid.origin_ws / grid.spacing));
@@ -210,7 +210,7 @@ ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
         viewer - static_cast<float>(place[axis]) - 0.5f * static_cast<float>(count - 1);
     const Range counts = {grid.fade_centre[axis] - grid.fade_half[axis],
                           grid.fade_centre[axis] + grid.fade_half[axis]};
-    const Step step = follow_along(off, counts, count);
+    const Step step = scroll_along(off, counts, count);
     next.fade_centre[axis] = 0.5f * (step.counts.low + step.counts.high);
     next.fade_half[axis] = 0.5f * (step.counts.high - step.counts.low);
     next.fade_cells[axis] = max(kFadeCells, kFadeShare * static_cast<float>(count));

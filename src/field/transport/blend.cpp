@@ -85,7 +85,7 @@ BlendMatrix::BlendMatrix(int texels, float cosine_exponent, std::span<const vec3
     const vec3 normal = tile_direction({t % texels, t / texels}, texels);
     for (int i = 0; i < ray_count_; ++i) {
       weights_[static_cast<std::size_t>(i) * padded_texels_ + t] =
-          blend_weight(normal, directions[i], cosine_exponent);
+          ray_weight(normal, directions[i], cosine_exponent);
     }
   }
 }

@@ -19,7 +19,7 @@ const uint kProbeOff = 1u;  ///< In solid matter.
 struct ProbeStanding {
   float samples;  ///< Updates that its tiles average.
   uint offset;    ///< Where it is to stand from its next rays on (encode_probe_offset).
-  ProbeWalk walk;
+  RelocationState relocation;
 };
 LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
 
@@ -64,22 +64,22 @@ struct EngineClosestArguments {
 struct FadeSamplesArguments {
   StandingArray standing;
   int count;
-  float share;
+  float factor;
 };
 
 /// Counts an update in. `shares`: of the list's probes; 0 for those that rest.
-struct RecordedSharesArguments {
+struct RecordedBlendWeightsArguments {
   ProbeStates probes;
   UintArray offsets;  ///< Of the store: probes are now where their rays came from.
   IntArray list;
-  FloatArray shares;
-  UintArray chosen;         ///< How many probes the list has where the device decided.
-  UintArray largest_share;  ///< A word: becomes the largest one's bits.
+  FloatArray blend_weights;
+  UintArray chosen;                ///< How many probes the list has where the device decided.
+  UintArray largest_blend_weight;  ///< A word: becomes the largest one's bits.
   int count;
   uint is_chosen;  ///< 1: the device decided.
   float longest;   ///< Updates that an average remembers.
   uint all;
-  uint anew;  ///< 1: what was averaged before counts for nothing.
+  uint discards_history;  ///< 1: what was averaged before counts for nothing.
 };
 
 /// Surfels from what an engine tells. `surfels`: of all probes x stride.
@@ -114,7 +114,7 @@ struct MaintainArguments {
 };
 
 // Sights that a probe is placed by at most; of more rays every second, third, ... is taken.
-const int kMostSights = 256;
+const int kMaxPlacementRays = 256;
 
 LAMBENT_END
 #endif

@@ -15,28 +15,28 @@
 namespace lambent::vulkan {
 
 // Probes of an update: as many groups as every device can have in a dispatch.
-inline constexpr int kMostProbes = 65535;
+inline constexpr int kMaxBatchProbes = 65535;
 
 /// An update: probes of indices that follow one another.
-struct Turn {
+struct ProbeBatch {
   int first = 0, count = 0;
-  std::uint32_t update = 0;    ///< Counted from 0.
-  float history = 1.0f;        ///< What was averaged counts for this share of what it did.
-  bool starts_anew = false;    ///< The list's probes forget what they averaged.
-  bool on_device = false;      ///< The device decides which probes: so many at most.
-  bool all = true;             ///< Probes that are off are looked at, too.
-  std::uint32_t place = 0;     ///< kPlaceLeave, ...
-  float largest_share = 1.0f;  ///< That any probe's new light counts for, at most.
+  std::uint32_t update = 0;           ///< Counted from 0.
+  float history = 1.0f;               ///< What was averaged counts for this share of what it did.
+  bool discards_history = false;      ///< The list's probes forget what they averaged.
+  bool on_device = false;             ///< The device decides which probes: so many at most.
+  bool all = true;                    ///< Probes that are off are looked at, too.
+  std::uint32_t place = 0;            ///< kPlaceLeave, ...
+  float largest_blend_weight = 1.0f;  ///< That any probe's new light counts for, at most.
 };
 
 /// Deals turns: every probe has one in each round, and all updates of a round treat theirs alike.
 /// Under a budget of rays the device decides once the rounds are over in which probes know no light
 /// yet, or are moved.
-class TurnPlan {
+class BatchPlan {
  public:
-  TurnPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded, int probes);
+  BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded, int probes);
 
-  Turn next(const UpdatePlan& update);
+  ProbeBatch next(const UpdatePlan& update);
   std::uint32_t updates() const { return updates_; }
   /// Probes of the largest turn.
   int most_probes() const { return most_; }
@@ -44,7 +44,7 @@ class TurnPlan {
  private:
   std::uint32_t place_in_round() const;
   void begin_round();
-  Turn next_of_device(const UpdatePlan& update);
+  ProbeBatch next_of_device(const UpdatePlan& update);
   bool rounds_are_over() const;
 
   int probes_, most_;

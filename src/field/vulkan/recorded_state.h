@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "field/vulkan/device_field.h"
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
+#include "field/vulkan/field_resources.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 #include "vulkan/device.h"
@@ -19,7 +19,7 @@ namespace lambent::vulkan {
 struct RecordedKernels {
   RecordedKernels(const Device& device, const FieldSettings& settings, int volumes);
 
-  Kernel rays, fade_samples, shares, surfels, maintain;
+  Kernel rays, fade_samples, blend_weights, surfels, maintain;
 };
 
 /// The pipeline that traces in engines' structures, which all fields on a device share.
@@ -32,7 +32,7 @@ struct EngineTracer {
 /// The store as descriptors.
 class LookupSet {
  public:
-  LookupSet(const Device& device, const DeviceField& field);
+  LookupSet(const Device& device, const FieldResources& field);
   ~LookupSet();
   LookupSet(const LookupSet&) = delete;
   LookupSet& operator=(const LookupSet&) = delete;
@@ -49,10 +49,10 @@ class LookupSet {
 
 /// What the host writes for an update, and the device reads until that has run.
 struct UpdateMemory {
-  UpdateMemory(const DeviceField& field, int most_probes, int rays, FloatArray irradiance_weights,
-               FloatArray distance_weights);
+  UpdateMemory(const FieldResources& field, int most_probes, int rays,
+               FloatArray irradiance_weights, FloatArray distance_weights);
   /// Fills in the probes and rays of a turn.
-  void write(const Turn& turn, const FieldSettings& settings);
+  void write(const ProbeBatch& batch, const FieldSettings& settings);
 
   DeviceProbes list;
   Buffer directions, set;
@@ -62,12 +62,12 @@ struct RecordedField::State {
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         const ProbeStore& shape);
 
-  UpdateMemory& memory() { return ring[turn.update % ring.size()]; }
+  UpdateMemory& memory() { return ring[batch.update % ring.size()]; }
   const DeviceProbes& list() {
-    return turn.on_device ? schedule->list(memory().list.sets) : memory().list;
+    return batch.on_device ? schedule->list(memory().list.sets) : memory().list;
   }
   std::uint32_t ray_count() const {
-    return static_cast<std::uint32_t>(turn.count * settings.rays_per_probe);
+    return static_cast<std::uint32_t>(batch.count * settings.rays_per_probe);
   }
   ProbeStates probe_states() const { return {{standing.address()}, {states.address()}}; }
   /// A word of what the device decided; none where it does not.
@@ -79,17 +79,17 @@ struct RecordedField::State {
   std::shared_ptr<Device> device;
   FieldSettings settings;
   std::uint32_t ray_mask;
-  TurnPlan plan;
-  DeviceField field;
+  BatchPlan plan;
+  FieldResources field;
   DeviceSolver solver;
   RecordedKernels kernels;
   const EngineTracer& tracer;
   LookupSet lookup_set;
   std::unique_ptr<DeviceSchedule> schedule;  // null: by turns
-  Turn turn;
+  ProbeBatch batch;
   // All but the first are of an update's probes or rays
   Buffer standing, states, record;
-  Buffer rays, hits, results, shares, irradiance_weights, distance_weights;
+  Buffer rays, hits, results, blend_weights, irradiance_weights, distance_weights;
   std::vector<UpdateMemory> ring;
 };
 

@@ -11,5 +11,5 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int probe = int(gl_GlobalInvocationID.x);
-  if (probe < args.count) args.standing.at[probe].samples *= args.share;
+  if (probe < args.count) args.standing.at[probe].samples *= args.factor;
 }

@@ -49,7 +49,7 @@ void main() {
     uint word = args.store.distance.at[index];
     vec2 moved = keeps ? moved_moments(decode_half2(word) * units, before, now) : now;
     args.store.distance.at[index] =
-        blended_halves(word, moved, 1.0, 1.0 / unit, uint(index) + args.salt);
+        blended_halves(word, moved, 1.0, 1.0 / unit, uint(index) + args.dither_seed);
     return;
   }
   vec2 held = vec2(uintBitsToFloat(args.store.distance.at[2 * index]),

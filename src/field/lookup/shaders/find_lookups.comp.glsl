@@ -28,15 +28,15 @@ void main() {
   for (int volume = 0; volume < kVolumes; ++volume) {
     if (left <= kNothingLeft || found == kLookups) continue;
     ProbeGrid grid = args.store.grids.at[volume];
-    float share = volume + 1 == kVolumes ? 1.0 : volume_share(grid, query.position_ws);
-    if (share <= 0.0) continue;
+    float volume_weight = volume + 1 == kVolumes ? 1.0 : volume_blend_weight(grid, query.position_ws);
+    if (volume_weight <= 0.0) continue;
     CornerWeights corners =
         lookup_weights(grid, volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
     // Where the volume knows nothing, coarser ones answer for it
     if (sum_of_weights(corners) == 0.0) continue;
-    share *= left;
-    left -= share;
-    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= share;
+    volume_weight *= left;
+    left -= volume_weight;
+    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= volume_weight;
     args.lookups.at[point.lookup + found] =
         SurfelLookup(corners, corner, fetch.fraction.x, fetch.fraction.y);
     ++found;

@@ -20,7 +20,7 @@ RayRecord corner_ray(CornerWeights corners, int corner, QueryRecord query) {
   vec3 from_ws = biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws,
                                  smallest_spacing(grid));
   ivec3 coords = probe_coords(grid, corners.base) + cell_corner(corner);
-  return sight_ray(from_ws, placed_probe(grid, coords));
+  return visibility_ray(from_ws, placed_probe(grid, coords));
 }
 
 /// What the corners weigh if they are seen. Those in solid matter weigh nothing by distances.
@@ -49,11 +49,11 @@ uint weighed_corners(CornerWeights corners) {
 }
 
 /// Has corners weigh nothing, and the others as much as all did. False where there are no others.
-bool hide_corners(inout CornerWeights corners, uint hidden, float share) {
+bool hide_corners(inout CornerWeights corners, uint hidden, float total) {
   for (int k = 0; k < kCellCorners; ++k) {
     if ((hidden >> k & 1u) != 0u) corners.weight[k] = 0.0;
   }
-  return scale_weights(corners, share) != 0;
+  return scale_weights(corners, total) != 0;
 }
 
 #endif

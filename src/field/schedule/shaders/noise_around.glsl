@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The noise of a probe's neighbourhood, as ProbeAgenda::note_noise.
+// The noise of a probe's neighbourhood, as ProbeScheduler::refresh_noise.
 #ifndef LAMBENT_FIELD_SCHEDULE_SHADERS_NOISE_AROUND_GLSL
 #define LAMBENT_FIELD_SCHEDULE_SHADERS_NOISE_AROUND_GLSL
 
