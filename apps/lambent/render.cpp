@@ -6,7 +6,7 @@
 
 #include "core/atomic_file.h"
 #include "lambent/commands.h"
-#include "lambent/painter.h"
+#include "lambent/frame_renderer.h"
 #include "lambent/parse.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
@@ -19,17 +19,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Expected<void> render_picture(const RenderOptions& options, const World& world, Painter& painter,
-                              Json& stats) {
+Expected<void> render_picture(const RenderOptions& options, const World& world,
+                              FrameRenderer& renderer, Json& stats) {
   const Expected<Camera> camera = choose_camera(options.stage, world);
   if (!camera) return tl::unexpected(camera.error());
-  const Expected<LayeredImage> image = painter.paint(world, *camera, stats);
+  const Expected<LayeredImage> image = renderer.paint(world, *camera, stats);
   if (!image) return tl::unexpected(image.error());
   std::optional<float> stops;
   const auto done = write_output(options, *image, options.output, stops);
   if (!done || options.verify_samples == 0) return done;
-  if (world.on_device() == nullptr) return painter.verify(world, *camera, *image, stats);
-  return painter.verify(World(world.scene()), *camera, *image, stats);
+  if (world.on_device() == nullptr) return renderer.verify(world, *camera, *image, stats);
+  return renderer.verify(World(world.scene()), *camera, *image, stats);
 }
 
 /// The animation that the options name; -1: all of them.
@@ -84,10 +84,10 @@ Expected<void> render(const RenderOptions& options) {
   stats["build_ms"] = world.build_ms();
   stats["acceleration_structure_bytes"] = world.bytes();
 
-  Painter painter(options, *size);
+  FrameRenderer renderer(options, *size);
   const Expected<void> done =
-      options.frames > 0 ? render_sequence(options, *scene, *animation, world, painter, stats)
-                         : render_picture(options, world, painter, stats);
+      options.frames > 0 ? render_sequence(options, *scene, *animation, world, renderer, stats)
+                         : render_picture(options, world, renderer, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;

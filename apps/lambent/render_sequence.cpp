@@ -40,7 +40,8 @@ class InterruptGuard {
 }  // namespace
 
 Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation,
-                               World& world, Painter& painter, nlohmann::ordered_json& stats) {
+                               World& world, FrameRenderer& renderer,
+                               nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
@@ -69,7 +70,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["world_update_ms"] = changes->refit_ms;
     frame["moved_boxes"] = changes->moved.size();
     frame["changed_lights"] = changes->lights.size();
-    const Expected<LayeredImage> image = painter.paint(world, *camera, frame);
+    const Expected<LayeredImage> image = renderer.paint(world, *camera, frame);
     if (!image) return tl::unexpected(image.error());
     const auto done = write_output(options, *image, frame_path(options.output, i), stops);
     if (!done) return done;
