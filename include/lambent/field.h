@@ -149,7 +149,7 @@ struct UpdateRequest {
   std::optional<glm::vec3> viewer_ws = std::nullopt;
   /// Points that the camera sees (visible_points), some hundred to a few thousand: with a bound,
   /// probes go first by how much they matter to the light at these, near or far. Costs a lookup a
-  /// point and about half an iteration of reorientation. Empty: by their distance from the viewer.
+  /// point and about half an iteration of the solve. Empty: by their distance from the viewer.
   std::span<const FieldQuery> seen = {};
 };
 
@@ -228,7 +228,7 @@ class IrradianceField {
   int updates() const;
   /// Bytes that the store holds between updates, for all probes.
   std::size_t store_bytes() const;
-  /// Bytes of the last update's surfels, kept for reorientation.
+  /// Bytes of the last update's surfels, kept to solve for the light again.
   std::size_t surfel_bytes() const;
   /// The probes' store, and what else is known of each, for tools that look inside.
   const ProbeStore& store() const;

@@ -66,7 +66,8 @@ void IrradianceField::State::store_light(std::span<const int> probes) {
   });
 }
 
-/// What the groups' rays will count for.
+/// Computes how much the groups' rays will count: all history of n updates' worth of rays and w new
+/// ones blend with the weight w / (n + w), where n is limited by the hysteresis.
 TracedProbes IrradianceField::State::blend_weights_of(std::span<const TraceGroup> groups) const {
   const float longest = longest_average(settings);
   TracedProbes traced;
@@ -83,8 +84,8 @@ TracedProbes IrradianceField::State::blend_weights_of(std::span<const TraceGroup
   return traced;
 }
 
-/// Blends the distances that the groups' rays met into the store. `shares` are of all groups'
-/// probes.
+/// Blends the distances of the groups' hits into the store. The blend weights are one per probe,
+/// group after group.
 void IrradianceField::State::blend_in_distances(const Scene& scene,
                                                 std::span<const TraceGroup> groups,
                                                 std::span<const float> blend_weights) {
@@ -100,7 +101,7 @@ float IrradianceField::State::darkest() const {
   return kDarkShare * mean_light;
 }
 
-/// By how much the probes' light differs from what it was.
+/// Compares the light of some probes to their `history`.
 std::vector<LightChange> IrradianceField::State::light_changes(
     std::span<const int> probes, const WorkingIrradiance& history) const {
   const auto texels = static_cast<std::size_t>(tile_texels());
@@ -113,7 +114,8 @@ std::vector<LightChange> IrradianceField::State::light_changes(
   return changes;
 }
 
-/// Books what the probes' light says of their noise, and that they were served.
+/// Learns the noise of the traced probes from how much their light changed, counts their samples,
+/// and notes that they were traced in this update and at the world's revision.
 void IrradianceField::State::update_variability(const World& world, const TracedProbes& traced,
                                                 std::span<const LightChange> changes) {
   const float longest = longest_average(settings);
@@ -144,7 +146,8 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
                                    UpdateStatistics& statistics) {
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
-      // What woke before it followed an edit holds the average of another light
+      // A probe that woke before it was brought up to date holds an average of the light before the
+      // edit
       if (statuses[probe].revision != world.revision()) reset_history(probe, world.revision());
     }
   }
@@ -167,7 +170,7 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   statistics.shadow_rays += find_surfel_lookups(store, visibility(world), traced.probes, traces);
   statistics.shade_ms += watch.lap();
 
-  // Solve for all bounces, starting from the light that is there
+  // Solve for all bounces, starting from the light that the probes hold
   const TransportOperator to_these = transport(traced.probes);
   const WorkingIrradiance history = light_of(light, traced.probes, tile_texels());
   const SolveResult solved =
@@ -237,13 +240,14 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
                                           })
                        : probe_importance(s.store, request.seen, s.traces);
   }
-  const EditProgress followed = s.apply_scene_edits(world, budget, viewer_ws, statistics);
+  const EditProgress progress = s.apply_scene_edits(world, budget, viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
-  // Probes that wait to be held against edits would lose sight of them were they traced before
+  // Tracing is put off while stale probes are left: new surfels could no longer be compared with
+  // those from before the edits
   const bool trace =
-      followed != EditProgress::partial &&
-      (budget == 0 ? followed == EditProgress::none || s.applied_edits_last : spent < budget);
-  s.applied_edits_last = followed != EditProgress::none && !trace;
+      progress != EditProgress::partial &&
+      (budget == 0 ? progress == EditProgress::none || s.applied_edits_last : spent < budget);
+  s.applied_edits_last = progress != EditProgress::none && !trace;
   if (trace) {
     const auto update = static_cast<uint>(s.updates);
     s.scheduler.refresh(s.store, s.statuses);
@@ -255,14 +259,15 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   }
   s.scheduler.refresh(s.store, s.statuses);
   if (s.warming_up && s.scheduler.unserved() == 0) {
-    // Probes that were traced while others knew no light have only seen a part of its bounces
+    // Probes that were traced while others held no light yet have received a part of the bounces
+    // only
     if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);
     s.warming_up = false;
   }
   ++s.updates;
   statistics.states = s.scheduler.states();
-  // What tracing a probe ray costs, its shadow rays and all else included
-  if (trace && followed == EditProgress::none) {
+  // Learn the cost of a probe ray, with its shadow rays and everything else included
+  if (trace && progress == EditProgress::none) {
     s.ray_cost.learn(statistics.probe_rays, statistics.place_ms + watch.lap());
   }
   return statistics;

@@ -187,7 +187,7 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   store_light(pixels, row, first, ways);
 }
 
-/// reorientation (shared/reorient_irradiance.h), for lanes.
+/// reorientation() of shared/reorient_irradiance.h, for lanes.
 static void reorientable(const GatherRow& row) {
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes p;

@@ -189,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"small_distance_tile", "distance", [](S s) { s.distance_texels = 3; }},
         BadCase{"albedo_of_one", "albedo", [](S s) { s.max_albedo = 1.0f; }},
         BadCase{"no_tolerance", "tolerance", [](S s) { s.solve_tolerance = 0.0f; }},
-        BadCase{"no_relights", "solve_iterations", [](S s) { s.max_solve_iterations = 0; }},
+        BadCase{"no_iterations", "solve iterations", [](S s) { s.max_solve_iterations = 0; }},
         BadCase{"negative_bounces", "bounces", [](S s) { s.max_bounces = -2; }},
         BadCase{"no_emissive_samples", "emissive", [](S s) { s.emissive_samples = 0; }},
         BadCase{"infinite_lod_bias", "LOD", [](S s) { s.texture_lod_bias = kInfinity; }}),

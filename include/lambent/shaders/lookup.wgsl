@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for WebGPU, to be put before a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
-// A port of src/field/lookup/lookup.inl.h and of what it includes, where every constant has its reason.
+// A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
+// reason.
 // The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
 
 override irradiance_texels: i32 = 4;  // of a tile's edge, without gutter
@@ -146,8 +147,8 @@ fn field_irradiance(position_ws: vec3f, normal_ws: vec3f, to_viewer_ws: vec3f) -
     var volume_weight = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
     if v + 1u == volumes { volume_weight = 1.0; }  // the last volume answers for the rest
     if volume_weight <= 0.0 { continue; }
-    answer += volume_irradiance(grid, coords, volume_weight * (1.0 - answer.w), position_ws, normal_ws,
-                                to_viewer_ws);
+    answer += volume_irradiance(grid, coords, volume_weight * (1.0 - answer.w), position_ws,
+                                normal_ws, to_viewer_ws);
   }
   if answer.w <= 0.0 { return vec3f(0.0); }
   return answer.xyz / answer.w;

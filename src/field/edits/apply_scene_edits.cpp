@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of an update that follows edits of the world: exactly what they touch gets new light.
+// The part of an update that applies edits of the world: exactly the probes whose light an edit
+// changes get new light.
 //
-// What averaging knew better than the rays of one update is kept: with H the light that a probe
-// holds and T E what its last rays told of the light E that there was, each texel is corrected by
-// the gain g = H / (T E). After the edit the light solves
+// What averaging has gained over the rays of a single update is kept. Let H be the light that a
+// probe holds, and T E the estimate of its last rays from the light E of all probes at that time.
+// Each texel has the history ratio g = H / (T E). After the edit, with the new transport T_new, the
+// light solves
 //   +---------------------------+
 //   |  E_new = g (T_new E_new)  |
 //   +---------------------------+
-// Where nothing changed that is H itself; where all light became k times as bright, k H; where it
-// went out, 0; and nowhere has it more noise than the change itself. T E is remembered when the
-// light is solved for, so that g holds however long a probe has waited to follow.
+// Where nothing changed, the solution is H itself; where all light became k times as bright, it is
+// k H; where the light went out, it is 0; and nowhere is there more noise than in the change
+// itself. T E is stored when the light is solved for, so that g is right however long a probe stays
+// stale.
 //
-// Sleeping probes light open air alone: surfels of others do not read them. They follow after the
-// others have been solved for, some in each update.
+// Sleeping probes light open air only, and no surfel reads them. They are brought up to date after
+// the others have been solved for, some in each update.
 #include <algorithm>
 #include <iterator>
 #include <limits>
@@ -29,24 +32,25 @@
 namespace lambent {
 namespace {
 
-// Light that edits changed by less than this share of a probe's is not worth losing history for:
-// half of what can be seen.
+// A probe whose light an edit changes by less than this fraction keeps its old light and its
+// history. It is half of the smallest visible difference.
 constexpr float kChangedFraction = 0.005f;
 
-// Holding a probe's surfels against edits costs about as much as tracing so many rays, even where
-// nothing need be traced.
+// Testing a probe's surfels against edits costs about as much as tracing this many rays, even where
+// nothing has to be traced.
 constexpr std::uint64_t kRaysPerInvalidation = 8;
 
-// An update brings one in so many of the sleeping probes up to date, so that open air lags behind
-// an edit by no more updates than that, and edits in every update cost little more.
+// An update brings one in this many of the stale sleeping probes up to date. Open air lags behind
+// an edit by at most as many updates, and a scene that is edited in every update costs little more.
 constexpr std::size_t kSleepingSlices = 8;
 
-// Edits after which a probe that has not followed goes before all that have.
+// A probe that lags behind the world by more revisions than this is brought up to date before all
+// others.
 constexpr std::uint64_t kOverdueRevisions = 16;
 
 constexpr std::size_t kProbesPerTask = 64;
 
-/// Luminance that a probe's rays bring back of direct light and the sky, added up.
+/// The luminance of the direct and sky light that a probe's rays bring back, summed over the rays.
 double direct_light_of(const ProbeTrace& trace) {
   double sum = 0.0;
   for (const Surfel& surfel : trace.surfels) {
@@ -66,27 +70,27 @@ std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
   return light;
 }
 
-/// The oldest revision of the world after which it still knows what changed.
+/// The oldest revision for which the world's log still tells all later changes.
 std::uint64_t oldest_known_revision(const World& world) {
   const std::uint64_t revision = world.revision();
   const std::uint64_t reach = std::min<std::uint64_t>(revision, World::kLogLength);
   return revision - reach;
 }
 
-/// Some of the probes that know an older world.
+/// Some stale probes that are brought up to date together.
 struct Slice {
   std::vector<int> probes;
-  std::uint64_t oldest = 0;  ///< Revision that any of them knows.
+  std::uint64_t oldest = 0;  ///< The oldest revision that any of them is up to date with.
 };
 
-/// The first waiting probes, with at most so many surfels but at least one probe.
+/// Takes the first waiting probes: at least one, and no more than have `most_surfels` in all.
 Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
                  std::span<const ProbeStatus> statuses, std::uint64_t most_surfels) {
   Slice slice;
   slice.oldest = statuses[waiting.front()].revision;
   std::uint64_t surfels = 0;
   for (const int probe : waiting) {
-    // One that moved to a new place has forgotten its rays
+    // A probe that was relocated has no surfels
     if (traces[probe].rays) surfels += static_cast<std::uint64_t>(traces[probe].rays->rays());
     if (surfels > most_surfels && !slice.probes.empty()) break;
     slice.probes.push_back(probe);
@@ -101,8 +105,8 @@ std::vector<double> IrradianceField::State::direct_light(std::span<const int> pr
   return device ? device->direct_light(probes) : direct_light_of(traces, probes);
 }
 
-/// Brings surfels and distances up to date with the world. On a device rays are cheap and finding
-/// out which may differ is not: all are traced again.
+/// Brings surfels and distances up to date with the world. On a device, tracing all rays again is
+/// cheaper than finding out which of them may have changed.
 InvalidationResult IrradianceField::State::update_stale_surfels(
     const World& world, std::span<const WorldChanges> changes, std::span<const int> probes,
     std::span<const int> all) {
@@ -115,8 +119,8 @@ InvalidationResult IrradianceField::State::update_stale_surfels(
   return {traced.probe_rays, traced.shadow_rays, {}};
 }
 
-/// Follows the edits with one slice of the probes. Their light becomes as much brighter as direct
-/// light did, which is where the solution starts from.
+/// Brings one slice of the probes up to date. Scales their light by the ratio in which direct light
+/// became brighter, which gives the solve a good start.
 void IrradianceField::State::apply_edits_to_slice(const World& world,
                                                   std::span<const WorldChanges> changes,
                                                   std::span<const int> probes,
@@ -126,9 +130,9 @@ void IrradianceField::State::apply_edits_to_slice(const World& world,
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
   if (shapes_differ) statistics.shadow_rays += update_cell_visibility(world, probes);
-  const InvalidationResult followed = update_stale_surfels(world, changes, probes, all);
-  statistics.probe_rays += followed.probe_rays;
-  statistics.shadow_rays += followed.shadow_rays;
+  const InvalidationResult result = update_stale_surfels(world, changes, probes, all);
+  statistics.probe_rays += result.probe_rays;
+  statistics.shadow_rays += result.shadow_rays;
   statistics.probes_invalidated += static_cast<int>(probes.size());
 
   const std::vector<double> direct_after = direct_light(probes);
@@ -159,7 +163,7 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
                           stale_sleeping.begin() + static_cast<std::ptrdiff_t>(count));
   stale_sleeping.erase(stale_sleeping.begin(),
                        stale_sleeping.begin() + static_cast<std::ptrdiff_t>(probes.size()));
-  // Those that woke meanwhile have been traced
+  // Probes that woke up meanwhile have been traced since
   std::erase_if(probes, [&](int probe) { return statuses[probe].revision == world.revision(); });
   if (probes.empty()) return;
   std::sort(probes.begin(), probes.end());
@@ -170,7 +174,7 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, statistics);
   statistics.edits_ms += watch.lap();
 
-  // No surfel that matters reads them: to send the light of the others to them once is enough
+  // No surfel that matters reads sleeping probes, so that one iteration solves for their light
   SolveSettings once = solve_settings();
   once.max_iterations = 1;
   const std::vector<float> blend_weights(probes.size(), 1.0f);
@@ -180,8 +184,8 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   statistics.solve_ms += watch.lap();
 }
 
-/// Stores what was solved for where it differs from the light before; the others keep theirs to the
-/// bit. Returns how many differ.
+/// Stores the solution for probes whose light differs visibly from the light before. The others get
+/// their old light back, bit by bit. Returns the number of probes that differ.
 int IrradianceField::State::store_edited_light(std::span<const int> probes,
                                                const WorkingIrradiance& before,
                                                const SolveResult& solved,
@@ -193,7 +197,7 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
     vec4* now = &light[probe * texels];
     const TileLight held(&before[k * texels], texels), found(now, texels);
     if (relative_square(found, held) < kChangedFraction * kChangedFraction) {
-      // What the rays told stays, too: changes too small to be seen add up
+      // The last estimate stays as well, so that several changes too small to be seen add up
       std::copy(held.begin(), held.end(), now);
       continue;
     }
@@ -208,7 +212,7 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
   return static_cast<int>(touched.size());
 }
 
-/// Solves for the light of all that have followed the edits so far.
+/// Solves for the light of all probes that the pending edits have reached so far.
 void IrradianceField::State::solve_edited(UpdateStatistics& statistics) {
   const int texels = tile_texels();
   const WorkingIrradiance before = light_of(pending_edits.before, pending_edits.updated, texels);
@@ -227,7 +231,8 @@ void IrradianceField::State::solve_edited(UpdateStatistics& statistics) {
   statistics.change = whole > 0.0 ? norm(change) / whole : 0.0;
 }
 
-/// Finds the probes that know an older world. Those that cannot follow start their average anew.
+/// Finds the probes whose surfels belong to an older revision. Those that cannot be brought up to
+/// date start their average again.
 StaleProbes IrradianceField::State::find_stale_probes(const World& world) {
   const std::uint64_t revision = world.revision();
   const std::uint64_t oldest = oldest_known_revision(world);
@@ -237,42 +242,41 @@ StaleProbes IrradianceField::State::find_stale_probes(const World& world) {
     const bool traced = traces[probe].rays != nullptr;
     if (traced) stale.traced.push_back(probe);
     if (status.revision == revision) continue;
-    // A later revision than the world's is of another object of the class
-    const bool told_of = status.revision >= oldest && status.revision < revision;
-    if (traced && told_of && settings.max_bounces < 0) {
+    // A revision later than the world's comes from another World object
+    const bool is_in_log = status.revision >= oldest && status.revision < revision;
+    if (traced && is_in_log && settings.max_bounces < 0) {
       const bool sleeps = status.state == ProbeState::sleeping;
       (sleeps ? stale.sleeping : stale.waiting).push_back(probe);
     } else {
-      // Without surfels to hold against edits, after more of them than the world remembers, or
-      // where bounces are counted, what was averaged is of the past
+      // The average is lost without surfels to compare, after more edits than the world's log
+      // holds, and where bounces are counted
       reset_history(probe, revision);
     }
   }
   return stale;
 }
 
-/// Takes from the averages of the probes that followed the open edits what they are no longer
-/// worth.
+/// Lowers the sample counts of probes whose light the pending edits changed.
 void IrradianceField::State::reduce_history() {
   const auto texels = static_cast<std::size_t>(tile_texels());
   for (const int probe : pending_edits.updated) {
     const TileLight held(&pending_edits.before[probe * texels], texels),
         found(&light[probe * texels], texels);
     if (relative_square(found, held) < kChangedFraction * kChangedFraction) continue;
-    // The less, the more the light changed
+    // The more the distribution of the light changed, the fewer samples the average is worth
     const float kept = likeness(found, held);
     statuses[probe].samples = max(statuses[probe].samples * kept * kept, 1.0f);
     scheduler.mark_changed(probe);
   }
 }
 
-/// Remembers the light before the edits, while light and rays are of one world.
+/// Keeps the light before the edits, while light and surfels still belong to the same world.
 void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const int> traced) {
   if (!pending_edits.before.empty() && pending_edits.revision == revision) return;
   if (pending_edits.before.empty()) {
     refine_last_estimates(traced);
   } else {
-    // Those that followed the edits before this one hold averages of another light
+    // The averages of probes that earlier edits changed are of the light before those edits
     reduce_history();
   }
   pending_edits.before = light;
@@ -281,8 +285,8 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
   pending_edits.revision = revision;
 }
 
-/// Follows in slices until the budget is spent: how many rays a slice takes is known afterwards.
-/// Takes those that followed out of `behind.waiting`.
+/// Brings waiting probes up to date, slice by slice, until the budget is spent. It works in slices
+/// because the number of rays that a slice takes is known only afterwards.
 void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint64_t ray_budget,
                                                    StaleProbes& stale,
                                                    UpdateStatistics& statistics) {
@@ -290,7 +294,7 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
   const auto texels = static_cast<std::size_t>(tile_texels());
   const std::uint64_t most =
       ray_budget == 0 ? std::numeric_limits<std::uint64_t>::max() : ray_budget;
-  std::vector<int> followed;
+  std::vector<int> updated;
   std::uint64_t spent = 0;
   while (!stale.waiting.empty() && spent < most) {
     const Slice slice = next_slice(stale.waiting, traces, statuses, most - spent);
@@ -305,13 +309,13 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
     statistics.edits_ms += watch.lap();
     stale.waiting.erase(stale.waiting.begin(),
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
-    followed.insert(followed.end(), slice.probes.begin(), slice.probes.end());
-    spent = statistics.probe_rays + statistics.shadow_rays + kRaysPerInvalidation * followed.size();
+    updated.insert(updated.end(), slice.probes.begin(), slice.probes.end());
+    spent = statistics.probe_rays + statistics.shadow_rays + kRaysPerInvalidation * updated.size();
   }
-  std::sort(followed.begin(), followed.end());
+  std::sort(updated.begin(), updated.end());
   std::vector<int> merged;
-  std::merge(pending_edits.updated.begin(), pending_edits.updated.end(), followed.begin(),
-             followed.end(), std::back_inserter(merged));
+  std::merge(pending_edits.updated.begin(), pending_edits.updated.end(), updated.begin(),
+             updated.end(), std::back_inserter(merged));
   pending_edits.updated = std::move(merged);
 }
 
@@ -322,7 +326,7 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
   const std::uint64_t revision = world.revision();
   if (applied_revision == revision && stale_sleeping.empty()) return EditProgress::none;
   if (applied_revision > revision) {
-    // Of another object of the class: what these probes know cannot be told from what it knows
+    // The world is another object than before, and its log says nothing about these probes
     for (const int probe : stale_sleeping) reset_history(probe, revision);
     stale_sleeping.clear();
   }
@@ -352,8 +356,8 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
   return any ? EditProgress::complete : EditProgress::none;
 }
 
-/// Under a budget, probes far behind come first, so that edits without end leave none behind; then
-/// those that matter to what is seen, or near ones.
+/// Under a budget, overdue probes come first, so that a world that is edited without end leaves
+/// none stale for ever. Then come probes by their importance, or by their distance from the viewer.
 void IrradianceField::State::order_stale_probes(std::vector<int>& waiting, std::uint64_t ray_budget,
                                                 const std::optional<vec3>& viewer_ws,
                                                 std::uint64_t revision) const {
@@ -371,7 +375,7 @@ void IrradianceField::State::order_stale_probes(std::vector<int>& waiting, std::
   std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) { return rank[a] < rank[b]; });
 }
 
-/// Has a probe start its average anew.
+/// Lets a probe start its average again.
 void IrradianceField::State::reset_history(int probe, std::uint64_t revision) {
   statuses[probe].samples = 0.0f;
   statuses[probe].revision = revision;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the last rays of probes told of the light on their own, and by how much their averages know
-// better: the gain that following an edit keeps (update_edits.cpp).
+// The ratio of the averaged light of probes to what their last rays alone estimate. Edits keep this
+// ratio (apply_scene_edits.cpp), so that they do not lose what averaging has gained.
 #include <algorithm>
 
 #include "field/field_state.h"
@@ -9,11 +9,11 @@
 namespace lambent {
 namespace {
 
-// What one update's rays tell of a probe is not off by more than this factor, or they met nothing
-// worth correcting.
+// The estimate of one update's rays is corrected by at most this factor. Where it is further off,
+// the rays met too little light for a correction to make sense.
 constexpr float kMaxHistoryRatio = 2.0f;
 
-/// What `told` must be multiplied by to give `held`, within bounds.
+/// The factor that turns the last estimate into what the probe holds, clamped to the bounds above.
 vec4 history_ratio_between(const vec4& last_irradiance_estimate, const vec4& held) {
   vec4 history_ratio(1.0f);
   for (int c = 0; c < 3; ++c) {
@@ -26,7 +26,7 @@ vec4 history_ratio_between(const vec4& last_irradiance_estimate, const vec4& hel
 
 }  // namespace
 
-/// By how much averaging corrects what the probes' last rays told.
+/// Computes by which factor averaging corrects each texel of the probes' last estimates.
 WorkingIrradiance IrradianceField::State::history_ratio_of(std::span<const int> probes) const {
   const int texels = tile_texels();
   WorkingIrradiance history_ratio = light_of(light, probes, texels);
@@ -36,7 +36,7 @@ WorkingIrradiance IrradianceField::State::history_ratio_of(std::span<const int> 
   return history_ratio;
 }
 
-/// Remembers what the probes' rays told when their light was solved for without a gain.
+/// Stores the solution of a solve without history ratio as the probes' last estimates.
 void IrradianceField::State::store_last_estimates(std::span<const int> probes,
                                                   const WorkingIrradiance& solution) {
   const auto texels = static_cast<std::size_t>(tile_texels());
@@ -46,9 +46,10 @@ void IrradianceField::State::store_last_estimates(std::span<const int> probes,
   }
 }
 
-/// Computes what the rays of probes traced since the last edit tell of the light as it is held:
-/// where it is dark, the solution's error is more than what edits are held to touch. Others keep
-/// what they told, lest changes too small to be seen be lost.
+/// Computes the last estimates of probes that were traced since the last edit again, from the light
+/// that all probes hold now. In dark places the error of the solve that they come from is larger
+/// than the changes by edits that must be noticed. Other probes keep their estimates: otherwise a
+/// sequence of changes, each too small to be seen, would be lost.
 void IrradianceField::State::refine_last_estimates(std::span<const int> probes) {
   std::vector<int> rough;
   for (const int probe : probes) {

@@ -18,10 +18,11 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 8;
 
-// Boxes grow by this share of their size, so that rounding in what stands on their faces is within.
+// Boxes are enlarged by this fraction of their size, so that surfaces on their faces stay inside
+// despite rounding.
 constexpr float kBoxSlack = 1e-4f;
 
-/// All that some edits name, in the form in which rays and surfels are held against it.
+/// Everything that some edits name, in the form in which rays and surfels are tested against it.
 struct Edits {
   Edits(const World& world, std::span<const WorldChanges> changes) {
     std::vector<std::uint8_t> differs(world.scene().materials.size(), 0);
@@ -42,19 +43,19 @@ struct Edits {
   }
 
   Boxes boxes;
-  std::vector<Light> lights;            // as they were and as they are
-  std::vector<std::uint8_t> materials;  // 1: differs
+  std::vector<Light> lights;            // edited lights, both before and after the edit
+  std::vector<std::uint8_t> materials;  // one per material of the scene; 1 where it was edited
   bool emission = false;
   bool sky = false;
 };
 
-/// Whether a light sends anything to a surfel if nothing is in the way.
+/// Whether an unoccluded light would illuminate a surfel.
 bool reaches(const Light& light, const LitPoint& point, PunctualSample& sample) {
   sample = sample_punctual(light, point.position_ws);
   return sample.irradiance != vec3(0.0f) && dot(point.normal_ws, sample.to_light) > 0.0f;
 }
 
-/// Whether the edits may have changed the direct light at a surfel.
+/// Whether the edits may have changed the direct light at a surfel. Errs on the side of yes.
 bool may_change_light(const World& world, const Edits& edits, const LitPoint& point) {
   if (edits.emission) return true;
   PunctualSample sample;
@@ -68,7 +69,7 @@ bool may_change_light(const World& world, const Edits& edits, const LitPoint& po
       return true;
     }
   }
-  // Light of a surface comes from somewhere between the point and the surface's box
+  // Light from an emissive surface crosses the hull of the point and the surface's box
   for (Bounds shaft : world.emissive().bounds()) {
     shaft.add(point.position_ws);
     if (edits.boxes.overlapped_by(shaft)) return true;
@@ -76,7 +77,7 @@ bool may_change_light(const World& world, const Edits& edits, const LitPoint& po
   return false;
 }
 
-/// Works on one probe at a time; one for each task.
+/// Brings the surfels of one probe after another up to date. Each task has its own.
 class SurfelInvalidation {
  public:
   SurfelInvalidation(const World& world, const Edits& edits, const FieldSettings& settings)
@@ -84,11 +85,12 @@ class SurfelInvalidation {
 
   std::uint64_t probe_rays = 0, shadow_rays = 0;
 
-  /// Finds anew what the edits may have changed. Tells what did besides light.
+  /// What changed at a probe besides the light of its surfels.
   struct Outcome {
-    bool other_surfaces = false;  // what rays met reads the field in another way
-    bool moved = false;           // rays met something else
+    bool other_surfaces = false;  // some surfels now need other lookups
+    bool moved = false;           // some rays have other hits, so that distances changed
   };
+  /// Traces and shades again what the edits may have changed.
   Outcome update_probe(int probe, const vec3& origin, ProbeTrace& trace) {
     Outcome outcome;
     retraced_.assign(trace.surfels.size(), 0);
@@ -111,7 +113,7 @@ class SurfelInvalidation {
   std::vector<vec3> direct_;
 };
 
-/// Traces those rays again that may meet something else.
+/// Traces the rays again whose hits the edits may have changed.
 void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trace,
                                  Outcome& outcome) {
   ShadeHitsSettings shading = surfel_shading(settings_, *trace.rays);
@@ -137,7 +139,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     if (found == surfel) continue;
     const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind;
     outcome.moved = outcome.moved || moved;
-    // ... of which some read other probes, or along other directions
+    // Lookups depend on the position, the normal, and whether the surfel reflects the field's light
     outcome.other_surfaces =
         outcome.other_surfaces || moved || found.normal_ws != surfel.normal_ws ||
         found.receives_gi != surfel.receives_gi || found.reflects() != surfel.reflects();
@@ -145,7 +147,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
   }
 }
 
-/// Asks again for the direct light of surfels that may have another.
+/// Shades the direct light of surfels again that the edits may have changed.
 void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
   queries_.clear();
   places_.clear();
@@ -166,7 +168,7 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
   }
 }
 
-/// What a probe's rays see, from its surfels.
+/// Computes the distances that a probe's rays saw from its surfels.
 void seen_distances(const ProbeTrace& trace, const vec3& origin, std::vector<SeenDistance>& seen) {
   seen.resize(trace.surfels.size());
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
@@ -181,13 +183,13 @@ bool all_zero(std::span<const vec2> moments) {
   return std::all_of(moments.begin(), moments.end(), [](const vec2& m) { return m == vec2(0.0f); });
 }
 
-/// Moves a probe's stored moments by as much as those of its rays changed. The average of many
-/// updates knows more than the rays of one: it keeps what the edit did not change.
+/// Moves a probe's stored moments by as much as the moments of its rays changed. The stored moments
+/// average the rays of many updates; moving them keeps what the edit did not change.
 void move_moments(int probe, std::span<const vec2> before, std::span<const vec2> after,
                   uint dither_seed, ProbeStore& store) {
   const int edge = store.distance_texels();
   std::vector<vec2> moments(after.begin(), after.end());
-  // A probe that came out of solid matter or went into it knows nothing worth keeping
+  // The history of a probe that came out of geometry, or went into it, is not worth keeping
   if (!all_zero(before) && !all_zero(after)) {
     for (std::size_t t = 0; t < moments.size(); ++t) {
       const ivec2 texel(static_cast<int>(t) % edge, static_cast<int>(t) / edge);
@@ -199,13 +201,13 @@ void move_moments(int probe, std::span<const vec2> before, std::span<const vec2>
   store.blend_moments(probe, moments, 1.0f, dither_seed);
 }
 
-/// A probe that sees other distances than before, and those before.
+/// A probe whose rays have other distances than before, and the distances before.
 struct MovedProbe {
   int probe;
   std::vector<SeenDistance> before;
 };
 
-/// What became of some probes.
+/// The results of one task.
 struct Part {
   std::uint64_t probe_rays = 0, shadow_rays = 0;
   std::vector<int> other_surfaces;
@@ -213,10 +215,10 @@ struct Part {
   std::vector<SeenDistance> seen;  // scratch
 };
 
-/// Stores what the moved probes see now.
+/// Stores the new distances of the moved probes.
 void move_distances(const FieldSettings& settings, std::span<const MovedProbe> moved,
                     std::span<const ProbeTrace> traces, uint dither_seed, ProbeStore& store) {
-  // Probes traced together share the weights of their rays
+  // Probes that were traced together share one matrix of ray weights
   std::map<const RaySet*, std::unique_ptr<const DistanceBlend>> blends;
   for (const MovedProbe& probe : moved) {
     const RaySet* rays = traces[probe.probe].rays.get();
@@ -277,8 +279,8 @@ InvalidationResult invalidate_surfels(const World& world, std::span<const WorldC
   move_distances(settings, moved, traces, dither_seed, store);
   for (const MovedProbe& probe : moved) result.moved.push_back(probe.probe);
   if (!other_surfaces.empty()) {
-    // Lookups may differ where rays met something else, and where a probe that they read sees other
-    // distances
+    // Lookups may change at probes with other hits, and at probes whose surfels read a probe with
+    // other distances
     std::sort(other_surfaces.begin(), other_surfaces.end());
     const std::vector<int> readers = probes_reading(result.moved, all, store, traces);
     std::vector<int> asking;

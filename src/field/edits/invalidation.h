@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an edit of the world does to probes: which rays now meet something else, which surfels see
-// another light, and which probes see those surfels.
+// Invalidation: which probe rays and surfels an edit of the world affects.
 //
-// An edit names boxes in which geometry stood or stands, lights as they were and are, and
-// materials. Only what these can reach is looked at again, with the very rays and random numbers
-// that found it, so that what the edit does not touch keeps its bits.
+// An edit names the boxes in which geometry was and is, the lights as they were and are, and the
+// materials that differ. Only rays and surfels that these can affect are traced and shaded again.
+// They use the same ray directions and random numbers as before, so that whatever the edit does not
+// affect keeps its exact bits.
 #pragma once
 
 #include <cstdint>
@@ -17,16 +17,18 @@
 
 namespace lambent {
 
+/// What bringing probes up to date took and changed.
 struct InvalidationResult {
-  std::uint64_t probe_rays = 0;   ///< Traced again.
-  std::uint64_t shadow_rays = 0;  ///< Likewise.
-  std::vector<int> moved;         ///< Probes that see other distances, in the order asked for.
+  std::uint64_t probe_rays = 0;   ///< Probe rays traced again.
+  std::uint64_t shadow_rays = 0;  ///< Shadow and visibility rays traced.
+  std::vector<int>
+      moved;  ///< Probes whose rays now have other distances, in the order of `probes`.
 };
 
-/// Brings the surfels of `probes`, which have been traced, and their stored distances up to date
-/// with the world. `changes` tell what may differ from the world that the surfels were found in;
-/// more than that does no harm. Lookups of `all` traced probes' surfels follow where the distances
-/// of a probe that they read changed.
+/// Brings the surfels and stored distances of `probes`, which have been traced, up to date with the
+/// world. `changes` name everything that may differ from the world in which the surfels were found;
+/// naming more does no harm. Where the distances of a probe changed, the lookups of those surfels
+/// of `all` traced probes that read it are found again.
 InvalidationResult invalidate_surfels(const World& world, std::span<const WorldChanges> changes,
                                       const FieldSettings& settings, std::span<const int> probes,
                                       std::span<const int> all, const VisibilityRays& by,

@@ -10,7 +10,8 @@
 namespace lambent {
 namespace {
 
-// Small batches keep the weights between the two kernels in the first-level cache.
+// Queries per batch: few enough that the weights stay in the first-level cache between the two
+// kernels.
 constexpr std::size_t kBatch = 256;
 
 bool knows_nothing(const CornerWeights& corners) {
@@ -18,7 +19,8 @@ bool knows_nothing(const CornerWeights& corners) {
                      [](float weight) { return weight == 0.0f; });
 }
 
-/// Many volumes: asks each for the queries that it has a share in.
+/// The weights in a field of several volumes: looks up each volume for the queries in which it has
+/// a weight.
 std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
                            std::span<const FieldQuery> queries, QueryWeights& result) {
   result.corners.clear();
@@ -46,7 +48,7 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
     corners.resize(asking.size());
     traced += visible_corner_weights(store, volume, by, asking, corners);
     for (std::size_t k = 0; k < asking.size(); ++k) {
-      // Where the volume knows nothing, coarser ones answer for it
+      // Where no probe of this volume is visible, the next volumes take its weight
       if (knows_nothing(corners[k])) continue;
       const float volume_weight = left[which[k]] * volume_weights[k];
       left[which[k]] -= volume_weight;
@@ -55,7 +57,7 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
       result.query.push_back(which[k]);
     }
   }
-  // Where it is the last that knows nothing, those before answer for all
+  // Where no probe of the last volume is visible, scale up the weights of the volumes before it
   for (std::size_t k = 0; k < result.corners.size(); ++k) {
     const float unanswered = left[result.query[k]];
     if (unanswered <= kNothingLeft) continue;

@@ -23,20 +23,20 @@ std::uint64_t sight(int corner, int other) {
   return std::uint64_t{1} << visibility_bit(corner, other);
 }
 
-/// A ray that decides whether a corner counts.
+/// Names the query and the corner that a visibility ray tests.
 struct Question {
   std::size_t query;
   int corner;
 };
 
-/// Rays of a batch of lookups, gathered to be traced together.
+/// Collects the visibility rays of a batch of lookups, to trace them together.
 class CornerRays {
  public:
   CornerRays(const ProbeStore& store, int volume)
       : store_(store), spacing_min_(smallest_spacing(store.grid(volume))) {}
 
-  /// Asks whether the corner is seen from the point where its distances are asked, which is off the
-  /// surface: a ray along it meets no rounding error.
+  /// Adds a ray from the biased position of a query to a corner. The biased position is off the
+  /// surface, so that rounding cannot make the ray hit the surface itself.
   void ask(const FieldQuery& query, int base, std::uint32_t table, std::size_t index, int corner) {
     const vec3 start =
         biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
@@ -45,7 +45,8 @@ class CornerRays {
     tests_.push_back({index, corner});
   }
 
-  /// Calls hidden(question) for every corner that is not seen.
+  /// Traces the rays and calls hidden(test) for every corner that is occluded. Returns their
+  /// number.
   template <class Hidden>
   std::uint64_t answer(const RayTracer& tracer, Hidden hidden) {
     occluded_.resize(rays_.size());
@@ -64,7 +65,7 @@ class CornerRays {
   std::vector<std::uint8_t> occluded_;
 };
 
-/// A ray to each corner that could count.
+/// Exact visibility: traces a ray to each corner that could count.
 std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer& tracer,
                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   CornerRays rays(store, volume);
@@ -81,7 +82,7 @@ std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer
   const std::uint64_t traced =
       rays.answer(tracer, [&](const Question& q) { seen[q.query].weight[q.corner] = 0.0f; });
 
-  // Where no probe is seen, distances decide
+  // Where no probe is visible, use the weights by distances
   corner_weights(store, volume, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (scale_weights(seen[i], 1.0f) != 0) result[i] = seen[i];
@@ -89,7 +90,8 @@ std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer
   return traced;
 }
 
-/// Distances, checked where the probe that matters most does not see another that matters.
+/// Hybrid visibility: weights by distances, tested with rays where the heaviest corner of a cell
+/// does not see another corner that counts.
 std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                              std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   corner_weights(store, volume, queries, result);
@@ -111,7 +113,7 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
   const std::uint64_t traced = rays.answer(*by.tracer, [&](const Question& question) {
     result[question.query].weight[question.corner] = 0.0f;
   });
-  // The most important corner always remains
+  // The heaviest corner always keeps its weight, so that a sum remains
   for (const std::size_t i : checked) scale_weights(result[i], 1.0f);
   return traced;
 }
@@ -131,7 +133,7 @@ std::uint64_t CellVisibility::update(const RayTracer& tracer, const ProbeStore& 
     for (const int base : probes.subspan(begin, end - begin)) {
       const int volume = store.volume_of(base);
       const ProbeGrid& grid = store.grid(volume);
-      // The last probes of a row are no cell's lowest
+      // The last probe of a row is not the lowest corner of any cell
       const ivec3 coords = probe_coords(grid, base);
       if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
       const CornerOffsets& offsets = store.corner_table()[static_cast<std::size_t>(

@@ -11,8 +11,8 @@
 namespace lambent {
 namespace {
 
-// Surfaces this share of a cell beyond the eight cells count, too: points on them are clamped into
-// the grid or have a neighbour's rounding.
+// Surfaces up to this fraction of a cell beyond the eight cells count, too: points on them are
+// clamped into the grid, or rounding puts them into a neighbouring cell.
 constexpr float kCellSlack = 1e-3f;
 
 bool is_vigilant(ProbeState state) {
@@ -28,19 +28,19 @@ bool is_awake(ProbeState state) {
 ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits,
                                          const vec3& position, const vec3& home,
                                          const vec3& spacing) {
-  ClassificationInput reach;
-  reach.inside_geometry = inside_geometry(fixed_hits);
+  ClassificationInput input;
+  input.inside_geometry = inside_geometry(fixed_hits);
   for (const FixedRayHit& hit : fixed_hits) {
     if (missed(hit)) continue;
     const vec3 cells = abs((position + hit.distance * hit.direction - home) / spacing);
-    if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kCellSlack) reach.lights_surface = true;
+    if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kCellSlack) input.lights_surface = true;
   }
-  return reach;
+  return input;
 }
 
-ProbeState next_state(ProbeState before, const ClassificationInput& reach, bool near_moving) {
-  if (reach.inside_geometry) return ProbeState::off;
-  if (reach.lights_surface) {
+ProbeState next_state(ProbeState before, const ClassificationInput& input, bool near_moving) {
+  if (input.inside_geometry) return ProbeState::off;
+  if (input.lights_surface) {
     return is_vigilant(before) ? before : ProbeState::newly_vigilant;
   }
   if (near_moving) return is_awake(before) ? before : ProbeState::newly_awake;
@@ -55,27 +55,28 @@ ProbeState state_once_traced(ProbeState state) {
 
 namespace {
 
-/// Where probes belong that may light something in a box: around a place in a grid, in cells.
+/// The grid coordinates of the probes that may light something in a box: those no farther from
+/// `middle` than `reach` along each axis [cells].
 struct LitCells {
   vec3 middle, reach;
 
   LitCells(const Bounds& box, const ProbeGrid& grid) {
     const vec3 half = 0.5f * (box.max - box.min);
     middle = grid_coords(grid, box.min + half);
-    // A box along the grid's axes around the box
+    // Enclose the box in one along the grid's axes
     const mat3 turn(abs(grid.axes[0]), abs(grid.axes[1]), abs(grid.axes[2]));
     const float bias = kBiasScale * kBias * smallest_spacing(grid);
     reach = (half * turn + bias) / grid.spacing + 1.0f;
   }
 };
 
-void classify_probe(const ProbeStore& store, const ClassificationInput& reach,
+void classify_probe(const ProbeStore& store, const ClassificationInput& input,
                     std::span<const Bounds> moving, int probe, ProbeStatus& status) {
   const ProbeGrid& grid = store.grid_of(probe);
   const vec3 home = store.probe_home_ws(probe);
   const bool near_moving = std::any_of(moving.begin(), moving.end(),
                                        [&](const Bounds& b) { return may_light(b, home, grid); });
-  status.state = next_state(status.state, reach, near_moving);
+  status.state = next_state(status.state, input, near_moving);
 }
 
 }  // namespace
@@ -102,7 +103,7 @@ std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store
   std::vector<int> changed;
   if (box.empty()) return changed;
   for (const ProbeGrid& grid : store.grids()) {
-    // A probe more on each side, for rounding; the probe's own test decides
+    // Visit one probe more on each side, for rounding; may_light() decides about each
     const LitCells cells(box, grid);
     const vec3 reach = cells.reach + 1.0f, last(grid.count - 1);
     const ivec3 low(clamp(cells.middle - reach, vec3(0.0f), last));

@@ -25,7 +25,7 @@ ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits
 
 /// What a probe turns into. `near_moving`: something that moves may ask it for light. A state that
 /// is new to the probe is a newly_* one until it has been traced.
-ProbeState next_state(ProbeState before, const ClassificationInput& reach, bool near_moving);
+ProbeState next_state(ProbeState before, const ClassificationInput& input, bool near_moving);
 
 /// The state of a probe once it has been traced.
 ProbeState state_once_traced(ProbeState state);

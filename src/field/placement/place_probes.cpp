@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a field's probes stand and what they are for: relocation and classification.
+// The parts of an update that relocate and classify probes.
 #include <algorithm>
 #include <iterator>
 #include <utility>
@@ -16,11 +16,12 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-// Updates without an edit after which a place counts as at rest: what an engine moves every frame
-// without calling it dynamic must not have probes hop about.
+// Probes near edited static geometry are relocated after this many updates without another edit
+// there. An instance that an engine moves every frame without calling it dynamic must not make
+// probes jump about.
 constexpr int kRestUpdates = 8;
 
-// Everywhere, to within what a cell's size can be added to.
+// A box around everything [m]: large, but small enough that adding a cell's size is exact enough.
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
@@ -31,7 +32,8 @@ std::vector<int> IrradianceField::State::place_probes(const World& world,
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
   std::vector<int> moved;
   if (settings.relocation) {
-    // From the grid, so that where probes come to stand depends on the scene alone
+    // Start on the grid, so that the result depends on the scene only, not on where probes stood
+    // before
     const std::vector<uint> before(store.offset_words().begin(), store.offset_words().end());
     for (const int probe : probes) store.set_probe_offset(probe, vec3(0.0f));
     relocate_probes(world.scene(), world.tracer(), probes, moving, store);
@@ -59,11 +61,11 @@ std::uint64_t IrradianceField::State::update_cell_visibility(const World& world,
 
 void IrradianceField::State::initialize_relocated(const World& world, std::span<const int> moved,
                                                   UpdateStatistics& statistics) {
-  // Without surfels they follow no edit any more
-  std::vector<int> followed;
+  // Without surfels, the relocated probes no longer belong to those that the pending edits reached
+  std::vector<int> still_updated;
   std::set_difference(pending_edits.updated.begin(), pending_edits.updated.end(), moved.begin(),
-                      moved.end(), std::back_inserter(followed));
-  pending_edits.updated = std::move(followed);
+                      moved.end(), std::back_inserter(still_updated));
+  pending_edits.updated = std::move(still_updated);
   update_classification_inputs(world, moved, /*learn_distances=*/true);
   const std::vector<int> traced = traced_probes();
   if (device) {
@@ -80,7 +82,7 @@ void IrradianceField::State::initialize_relocated(const World& world, std::span<
 }
 
 void IrradianceField::State::relocate_edited(const World& world, UpdateStatistics& statistics) {
-  // Note what was edited since
+  // Note the static geometry that was edited since the last update
   const auto changes = world.changes_since(placed_revision);
   placed_revision = world.revision();
   if (!changes) edited_places = {{kEverywhere, updates}};
@@ -98,7 +100,7 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
     }
   }
 
-  // Take up what has come to rest
+  // Find the probes near places where edits have stopped
   const auto at_rest =
       std::partition(edited_places.begin(), edited_places.end(),
                      [&](const EditedPlace& p) { return updates - p.update < kRestUpdates; });
@@ -119,12 +121,13 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
   for (const int probe : moved) inherit_history(probe, world);
 }
 
-/// Has a probe in a new place go on with the light it was given and with what it saw at once: worth
-/// as much as a few rays, so that those of its first update do not replace it all.
+/// Lets a relocated probe continue from the light that it holds. That light counts as many samples
+/// as the fixed rays would, so that the few rays of the probe's next update do not replace all of
+/// it.
 void IrradianceField::State::inherit_history(int probe, const World& world) {
   ProbeStatus& status = statuses[probe];
   status = {};
-  // One in open air is to be traced once all the same
+  // A probe in open air keeps no samples, so that it is traced once in its new place
   if (classification_inputs[probe].lights_surface) {
     status.samples = static_cast<float>(fixed_ray_directions().size()) /
                      static_cast<float>(settings.rays_per_probe);
@@ -134,7 +137,7 @@ void IrradianceField::State::inherit_history(int probe, const World& world) {
   scheduler.mark_changed(probe);
 }
 
-/// Has a probe forget what it knows of its surroundings; its light stays until it is traced.
+/// Drops what a probe knows of its surroundings. Its light stays until it is traced.
 void IrradianceField::State::reset_probe(int probe) {
   const std::vector<vec2> nothing(
       static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
@@ -170,7 +173,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
     }
     std::vector<FixedRayHit> around(viewpoints.size() * directions);
     trace_fixed_rays(world.scene(), world.tracer(), viewpoints, moving, around);
-    // Of a large batch all cores learn
+    // A device traces large batches, whose results all cores work on
     parallel_chunks(viewpoints.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
         learn(probes[first + k], {&around[k * directions], directions});
@@ -191,7 +194,7 @@ void IrradianceField::State::classify(const World& world) {
     classify_probes(store, classification_inputs, moving, statuses);
     scheduler.mark_all_changed();
   } else if (moving != moved_to) {
-    // States differ where something that moved on was or is
+    // Only probes near the old or new bounds of a dynamic instance can have another state
     const std::size_t most = std::max(moved_to.size(), moving.size());
     for (std::size_t i = 0; i < most; ++i) {
       const Bounds before = i < moved_to.size() ? moved_to[i] : Bounds{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Majercik et al., "Scaling Probe-Based Real-Time Dynamic Global Illumination for
-// Production", JCGT 10(2), 2021, sec. 4. There probes leave matter and keep away from surfaces;
-// here they also come near them.
+// Production", JCGT 10(2), 2021, sec. 4. There, probes leave geometry and keep a distance from
+// surfaces. Here, they also move towards surfaces, to stand just in front of them.
 #include "field/placement/relocate.h"
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 namespace lambent {
 namespace {
 
-// Enough that a wall half a cell away is met by several rays that face it.
+// The number of fixed rays: several of them hit a wall half a cell away at a steep angle.
 constexpr int kFixedRays = 128;
 constexpr std::size_t kProbesPerTask = 16;
 
-// Rays pass so many moving surfaces before they count as lost in them, and go on this share of the
-// way behind each.
+// A ray passes through at most this many moving surfaces, and continues this fraction of its length
+// behind each.
 constexpr int kMaxMovingSurfaces = 8;
 constexpr float kPastSurface = 1e-5f;
 
@@ -29,7 +29,8 @@ bool is_moving(const Hit& hit, std::span<const std::uint8_t> moving) {
   return !hit.missed() && hit.instance < moving.size() && moving[hit.instance] != 0;
 }
 
-/// Sends rays that met what moves on behind it, time and again.
+/// Continues rays that hit moving instances behind these, until they hit something static or
+/// nothing.
 void pass_moving_surfaces(const RayTracer& tracer, std::span<const std::uint8_t> moving,
                           std::span<Ray> rays, std::span<Hit> hits) {
   std::vector<std::size_t> stopped;
@@ -51,7 +52,7 @@ void pass_moving_surfaces(const RayTracer& tracer, std::span<const std::uint8_t>
   }
 }
 
-/// What a probe sees, as relocate.inl.h asks for it.
+/// The fixed-ray hits of a probe, as relocate.inl.h reads them.
 class Surroundings {
  public:
   explicit Surroundings(std::span<const FixedRayHit> fixed_hits) : fixed_hits_(fixed_hits) {
@@ -82,7 +83,7 @@ class Surroundings {
   std::vector<PlaneBelow> planes_;
 };
 
-/// The walk of a probe.
+/// The relocation of one probe.
 class Relocation {
  public:
   Relocation(int probe, const ProbeStore& store)
@@ -91,10 +92,10 @@ class Relocation {
   int probe() const { return probe_; }
   bool converged() const { return relocation_.converged != 0; }
 
-  /// One step, by what the probe sees from where it stands.
+  /// Takes one step, by the hits of the fixed rays from where the probe stands.
   void step(std::span<const FixedRayHit> fixed_hits, ProbeStore& store) {
     const ProbeGrid& grid = store.grid_of(probe_);
-    // Along the axes of the grid, seen from where the probe belongs
+    // Work along the axes of the grid, relative to the probe's place on it
     const vec3 offset = store.probe_offset(probe_), position = offset * grid.spacing;
     const vec3 better = better_position(fixed_hits, position, vec3(0.0f), grid.spacing);
     const float cost = placement_cost(position, better, kSurfaceMargin * smallest_spacing(grid),
@@ -108,7 +109,7 @@ class Relocation {
   RelocationState relocation_;
 };
 
-/// Walks with some probes at once, so that their rays go in large batches.
+/// Relocates some probes together, so that their rays are traced in large batches.
 void settle(const Scene& scene, const RayTracer& tracer, std::span<const int> probes,
             std::span<const std::uint8_t> moving, ProbeStore& store) {
   const std::size_t directions = fixed_ray_directions().size();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes that follow the viewer: probes of the slab left behind move on to the slab that comes
-// into view, and take over the light that coarser volumes hold there.
+// Scrolling of volumes that follow the viewer: the probes of the slab that is left behind are
+// recycled for the slab that comes into range, and start from the light that the coarser volumes
+// hold there.
 #include <algorithm>
 #include <vector>
 
@@ -19,7 +20,7 @@ constexpr std::size_t kProbesPerTask = 16;
 
 }  // namespace
 
-/// What a probe at a place would hold, from what the field holds there.
+/// Looks the field up at the places of some probes, along the direction of every texel.
 void IrradianceField::State::interpolate_tiles(std::span<const int> probes,
                                                std::span<const vec3> places_ws,
                                                std::span<vec4> tiles) const {
@@ -48,7 +49,7 @@ void IrradianceField::State::interpolate_tiles(std::span<const int> probes,
 
 int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewer_ws,
                                            UpdateStatistics& statistics) {
-  // Find the probes that will belong elsewhere, and what the field holds there
+  // Find the probes that are recycled, and the light at their new places
   std::vector<int> recycled;
   std::vector<vec3> places;
   std::vector<ProbeGrid> next(store.grids().begin(), store.grids().end());
@@ -73,7 +74,7 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
   }
   if (updates == 0 || recycled.empty()) return 0;
 
-  // Place them, with their first distances and the light that was there
+  // Move the recycled probes, with their first distances and the interpolated light
   fetch_light();
   for (std::size_t k = 0; k < recycled.size(); ++k) {
     const int probe = recycled[k];

@@ -12,7 +12,7 @@
 namespace lambent {
 namespace {
 
-// Keeps the random numbers of the store's dither apart from those of other passes.
+// Distinguishes the random numbers of the store's dither from those of other passes.
 constexpr uint kStoreSalt = 0x53544F52u;
 
 std::size_t tile_texels(int texels) {
@@ -24,8 +24,7 @@ std::size_t texel_index(int probe, const ivec2& with_gutter, int texels) {
          static_cast<std::size_t>(with_gutter.y) * (texels + 2) + with_gutter.x;
 }
 
-/// Copies what lies across the octahedron's fold into the gutter of a tile whose interior is
-/// filled.
+/// Fills the gutter of a tile with the texels that lie across the octahedron's fold.
 void fill_gutter(uint* tile, int texels, int words) {
   const int width = texels + 2;
   for (int i = 0; i < gutter_texels(texels); ++i) {
@@ -36,9 +35,9 @@ void fill_gutter(uint* tile, int texels, int words) {
   }
 }
 
-/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square, in metres; a
-/// metre is `scale` units of the store). Each texel's dither is a hash of `first_index` and its
-/// place in the row.
+/// Blends a row of stored moments with new ones. `now` holds pairs of mean and mean square [m,
+/// m^2]; a metre is `scale` units of the store. Each texel's dither is a hash of `first_index` plus
+/// its place in the row.
 LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count,
                                          float blend_weight, float scale, uint first_index) {
   for (int i = 0; i < count; ++i) {
@@ -58,8 +57,8 @@ LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int coun
   }
 }
 
-/// Index of each corner of a cell relative to its lowest probe, where the cell runs over the end of
-/// memory in the directions `wrap`.
+/// Index of each corner of a cell relative to the cell's lowest probe, where the cell wraps around
+/// the end of memory in the directions `wrap` (cell_wrap).
 CornerOffsets corner_offsets(const ivec3& count, int wrap) {
   const ivec3 row = ivec3(1, count.x, count.x * count.y);
   const ivec3 back = cell_corner(wrap) * count;

@@ -9,10 +9,12 @@
 namespace lambent {
 namespace {
 
-// Bounces that importance is sent back through; light of later ones hangs on all probes alike.
+// Bounces through which importance is scattered back. Light of later bounces depends on all probes
+// about equally.
 constexpr int kBounces = 2;
 
-// Probes of a smaller share of the largest importance send none back: too little to matter.
+// Probes below this fraction of the largest importance do not scatter theirs: it is too little to
+// matter.
 constexpr float kMinScattered = 1e-3f;
 
 void add_weights(const ProbeStore& store, const CornerWeights& corners, float importance,
@@ -23,7 +25,8 @@ void add_weights(const ProbeStore& store, const CornerWeights& corners, float im
   }
 }
 
-/// What surfels that a probe sees take of it: what it receives of light they reflect.
+/// Adds to each probe what the surfels that a probe sees pass on of its importance: in proportion
+/// to the light that they reflect towards it.
 void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float importance,
                         std::vector<float>& sum) {
   const float share = scatter_fraction(static_cast<int>(trace.surfels.size()));
@@ -44,7 +47,7 @@ void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float 
 
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces) {
-  // One after the other, so that sums have the same bits on any number of threads
+  // Work on one probe after the other, so that sums have the same bits on any number of threads
   return probe_importance(store, points, [&](std::span<const float> received, float least) {
     std::vector<float> sent(store.probes(), 0.0f);
     for (int probe = 0; probe < store.probes(); ++probe) {
@@ -57,13 +60,13 @@ std::vector<float> probe_importance(const ProbeStore& store, std::span<const Fie
 
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     const ImportanceScatter& send) {
-  // What the points read
+  // Compute the importance of the probes that the points read
   std::vector<float> received(store.probes(), 0.0f);
   QueryWeights weights;
   find_weights(store, {}, points, weights);
   for (const CornerWeights& corners : weights.corners) add_weights(store, corners, 1.0f, received);
 
-  // What those read in turn
+  // Scatter it to the probes whose light those receive
   std::vector<float> total = received;
   for (int bounce = 0; bounce < kBounces; ++bounce) {
     const float least = kMinScattered * *std::max_element(received.begin(), received.end());

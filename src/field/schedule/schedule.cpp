@@ -8,20 +8,21 @@
 namespace lambent {
 namespace {
 
-// From a class on to where the next one is as near, as a factor: the root of their ratio.
+// Numbers of rays up to this factor above a class belong to it: the square root of the classes'
+// ratio.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// Share of the new cost in what a ray is held to cost.
+// Weight of the newest measurement in the moving average of the cost of a ray.
 constexpr double kCostShare = 0.2;
-// Assumed of a ray before any was timed [ms]: a slow processor's.
+// The cost of a ray before any was timed [ms]: that of a slow processor.
 constexpr double kFirstGuessMs = 1e-3;
 
 }  // namespace
 
 bool is_live(const ProbeStatus& status) {
   if (status.state == ProbeState::off) return false;
-  // Points in open air may be asked about: a sleeping probe is traced once, and again where it has
-  // lost its light
+  // Fog and lookups in open air need the light of sleeping probes: these are traced once, and again
+  // where their history was reset
   return status.state != ProbeState::sleeping || status.served == 0 || status.samples == 0.0f;
 }
 
@@ -52,7 +53,7 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
     const int first = store.grid(volume).first;
     for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
       if (!is_live(statuses[probe])) continue;
-      // Not all of a volume's probes in the same update
+      // Spread the probes of a coarse volume over its updates
       const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
       if (turn || statuses[probe].served == 0) schedule.probes.push_back(probe);
     }

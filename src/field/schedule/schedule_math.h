@@ -50,8 +50,8 @@ LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, flo
   // A difference of two means has the sum of their variances
   float one = relative_square / (1.0f / weight + 1.0f / averaged);
   known.samples = min(known.samples + 1u, kMaxNoiseSamples);
-  float share = max(1.0f / float(known.samples), 1.0f / kNoiseMemory);
-  known.noise = max(known.noise + share * (one - known.noise), kMinNoise);
+  float rate = max(1.0f / float(known.samples), 1.0f / kNoiseMemory);
+  known.noise = max(known.noise + rate * (one - known.noise), kMinNoise);
   return known;
 }
 
@@ -59,16 +59,16 @@ LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, flo
 /// `share` of it was blended in. Noise is held to matter in proportion to the root of what it is
 /// noise of (Rose, "The Sensitivity Performance of the Human Eye on an Absolute Scale", J. Opt.
 /// Soc. Am. 38(2), 1948). `before`: luminance that was held; `mean_light`: of all probes.
-LAMBENT_FN float estimate_relative_square(float relative_square, float before, float share,
+LAMBENT_FN float estimate_relative_square(float relative_square, float before, float blend_weight,
                                           float mean_light) {
   float brightness = mean_light > 0.0f ? max(before, kDarkShare * mean_light) / mean_light : 1.0f;
-  return relative_square * brightness / (share * share);
+  return relative_square * brightness / (blend_weight * blend_weight);
 }
 
 /// The mean light of `live` probes, of which `count` are found to have this one now.
 LAMBENT_FN float learned_light(float mean_light, float now, float count, float live) {
-  float share = mean_light > 0.0f ? min(count / max(live, 1.0f), 1.0f) : 1.0f;
-  return mean_light + share * (now - mean_light);
+  float rate = mean_light > 0.0f ? min(count / max(live, 1.0f), 1.0f) : 1.0f;
+  return mean_light + rate * (now - mean_light);
 }
 
 /// The noise that a probe is scheduled by, a standard deviation. It is not held to be less than the

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which probes are urgent, found without a look at those that are not.
+// Choice of the most urgent probes, without looking at those that are not urgent.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,33 +10,34 @@
 namespace lambent {
 namespace {
 
-// Probes of a block: as many as make looking at blocks and looking into one cost about the same in
-// a field of some 100,000 probes.
+// Probes of a block. With this number, looking at all blocks and looking into the urgent ones cost
+// about the same in a field of some 100,000 probes.
 constexpr std::size_t kBlock = 64;
 constexpr std::size_t kBlocksPerTask = 64;
 
-// What the first light of a sleeping probe is held to gain: others come first until theirs is about
-// as good as can be seen.
+// The error reduction that a sleeping probe's first update counts as. Other probes come first until
+// their error is hardly visible.
 constexpr float kSleepingReduction = 0.02f;
 
-// A probe is worth half as much so many cells away from the camera.
+// A probe counts half as much at this distance from the camera [cells].
 constexpr float kHalfWeightCells = 16.0f;
 
-// Probes that do not matter to what is seen are worth this much all the same: the camera will turn.
+// Probes that do not matter to the visible points count this much all the same, because the camera
+// will turn.
 constexpr float kUnseenWeight = 0.02f;
 
 constexpr std::uint32_t kNotLive = std::numeric_limits<std::uint32_t>::max();
 
-// Urgency is at most 1 of what waits its turn; beyond that comes what is old, the older the more;
-// and beyond that what was never served.
+// The urgency of a probe is below 1 while its age is below kMaxProbeAge, between 1 and 2 above that
+// age, and at least 2 where it has never been traced.
 constexpr float kOld = 1.0f, kNever = 2.0f;
 
 bool is_old(std::uint32_t served, std::uint32_t update) {
   return served != kNotLive && (served == 0 || update - served >= kMaxProbeAge);
 }
 
-/// How urgent a probe is that promises this gain, where it counts for so much; 0: not at all. Grows
-/// with gain and worth, and falls with the update that served it.
+/// The urgency of a probe from its error reduction and its weight; 0: it need not be traced. It
+/// grows with both and with the age.
 float urgency_of(float reduction, std::uint32_t served, std::uint32_t update, float weight) {
   if (served == 0) return kNever + weight;
   if (is_old(served, update)) {
@@ -65,12 +66,12 @@ struct Candidate {
   int probe;
 };
 
-/// The more urgent one, and of two as urgent the first, comes before.
+/// Orders candidates by urgency, and equally urgent ones by index.
 bool comes_before(const Candidate& a, const Candidate& b) {
   return a.urgency != b.urgency ? a.urgency > b.urgency : a.probe < b.probe;
 }
 
-/// Finds the best of many candidates.
+/// Keeps the most urgent of many candidates.
 class Best {
  public:
   explicit Best(std::size_t most) : most_(most) {}
@@ -86,7 +87,7 @@ class Best {
     std::push_heap(heap_.begin(), heap_.end(), comes_before);
   }
 
-  /// Whether nothing of this urgency could be among them.
+  /// Whether a candidate of this urgency cannot be among them any more.
   bool beyond(float urgency) const {
     return heap_.size() == most_ && heap_.front().urgency > urgency;
   }
@@ -98,10 +99,10 @@ class Best {
 
  private:
   std::size_t most_;
-  std::vector<Candidate> heap_;  // the worst in front
+  std::vector<Candidate> heap_;  // the least urgent one in front
 };
 
-/// What a probe so many cells from the viewer counts for.
+/// The weight of a probe this many cells away from the viewer.
 float distance_weight(float cells) {
   return kHalfWeightCells / (kHalfWeightCells + cells);
 }
@@ -110,10 +111,10 @@ float largest_spacing(const ProbeGrid& grid) {
   return max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
 }
 
-/// Cells that all probes from `first` to `last` are away from the viewer, at least.
+/// A lower bound on the distance of the probes from `first` to `last` from the viewer [cells].
 float least_cells_away(const ProbeStore& store, int first, int last, const vec3& viewer_ws) {
   const ProbeGrid& grid = store.grid_of(first);
-  // Where they may be of two volumes, or all over one, nothing is known
+  // Nothing is known of probes of two volumes, or of a scrolled volume, whose order wraps around
   if (last >= grid.first + probe_count(grid) || grid.scroll != ivec3(0)) return 0.0f;
   vec3 low = vec3(probe_coords(grid, first)), high = vec3(probe_coords(grid, last));
   const bool layers = low.z != high.z, rows = layers || low.y != high.y;
@@ -155,15 +156,13 @@ void ProbeScheduler::refresh_status(std::span<const ProbeStatus> statuses, int p
   ++count_of(states_, entry.state);
   if (entry.served == 0) --unserved_;
   entry.served = is_live(status) ? status.served : kNotLive;
-  // Nothing but open air waits for the light of a sleeping probe: it has time until all that were
-  // never served would be too old
+  // Only open air needs the light of a sleeping probe: it counts as traced once, and so comes after
+  // all other probes that have never been traced
   if (status.state == ProbeState::sleeping) entry.served = std::max(entry.served, 1u);
   if (entry.served == 0) ++unserved_;
 }
 
-/// The noise of a probe is not held to be less than the mean over it and its neighbours: its own is
-/// the lower the less of what is bright it has met so far, and resting on it would leave the light
-/// too dark for good.
+/// Updates what depends on the noise of a probe and its neighbours; see probe_noise().
 void ProbeScheduler::refresh_noise(const ProbeStore& store, std::span<const ProbeStatus> statuses,
                                    int probe) {
   Entry& entry = entries_[probe];
@@ -229,7 +228,8 @@ void ProbeScheduler::refresh(const ProbeStore& store, std::span<const ProbeStatu
   all_changed_ = false;
 }
 
-/// In proportion to the noise; but first a few each, so that all have some light soon.
+/// A probe gets rays in proportion to its noise. The first time it gets few, so that all probes
+/// hold some light soon.
 int ProbeScheduler::rays_of(const Entry& entry, float mean_noise) const {
   if (entry.served == 0) return kRayClasses.front();
   const bool unknown = entry.state == ProbeState::sleeping || mean_noise <= 0.0f;
@@ -237,7 +237,7 @@ int ProbeScheduler::rays_of(const Entry& entry, float mean_noise) const {
   return ray_class_for(static_cast<float>(rays_per_probe_) * share);
 }
 
-/// The mean noise of the probes that do not rest.
+/// The mean noise of the probes that have not converged.
 float ProbeScheduler::mean_noise() const {
   double noise_sum = 0.0;
   std::int64_t unsettled = 0;
@@ -248,7 +248,7 @@ float ProbeScheduler::mean_noise() const {
   return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
 }
 
-/// What a probe counts for, 0 to 1.
+/// The weight of a probe, 0 to 1, from its volume's level and its importance or distance.
 float ProbeScheduler::view_weight(const ProbeStore& store, int probe,
                                   const std::optional<glm::vec3>& viewer_ws,
                                   std::span<const float> importance) const {
@@ -263,13 +263,13 @@ float ProbeScheduler::view_weight(const ProbeStore& store, int probe,
 Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budget,
                                 std::uint32_t update, const std::optional<glm::vec3>& viewer_ws,
                                 std::span<const float> importance) const {
-  // Order the blocks by what the most urgent of their probes can be at most
+  // Order the blocks by an upper bound on the urgency of their probes
   std::vector<Candidate> blocks;
   const float noise = mean_noise();
   const float least = kMinNoiseOfMean * noise;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
-    // The oldest is the most urgent if it is old; if not, none is old
+    // Only the oldest probe of a block matters here: if it is not old, none is
     const std::uint32_t served = is_old(block.served, update) ? block.served : kNotLive;
     float weight = 1.0f;
     if (viewer_ws && importance.empty()) {
@@ -284,7 +284,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
   const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };
   std::make_heap(blocks.begin(), blocks.end(), later);
 
-  // Look into them until no other can hold a probe that the budget reaches
+  // Look into blocks until no other can hold a probe within the budget
   Best best(ray_budget / kRayClasses.front() + 1);
   while (!blocks.empty() && !best.beyond(blocks.front().urgency)) {
     const std::size_t first = blocks.front().probe * kBlock;
@@ -301,7 +301,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
     }
   }
 
-  // Serve the most urgent ones until the rays are spent
+  // Take the most urgent probes until the rays are spent
   std::vector<std::pair<int, int>> chosen;
   std::uint64_t spent = 0;
   for (const Candidate& candidate : best.take()) {

@@ -28,7 +28,7 @@ DistanceBlend::DistanceBlend(const FieldSettings& settings, std::span<const vec3
 
 void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
                             std::span<vec2> moments) const {
-  // Cut the distances and count the back faces
+  // Clamp the distances and count the back faces
   thread_local std::vector<vec2> values, sums;
   values.resize(seen.size());
   sums.resize(moments.size());

@@ -19,11 +19,11 @@ constexpr std::size_t kProbesPerTask = 16;
 constexpr std::size_t kProbesPerCopy = 512;
 constexpr std::size_t kTexelsPerTask = 16384;
 
-// As kMinContraction, to more digits.
+// kMinContraction in double precision.
 constexpr double kLeastContraction = 0.1;
 
-/// Calls body(k, first texel in the field, first texel among the probes') for each of the
-/// operator's probes.
+/// Calls body(k, i, j) for each of the operator's probes: k is its place among them, i the index of
+/// its first texel in the field, and j that in arrays of the operator's probes alone.
 template <class Body>
 void for_each_probe(const TransportOperator& transport, Body body) {
   const std::span<const int> probes = transport.probes();
@@ -33,7 +33,7 @@ void for_each_probe(const TransportOperator& transport, Body body) {
   });
 }
 
-/// Puts the field where a share of the solution is blended into the history.
+/// Sets the field's texels to the blend of history and solution.
 void blend_into(const TransportOperator& transport, std::span<const float> blend_weights,
                 const WorkingIrradiance& history, const WorkingIrradiance& solution,
                 WorkingIrradiance& field) {
@@ -44,7 +44,8 @@ void blend_into(const TransportOperator& transport, std::span<const float> blend
   });
 }
 
-/// Blends the solution in for good: no texel holds less than no light. Returns the change.
+/// Blends the solution into the field at the end of a solve, without negative light. Returns the
+/// relative change of the light.
 double finish(const TransportOperator& transport, std::span<const float> blend_weights,
               const WorkingIrradiance& history, const WorkingIrradiance& solution,
               WorkingIrradiance& field) {
@@ -61,21 +62,21 @@ double finish(const TransportOperator& transport, std::span<const float> blend_w
   return whole > 0.0 ? norm(difference) / whole : 0.0;
 }
 
-/// Radiance along a probe's rays in a field without light: the sky, and direct light if it is to be
-/// reflected; and whether they count.
+/// Gathers the radiance along a probe's rays without light from the field: that of the sky and, if
+/// `reflected`, of direct light on surfels. The fourth channel is 1 for rays that count, else 0.
 void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     const Surfel& surfel = trace.surfels[i];
-    const vec3 blend_weight = surfel.kind == SurfelKind::sky ? vec3(1.0f)
-                              : reflected                    ? surfel.albedo_over_pi
-                                                             : vec3(0.0f);
-    const vec3 sent = blend_weight * surfel.light;
+    const vec3 reflectance = surfel.kind == SurfelKind::sky ? vec3(1.0f)
+                             : reflected                    ? surfel.albedo_over_pi
+                                                            : vec3(0.0f);
+    const vec3 sent = reflectance * surfel.light;
     for (int c = 0; c < 3; ++c) radiance[4 * i + c] = sent[c];
     radiance[4 * i + 3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
   }
 }
 
-/// What a probe's rays bring back depends on.
+/// Everything that the radiance along a probe's rays depends on.
 struct GatherInput {
   const ProbeTrace& trace;
   const CornerOffsets* corner_table;
@@ -84,41 +85,42 @@ struct GatherInput {
   int texels;  // of a tile
 };
 
-/// Adds what a lookup reads from the field.
+/// Adds the irradiance that a lookup reads from the field.
 LAMBENT_FORCE_INLINE void read_field(const GatherInput& in, const SurfelLookup& lookup,
                                      float sum[4]) {
   const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
   const CornerOffsets& offsets = in.corner_table[lookup.corners.table];
   const float fx = lookup.fraction_x, fy = lookup.fraction_y;
-  const float blend_weights[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
-                                  fx * fy};
+  const float tap_weights[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
+                                fx * fy};
   const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
   for (int corner = 0; corner < kCellCorners; ++corner) {
     const vec4* tile = base + static_cast<std::ptrdiff_t>(offsets.probe[corner]) * in.texels;
     const float weight = lookup.corners.weight[corner];
     for (int tap = 0; tap < 4; ++tap) {
-      const float blend_weight = weight * blend_weights[tap];
+      const float tap_weight = weight * tap_weights[tap];
       const float* texel = &tile[taps[tap]].x;
-      for (int c = 0; c < 4; ++c) sum[c] += blend_weight * texel[c];
+      for (int c = 0; c < 4; ++c) sum[c] += tap_weight * texel[c];
     }
   }
 }
 
-/// Radiance along a probe's rays, and whether they count: four floats a ray.
+/// Gathers the radiance along a probe's rays. Four floats per ray; the fourth is 1 for rays that
+/// count, else 0.
 LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance) {
   for (std::size_t i = 0; i < in.trace.surfels.size(); ++i) {
     const Surfel& surfel = in.trace.surfels[i];
     float* out = radiance + 4 * i;
     out[3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
 
-    // What reflects nothing shows the sky, or is black
+    // Surfels that reflect nothing are the sky, or black
     if (!surfel.reflects()) {
       const bool sky = surfel.kind == SurfelKind::sky;
       for (int c = 0; c < 3; ++c) out[c] = sky ? surfel.light[c] : 0.0f;
       continue;
     }
 
-    // Look the field up at the surfel and send back what it reflects
+    // Look the field up at the surfel, and compute the radiance that it reflects
     float sum[4] = {};
     read_field(in, in.trace.lookups[i], sum);
     for (int c = 0; c < 3; ++c) out[c] = surfel.albedo_over_pi[c] * (surfel.light[c] + sum[c]);
@@ -202,8 +204,8 @@ void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback
         continue;
       }
 
-      // Where rays count for some texels only, there is nothing to fit: the others keep what they
-      // had
+      // Where rays count for some texels only, the fit is left out: the other texels keep their
+      // light
       for (int t = 0; t < texels_; ++t) {
         out[t] = sums[t].w > enough ? at_centres[t] : fallback[k * texels_ + t];
       }
@@ -260,15 +262,15 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
   double contraction = bound;
 
   while (true) {
-    // Send the light round once
+    // Apply the transport once
     blend_into(transport, blend_weights, history, solution, field);
     transport.apply(field, history, image);
     if (!history_ratio.empty()) multiply(image, history_ratio);
     ++result.iterations;
     add_scaled(image, -1.0f, solution, residual);
 
-    // Compute the contraction: by how much an image changed less than what it is the image of. One
-    // step knows only that nothing reflects more than the largest albedo
+    // Compute the contraction: the ratio of the change of the image to the change of its argument.
+    // After a single step, only the largest albedo bounds it
     if (!previous_residual.empty()) {
       WorkingIrradiance residual_change(size), image_change(size), change(size);
       add_scaled(residual, -1.0f, previous_residual, residual_change);
@@ -290,7 +292,7 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
       return result;
     }
 
-    // Extrapolate from the last steps; the plain next iterate is the image itself
+    // Extrapolate from the last steps; without them, the next iterate is the image
     previous_residual = residual;
     previous_image = image;
     solution = image;

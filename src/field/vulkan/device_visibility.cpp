@@ -23,7 +23,7 @@ DeviceVisibility::DeviceVisibility(const vulkan::Device& device, const FieldSett
       exact_(settings.visibility == Visibility::exact),
       lookups_a_point_(lookups),
       cell_visibility_(device, 2 * sizeof(uint) * probes, vulkan::Memory::device,
-                       "cell_visibility of cells"),
+                       "visibility within cells"),
       counter_(device, kCounterWords * sizeof(uint), vulkan::Memory::device, "rays of lookups") {
   reserve(kMaxCornerRays / (kCellCorners * lookups));
   device.run([&](vulkan::Recorder& to) {

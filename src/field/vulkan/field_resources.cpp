@@ -73,7 +73,7 @@ FieldResources::FieldResources(const vulkan::Device& device, const FieldSettings
   fit_ = vulkan::upload(device, padded_fit(settings.irradiance_texels), "tile fit");
   light_ = vulkan::Buffer(device, texels * sizeof(vec4), Memory::device, "light");
   last_irradiance_estimate_ =
-      vulkan::Buffer(device, texels * sizeof(vec4), Memory::device, "last_irradiance_estimate");
+      vulkan::Buffer(device, texels * sizeof(vec4), Memory::device, "last irradiance estimate");
   if (settings.visibility != Visibility::moments) {
     cell_visibility_ =
         std::make_unique<DeviceVisibility>(device, settings, probes_, volumes_, lookups_);

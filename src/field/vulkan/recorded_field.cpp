@@ -19,7 +19,7 @@ BufferRange range_of(const Buffer& buffer) {
   return {buffer.handle(), buffer.offset(), buffer.bytes(), buffer.address()};
 }
 
-/// Records a pass into an engine's command buffer, between barriers.
+/// Records a pass into an engine's command buffer, with a barrier before and after it.
 template <class Record>
 void record_pass(const Device& device, VkCommandBuffer commands, const char* name, Record record) {
   Recorder to(device, commands);
@@ -150,7 +150,7 @@ void RecordedField::record_trace(VkCommandBuffer commands,
   });
 }
 
-/// From what the engine told to surfels, and what they count for.
+/// Turns the engine's results into surfels and computes the blend weights and the ray weights.
 void RecordedField::State::record_results(Recorder& to) {
   const UpdateMemory& m = memory();
   const DeviceProbes& now = list();

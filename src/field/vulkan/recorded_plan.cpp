@@ -10,15 +10,16 @@
 namespace lambent::vulkan {
 namespace {
 
-// In the first rounds of several turns, probes see others that know no light yet, or a part of its
-// bounces: what they learn then is not averaged in.
+// Where a round takes several updates, the probes of the first rounds receive light from probes
+// that hold none yet, or a part of its bounces only. What they receive in these rounds is not
+// averaged.
 constexpr int kWarmUpRounds = 2;
 
-// Probes in solid matter are looked at once in so many rounds.
+// Probes inside geometry are traced once in this many rounds.
 constexpr int kLookRounds = 8;
 
-// Under a budget, in every so many updates probes in solid matter are looked at that were not for
-// as long as a probe waits at most.
+// Under a budget, one in this many updates also traces probes inside geometry that have waited for
+// kMaxProbeAge.
 constexpr std::uint32_t kLookUpdates = 16;
 
 int most_probes_of(const FieldSettings& settings, const RecordedFieldSettings& recorded,
@@ -73,7 +74,7 @@ ProbeBatch BatchPlan::next_of_device(const UpdatePlan& update) {
 ProbeBatch BatchPlan::next(const UpdatePlan& update) {
   place_again_ = place_again_ || update.place_again;
   if (budget_ && rounds_are_over()) {
-    least_samples_ = 0.0f;  // the device knows
+    least_samples_ = 0.0f;  // from now on only the device knows
     return next_of_device(update);
   }
   if (next_ == 0) begin_round();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recorded field is made of.
+// Construction of a recorded field's kernels and memory.
 #include "field/vulkan/recorded_state.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ Buffer device_buffer(const Device& device, std::size_t count, const char* name) 
   return {device, count * sizeof(T), Memory::device, name};
 }
 
-/// A list of as many probes as an update may have, for what makes room for it.
+/// A list of the largest possible length, by which memory is reserved.
 DeviceProbes largest_list(const BatchPlan& plan, const FieldSettings& settings) {
   DeviceProbes list;
   list.probes.resize(plan.most_probes());
@@ -111,7 +111,7 @@ UpdateMemory::UpdateMemory(const FieldResources& field, int most_probes, int ray
   const Device& device = field.device();
   const auto probes = static_cast<std::size_t>(most_probes);
   list.indices = Buffer(device, probes * sizeof(int), Memory::upload, "probes");
-  // All are of set 0, as memory begins
+  // All probes use ray set 0, which is what fresh memory holds
   list.ray_sets = Buffer(device, probes * sizeof(int), Memory::upload, "their ray sets");
   list.blocks = Buffer(device, groups_of(most_probes, kBlockProbes) * sizeof(ProbeBlock),
                        Memory::upload, "blocks of probes");
@@ -157,7 +157,7 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
   rays = device_buffer<RayRecord>(*device, ray_room, "rays of probes");
   hits = device_buffer<HitRecord>(*device, ray_room, "hits of probes' rays");
   results = device_buffer<RayResult>(*device, ray_room, "results of probes' rays");
-  blend_weights = device_buffer<float>(*device, probes, "blend_weights");
+  blend_weights = device_buffer<float>(*device, probes, "blend weights");
   irradiance_weights = Buffer(*device, field.irradiance_weight_bytes(of.rays_per_probe),
                               Memory::device, "weights of rays");
   distance_weights = Buffer(*device, field.distance_weight_bytes(of.rays_per_probe), Memory::device,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that a recorded field consists of.
+// The private state of RecordedField.
 #pragma once
 
 #include <cstddef>
@@ -15,21 +15,22 @@
 
 namespace lambent::vulkan {
 
-/// The kernels of recorded fields alone.
+/// The kernels that only recorded fields run.
 struct RecordedKernels {
   RecordedKernels(const Device& device, const FieldSettings& settings, int volumes);
 
   Kernel rays, fade_samples, blend_weights, surfels, maintain;
 };
 
-/// The pipeline that traces in engines' structures, which all fields on a device share.
+/// The pipeline that traces rays in engines' acceleration structures. All fields on a device share
+/// it.
 struct EngineTracer {
   explicit EngineTracer(const Device& device);
 
   RayKernel closest;
 };
 
-/// The store as descriptors.
+/// The store's buffers as a descriptor set.
 class LookupSet {
  public:
   LookupSet(const Device& device, const FieldResources& field);
@@ -47,11 +48,11 @@ class LookupSet {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// What the host writes for an update, and the device reads until that has run.
+/// Memory that the host writes for an update and the device reads until the update has run.
 struct UpdateMemory {
   UpdateMemory(const FieldResources& field, int most_probes, int rays,
                FloatArray irradiance_weights, FloatArray distance_weights);
-  /// Fills in the probes and rays of a turn.
+  /// Writes the probes and ray directions of a batch.
   void write(const ProbeBatch& batch, const FieldSettings& settings);
 
   DeviceProbes list;
@@ -70,7 +71,7 @@ struct RecordedField::State {
     return static_cast<std::uint32_t>(batch.count * settings.rays_per_probe);
   }
   ProbeStates probe_states() const { return {{standing.address()}, {states.address()}}; }
-  /// A word of what the device decided; none where it does not.
+  /// Address of a word of the device's decision; null where the host decides.
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
@@ -85,10 +86,11 @@ struct RecordedField::State {
   RecordedKernels kernels;
   const EngineTracer& tracer;
   LookupSet lookup_set;
-  std::unique_ptr<DeviceSchedule> schedule;  // null: by turns
+  std::unique_ptr<DeviceSchedule> schedule;  // null: the host plans all batches
   ProbeBatch batch;
-  // All but the first are of an update's probes or rays
-  Buffer standing, states, record;
+  Buffer standing, states;  // one entry per probe of the field
+  Buffer record;            // the FieldRecord for engines' lookups
+  // One entry per probe or ray of an update, and the ray set's matrices
   Buffer rays, hits, results, blend_weights, irradiance_weights, distance_weights;
   std::vector<UpdateMemory> ring;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of an update that runs on a device, and what it takes to come there and back.
+// The part of an update that runs on a device, and the transfer of a field to a device and back.
 #include <numeric>
 #include <utility>
 
@@ -16,8 +16,8 @@ void IrradianceField::State::move_to(const World& world, UpdateStatistics& stati
   fetch_light();
   fetch_store();
   device.reset();
-  // Surfels stay behind: probes that have been traced are traced anew, and what they averaged of
-  // another world than this cannot be corrected
+  // Surfels are not transferred. Probes that had some are traced again; averages of an older
+  // revision of the world cannot be corrected without surfels and start again
   for (std::size_t probe = 0; probe < traces.size(); ++probe) {
     if (traces[probe].rays == nullptr) continue;
     traces[probe] = {};
@@ -32,7 +32,7 @@ void IrradianceField::State::move_to(const World& world, UpdateStatistics& stati
     device->write_store(store);
     device->write_light(light, last_irradiance_estimate);
   }
-  // Nothing has been placed before the first update
+  // Before the first update no probe has been placed yet
   if (updates == 0) return;
   std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);

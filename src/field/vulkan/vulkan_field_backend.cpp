@@ -15,17 +15,17 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// Rays in memory at a time: enough to fill any device, few enough to stay small (about 40 MB).
+// The most rays that are in memory at a time: enough to fill any device, in about 40 MB.
 constexpr int kMaxBatchRays = 1 << 18;
 
-// The sum of what is sent back, in whole numbers: rounding to the nearest adds up to less than what
-// is left to 2^32.
+// The sum of all importance, in the fixed-point numbers in which it is summed. Rounding each
+// summand to the nearest number adds less than the range that is left to 2^32.
 constexpr double kMaxScattered = 2147483648.0;
 
-// Passes that one command buffer may take the time of.
+// The most passes of a command buffer that are timed, besides two per group of rays.
 constexpr std::uint32_t kTimedPasses = 16;
 
-/// The parts of a list that trace the same rays and whose rays fit into memory.
+/// Splits a list into groups that trace the same ray set, each small enough for kMaxBatchRays.
 std::vector<DeviceGroup> groups_of_rays(const FieldResources& field, const DeviceProbes& list) {
   std::vector<DeviceGroup> groups;
   for (int first = 0; first < list.count();) {
@@ -41,7 +41,7 @@ std::vector<DeviceGroup> groups_of_rays(const FieldResources& field, const Devic
   return groups;
 }
 
-/// Rays that passes trace beside those of probes.
+/// Buffers into which the numbers of shadow and visibility rays are read back.
 struct RayCounts {
   explicit RayCounts(const vulkan::Device& device)
       : shadows(device, sizeof(uint), vulkan::Memory::readback, "shadow rays"),
@@ -54,7 +54,7 @@ struct RayCounts {
   Buffer shadows, lookups;
 };
 
-/// Fills in what a pass took, by its name.
+/// Adds the times of passes to the results, by the passes' names.
 void assign_pass_times(const std::vector<vulkan::DevicePassTime>& times, DeviceTraced& traced) {
   for (const vulkan::DevicePassTime& time : times) {
     if (time.name == "trace") traced.trace_ms = time.ms;
@@ -120,7 +120,7 @@ void VulkanFieldBackend::reserve_rays(std::size_t rays, std::size_t probes) {
   reserve<uint>(*device_, probes, "ray indices", first_indices_);
 }
 
-/// Makes room for the rays of a list, and counts them. Returns the passes whose time is taken.
+/// Reserves memory for the rays of a list, and counts them. Returns the number of passes to time.
 std::uint32_t VulkanFieldBackend::prepare_rays(const DeviceProbes& list, DeviceTraced& traced) {
   std::vector<uint> first_indices;
   for (const int probe : list.probes) {
@@ -173,7 +173,7 @@ DeviceTraced VulkanFieldBackend::trace(const DeviceTracing& tracing) {
   if (probes.empty()) return traced;
   const DeviceProbes list = field_.list(probes);
   const std::vector<float> blend_weights = in_order_of(list, tracing.blend_weights, 1);
-  const Buffer blend_weight_buffer = host_buffer<float>(*device_, blend_weights, "blend_weights");
+  const Buffer blend_weight_buffer = host_buffer<float>(*device_, blend_weights, "blend weights");
   Buffer changes(*device_, probes.size() * sizeof(LightChange), vulkan::Memory::readback,
                  "changes of light");
   const std::uint32_t timed = prepare_rays(list, traced);
@@ -259,12 +259,12 @@ DeviceSolve VulkanFieldBackend::solve(std::span<const int> probes,
   if (probes.empty()) return {};
   const DeviceProbes list = field_.list(probes);
   const std::vector<float> ordered = in_order_of(list, blend_weights, 1);
-  const Buffer blend_weight_buffer = host_buffer<float>(*device_, ordered, "blend_weights");
+  const Buffer blend_weight_buffer = host_buffer<float>(*device_, ordered, "blend weights");
   Buffer history_ratios;
   if (!history_ratio.empty()) {
     history_ratios =
         host_buffer<vec4>(*device_, in_order_of(list, std::span<const vec4>(history_ratio), texels),
-                          "history_ratios");
+                          "history ratios");
   }
   field_.reserve_transport(list);
   solver_.reserve(list);
@@ -343,8 +343,8 @@ std::vector<float> VulkanFieldBackend::scatter_importance(std::span<const float>
   const Buffer given = host_buffer(*device_, received, "importance");
   const Buffer sums(*device_, received.size_bytes(), vulkan::Memory::device, "importance sent");
   const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance taken");
-  // Whole numbers are added up, so that the order does not matter: what is sent is no more than
-  // what was received
+  // Sum fixed-point numbers, so that the order of additions does not matter. Probes send no more
+  // importance in total than they received
   const double most = std::accumulate(received.begin(), received.end(), 0.0);
   const auto scale = static_cast<float>(kMaxScattered / most);
   device_->run([&](Recorder& to) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What State asks of a device, on Vulkan: passes of FieldResources and DeviceSolver, recorded in
-// the order of an update and run in one command buffer.
+// The FieldBackend on Vulkan. It records the passes of FieldResources and DeviceSolver in the order
+// of an update, into one command buffer, and waits for it.
 #pragma once
 
 #include <memory>
@@ -51,11 +51,12 @@ class VulkanFieldBackend final : public FieldBackend {
   std::size_t surfel_bytes() const override { return field_.surfel_bytes(); }
 
  private:
-  /// Numbers a probe of a list, from numbers a probe as the caller named it.
+  /// Sorts values, `each` per probe, from the caller's order of probes into the list's order.
   template <class T>
   std::vector<T> in_order_of(const DeviceProbes& list, std::span<const T> given,
                              std::size_t each) const;
-  /// Traces and shades the rays of a list, a group at a time; `seen`: distances, too.
+  /// Records the tracing and shading of a list's rays, group after group. With `seen`, it also
+  /// records the distances that they count as.
   void record_tracing(vulkan::Recorder& to, const DeviceWorld& world, const DeviceProbes& list,
                       bool seen);
   void reserve_rays(std::size_t rays, std::size_t probes);
@@ -66,7 +67,7 @@ class VulkanFieldBackend final : public FieldBackend {
   FieldResources field_;
   DeviceSolver solver_;
   HitShading shading_;
-  // Of a group's rays, one group after the other
+  // These hold the rays of one group at a time
   vulkan::Buffer rays_, hits_, points_, shaded_, direct_, first_indices_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lookups of a field on Vulkan, and the rays that they ask.
+// Lookups of a field on Vulkan, with the visibility rays that they need.
 #include <algorithm>
 #include <cassert>
 
@@ -14,7 +14,7 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// Queries of the host answered at a time: enough to fill any device, few enough to stay small.
+// The most queries of the host that are in memory at a time: enough to fill any device, in 48 MB.
 constexpr std::size_t kQueriesAtATime = 1 << 20;
 
 }  // namespace

@@ -69,7 +69,7 @@ void HitShading::reserve(const Chunk& chunk) {
   grow(samples * sizeof(RayRecord), "emitter rays", emitter_ray_memory_);
   grow(samples * sizeof(HitRecord), "emitter hits", emitter_hit_memory_);
   grow(slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
-  grow(slots * sizeof(ReflectedPair), "unoccluded_irradiance of shadow rays", unoccluded_memory_);
+  grow(slots * sizeof(ReflectedPair), "unoccluded light of shadow rays", unoccluded_memory_);
   grow(slots * sizeof(uint), "occlusions", occlusion_memory_);
 }
 

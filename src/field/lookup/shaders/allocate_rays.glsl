@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Room for rays that invocations ask, in an array that all groups fill. Groups take theirs in the
-// order in which they come, which differs from time to time: each invocation must know its own.
+// Allocation of rays in an array that all workgroups share. Workgroups allocate in the order in
+// which they run, which differs from run to run, so that each invocation must remember where its
+// rays are.
 #ifndef LAMBENT_FIELD_LOOKUP_SHADERS_ALLOCATE_RAYS_GLSL
 #define LAMBENT_FIELD_LOOKUP_SHADERS_ALLOCATE_RAYS_GLSL
 
@@ -8,7 +9,8 @@
 
 shared uint rays_of_group, first_of_group;
 
-/// Counts an invocation's rays. Returns the place of the first. All of the group must call it.
+/// Allocates rays for this invocation, and returns the index of the first. All invocations of a
+/// workgroup must call it.
 uint allocate_rays(UintArray counter, uint rays) {
   if (gl_LocalInvocationIndex == 0u) rays_of_group = 0u;
   barrier();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lookups weigh, once rays have told which corners are seen: a lane a point.
+// Computes the weights of lookups from the results of their visibility rays, one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -27,7 +27,7 @@ void main() {
     CornerWeights corners = args.lookups.at[point.lookup + l].corners;
     float total = sum_of_weights(corners);
     if (args.points.exact != 0u) corners = seen_corners(corners, query_of(point));
-    // Where no probe is seen, distances decide
+    // Where no probe is visible, the weights by distances stay
     if (hide_corners(corners, hidden, total)) args.lookups.at[point.lookup + l].corners = corners;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which probes of cells see each other, from the rays between them: a lane a cell.
+// Stores which probes of cells see each other, from the rays between them. One lane per cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays between the probes of cells: a lane a cell.
+// Makes the rays between the probes of cells, one lane per cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

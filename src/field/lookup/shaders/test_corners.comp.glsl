@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays for the corners of lookups that distances do not decide: a lane a point.
+// Makes visibility rays for those corners of lookups whose visibility the distances leave in doubt,
+// one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -13,14 +14,15 @@ layout(push_constant, scalar) uniform Push {
 #include "field/lookup/shaders/allocate_rays.glsl"
 #include "field/lookup/shaders/seen_corners.glsl"
 
-/// Corners of a lookup to ask for, by their bits. Hides those that are not worth it.
+/// The corners of a lookup to test with rays, as bits. Sets the weights of hidden corners to 0.
 uint corners_to_test(LookupPoint point, int lookup) {
   if (args.lookups.at[lookup].tile_corner == kNoLookup) return 0u;
   if (args.points.exact != 0u) {
     return weighed_corners(seen_corners(args.lookups.at[lookup].corners, query_of(point)));
   }
   int base = args.lookups.at[lookup].corners.base;
-  uint cell_visibility[2] = uint[2](args.cell_visibility.at[2 * base], args.cell_visibility.at[2 * base + 1]);
+  uint cell_visibility[2] =
+      uint[2](args.cell_visibility.at[2 * base], args.cell_visibility.at[2 * base + 1]);
   if ((cell_visibility[0] & cell_visibility[1]) == 0xFFFFFFFFu) return 0u;
 
   CornerWeights corners = args.lookups.at[lookup].corners;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What probes are for, and where they are to stand, from what their rays saw: a workgroup a probe.
+// Sets the states and next places of probes from what their rays hit. One workgroup per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 shared FixedRayHit fixed_hits[kMaxPlacementRays];
-shared int by_height[kMaxPlacementRays];  // those that pass below
+shared int by_height[kMaxPlacementRays];  // the hits whose planes pass below the probe
 shared int hits_there;
 shared int planes_there;
 shared int back_faces;
@@ -23,16 +23,16 @@ int plane_count() { return planes_there; }
 PlaneBelow plane_at(int rank) { return plane_below(fixed_hits[by_height[rank]]); }
 #include "field/placement/relocate.inl.h"
 
-/// What a ray saw.
+/// The hit of a ray, as relocation needs it.
 FixedRayHit hit_of(int ray, int first, mat3 axes) {
   vec3 direction = args.rays.at[first + ray].direction_ws;
   RayResult result = args.results.at[first + ray];
   vec3 normal = result.kind == kRayLeft ? -direction : result.geometric_normal_ws;
-  return FixedRayHit(direction * axes, result.kind == kRayLeft ? infinity() : result.distance, normal * axes,
-               result.kind == kRayMetBackFace ? 1u : 0u);
+  return FixedRayHit(direction * axes, result.kind == kRayLeft ? infinity() : result.distance,
+                     normal * axes, result.kind == kRayMetBackFace ? 1u : 0u);
 }
 
-/// Puts the sights that pass below in order.
+/// Sorts the hits whose planes pass below the probe by the probe's height over them.
 void sort_planes(int lane) {
   for (int i = lane; i < hits_there; i += kLanes) {
     if (!passes_below(fixed_hits[i])) continue;
@@ -48,7 +48,7 @@ void sort_planes(int lane) {
   }
 }
 
-/// Where a probe is to stand next; from another place it averages anew.
+/// Takes a step of a probe's relocation. A probe that moves starts its average again.
 void place(int probe, vec3 spacing, uint inside_geometry) {
   ProbeStanding standing = args.probes.standing.at[probe];
   vec3 offset = decode_probe_offset(standing.offset);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends the importance of probes back through their surfels, to what these read: a lane a surfel.
-// Whole numbers are added up, so that the order does not matter.
+// Scatters the importance of probes through their surfels to the probes that these read, one lane
+// per surfel. Sums are of fixed-point numbers, so that the order of additions does not matter.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -22,8 +22,8 @@ void main() {
   int slot = probe * args.stride + ray;
   SurfelRecord surfel = args.surfels.at[slot];
   if (surfel.kind != kSurfelSurface || surfel.albedo_over_pi == vec3(0.0)) return;
-  float takes =
-      args.received.at[probe] * scatter_fraction(rays) * scatter_albedo(surfel.albedo_over_pi) * args.scale;
+  float takes = args.received.at[probe] * scatter_fraction(rays) *
+                scatter_albedo(surfel.albedo_over_pi) * args.scale;
   for (int l = 0; l < kLookups; ++l) {
     SurfelLookup lookup = args.lookups.at[slot * kLookups + l];
     if (lookup.tile_corner == kNoLookup) continue;

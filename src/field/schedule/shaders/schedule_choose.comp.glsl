@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many probes an update serves, down to which bin, and how large the kernels to come are: one
-// workgroup.
+// Decides how many probes an update traces, down to which bin, and how large the kernels are that
+// work on them. One workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -15,7 +15,8 @@ shared uint bins[kPriorityBins];
 shared uint chosen;
 shared int last_bin;
 
-/// Goes down the bins until as many are served as may be, or as want it, up to a whole block.
+/// Takes probes from the highest bin downwards, until the budget is spent or no probe needs rays,
+/// rounded up to a whole block.
 void choose() {
   uint wanting = 0u;
   uint live = 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mean light of all probes, from that of those just served, and their mean noise, from that of
-// the chunks: one workgroup.
+// Updates the mean light of all probes from the probes just traced, and their mean noise from the
+// chunks. One workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What serving each probe is worth: a lane a probe, a workgroup a chunk.
+// Sorts probes into priority bins. One lane per probe, one workgroup per chunk.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -11,9 +11,9 @@ layout(push_constant, scalar) uniform Push {
 };
 
 shared uint bins[kPriorityBins];
-shared float noises[kChunkProbes];  // of probes that do not rest; 0: rests
+shared float noises[kChunkProbes];  // of probes that have not converged, else 0
 
-/// The bin of a probe; its noise where it does not rest.
+/// The priority bin of a probe. `noise` receives its noise, or 0 where it has converged.
 int bin_of(int probe, out float noise) {
   noise = 0.0;
   ProbeService service = args.service.at[probe];
@@ -27,7 +27,8 @@ int bin_of(int probe, out float noise) {
   float reduction = error_reduction(held, samples, args.longest);
   if (reduction > 0.0) {
     noise = held;
-    reduction = max(reduction, kMinNoiseOfMean * args.state.at[0].mean_noise * error_reduction_per_noise(samples));
+    float min_noise = kMinNoiseOfMean * args.state.at[0].mean_noise;
+    reduction = max(reduction, min_noise * error_reduction_per_noise(samples));
   }
   return priority_bin(reduction, service.served, args.update);
 }

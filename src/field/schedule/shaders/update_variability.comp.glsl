@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Books what probes' light says of their noise, and that they were served: a lane a probe.
+// Updates the noise of the probes that were traced, and notes when they were traced. One lane per
+// probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -23,8 +24,8 @@ void main() {
   float before = max(change.y, kDarkShare * mean_light);
   float square =
       change.x * max(change.y * change.y, kTiniestLight) / max(before * before, kTiniestLight);
-  service.known = learned_noise(service.known, estimate_relative_square(square, change.y, blend_weight, mean_light),
-                                1.0, 1.0 / blend_weight - 1.0);
+  float estimate_square = estimate_relative_square(square, change.y, blend_weight, mean_light);
+  service.known = learned_noise(service.known, estimate_square, 1.0, 1.0 / blend_weight - 1.0);
   service.served = args.update;
   args.service.at[probe] = service;
 }

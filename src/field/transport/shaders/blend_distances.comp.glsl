@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances of a block of probes into their tiles: a matrix product (blend.h) whose cluster
-// keeps kDistanceVectors x kLaneGroupSize texels of kBlockProbes probes in registers.
+// Blends the distances of probes' rays into their tiles. This is a matrix product (blend.h): each
+// lane group keeps kDistanceVectors x kLaneGroupSize texels of kBlockProbes probes in registers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/probes/moments_encoding.h"
@@ -12,11 +12,11 @@ layout(push_constant, scalar) uniform Push {
   BlendDistancesArguments args;
 };
 
-/// Moves a texel of a store a share of the way to new moments.
+/// Blends a stored texel with new moments.
 void store_moments(int texel, vec2 now, float blend_weight, float scale) {
   if (kDistanceFormat == kRg16f) {
-    args.store.distance.at[texel] = blended_halves(args.store.distance.at[texel], now, blend_weight, scale,
-                                                   uint(texel) + args.dither_seed);
+    args.store.distance.at[texel] = blended_halves(args.store.distance.at[texel], now, blend_weight,
+                                                   scale, uint(texel) + args.dither_seed);
     return;
   }
   vec2 old = vec2(uintBitsToFloat(args.store.distance.at[2 * texel]),
@@ -36,7 +36,7 @@ void main() {
   const int columns = (texels + kDistanceBlock - 1) / kDistanceBlock * kDistanceBlock;
   int first = int(gl_WorkGroupID.x) * kDistanceBlock + lane_in_group();
 
-  // Add up the rays' distances and their squares, a cluster of rays at a time
+  // Sum the weighted distances and their squares, a lane group's number of rays at a time
   float means[kDistanceVectors][kBlockProbes];
   float squares[kDistanceVectors][kBlockProbes];
   float totals[kDistanceVectors];

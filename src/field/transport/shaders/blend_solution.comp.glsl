@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts light where a solve wants it: a lane a texel.
+// Blends the solution of a solve into the field, one lane per texel. What exactly is blended
+// depends on the step of the solve (kBeginSolve and others).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_solve.h"
@@ -37,7 +38,7 @@ void main() {
     return;
   }
 
-  // Extrapolate from the last steps; the plain next iterate is the image itself
+  // Extrapolate from the last steps; without them, the next iterate is the image
   int steps = args.arrays.state.at[0].steps;
   vec4 next = image;
   for (int step = 0; step < steps; ++step) {

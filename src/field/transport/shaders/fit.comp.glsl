@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tiles are to store, from irradiance at their texels' centres (tile_fit.h).
+// Computes the values that tiles store from the irradiance at their texels' centres (tile_fit.h).
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/shaders/product.glsl"
@@ -9,7 +9,8 @@ layout(push_constant, scalar) uniform Push {
   FitArguments args;
 };
 
-/// Where rays count for some texels only, there is nothing to fit: the others keep what they had.
+/// Stores a texel. Where rays count for some texels of a tile only, the fit is left out, and the
+/// other texels keep their light.
 void store_received(int i, vec3 fitted, bool known) {
   vec4 received = vec4(fitted, 0.0);
   if (!known) {

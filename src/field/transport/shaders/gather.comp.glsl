@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiance along probes' rays, and whether they count: a lane a ray.
+// Gathers the radiance along probes' rays, one lane per ray. The fourth channel is 1 for rays that
+// count.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -13,7 +14,7 @@ layout(push_constant, scalar) uniform Push {
 
 const int kTexels = kIrradianceTexels * kIrradianceTexels;
 
-/// What a lookup reads from the field.
+/// The irradiance that a lookup reads from the field.
 vec3 read_field(SurfelLookup lookup) {
   ivec2 corner = ivec2(int(lookup.tile_corner) % (kIrradianceTexels + 1),
                        int(lookup.tile_corner) / (kIrradianceTexels + 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A matrix product of four channels (blend.h): a cluster keeps kIrradianceVectors x kLaneGroupSize
-// texels of kBlockProbes probes in registers.
+// A matrix product of four channels (blend.h): each lane group keeps kIrradianceVectors x
+// kLaneGroupSize texels of kBlockProbes probes in registers.
 #ifndef LAMBENT_FIELD_TRANSPORT_SHADERS_PRODUCT_GLSL
 #define LAMBENT_FIELD_TRANSPORT_SHADERS_PRODUCT_GLSL
 
@@ -12,7 +12,7 @@ const int kColumns = (kTexels + kIrradianceBlock - 1) / kIrradianceBlock * kIrra
 
 vec4 sums[kIrradianceVectors][kBlockProbes];
 
-/// Texel of this lane in the first vector.
+/// This lane's texel in the first vector.
 int first_texel() {
   return int(gl_WorkGroupID.x) * kIrradianceBlock + lane_in_group();
 }
@@ -23,7 +23,7 @@ void clear_sums() {
   }
 }
 
-/// Adds a cluster of rows times what its lanes hold of them.
+/// Adds kLaneGroupSize rows of the matrix, each times the values that the lane of its index holds.
 void add_rows(FloatArray weights, int row, vec4 values[kBlockProbes]) {
   [[unroll]] for (int lane = 0; lane < kLaneGroupSize; ++lane) {
     float w[kIrradianceVectors];

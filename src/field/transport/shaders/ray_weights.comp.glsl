@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray set's matrix: a lane each number.
+// Computes the matrix of ray weights of a ray set, one lane per element.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/blend_math.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance at the centres of a block of probes' texels, from radiance along their rays.
+// Computes the irradiance at the centres of probes' texels from the radiance along their rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/blend_math.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an update counts for in each probe, which stands from now on where its rays came from: a
-// lane a probe.
+// Computes the blend weights of a recorded field's probes and counts their samples, one lane per
+// probe. From now on, lookups find each probe where its rays started.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
@@ -21,8 +21,10 @@ void main() {
   float averaged = args.discards_history != 0u ? 0.0 : args.probes.standing.at[probe].samples;
   float samples = min(averaged, args.longest - 1.0) + 1.0;
   args.blend_weights.at[k] = 1.0 / samples;
-  // Positive floats are in the order of their bits
-  if (args.is_chosen != 0u) atomicMax(args.largest_blend_weight.at[0], floatBitsToUint(1.0 / samples));
+  // Positive floats are ordered as their bits are
+  if (args.is_chosen != 0u) {
+    atomicMax(args.largest_blend_weight.at[0], floatBitsToUint(1.0 / samples));
+  }
   args.probes.standing.at[probe].samples = samples;
   args.offsets.at[probe] = args.probes.standing.at[probe].offset;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfels from what an engine tells of rays: a lane each. Rays that were not traced count for
-// nothing, as those that met back faces.
+// Makes surfels from an engine's ray results, one lane per ray. Rays that were not traced do not
+// count, like rays that hit back faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
@@ -12,8 +12,9 @@ layout(push_constant, scalar) uniform Push {
   RecordedSurfelsArguments args;
 };
 
-// A surfel's light is what it reflects a share of. What glows is told as such light, and reflects
-// at least this share of it: too little for what it reflects besides to be seen.
+// A surfel stores the light that arrives, of which it reflects its albedo. Emitted light is stored
+// as additional arriving light, divided by the albedo. For this, an emitting surfel has at least
+// this albedo, which is too small for other reflected light to be visible.
 const float kLeastGlowingAlbedo = 1e-3;
 
 void main() {

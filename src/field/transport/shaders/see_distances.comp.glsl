@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What hits count as in distances, and which probes stand in solid matter: a cluster a probe.
+// Computes the distances that hits count as, and which probes stand inside geometry. One lane group
+// per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/blend_math.h"
@@ -29,5 +30,7 @@ void main() {
     args.seen.at[k * args.seen_stride + ray] = counted;
   }
   back_faces = lane_group_sum(back_faces);
-  if (lane_in_group() == 0) args.blocked.at[k] = is_inside_geometry(back_faces, args.rays_per_probe);
+  if (lane_in_group() == 0) {
+    args.blocked.at[k] = is_inside_geometry(back_faces, args.rays_per_probe);
+  }
 }

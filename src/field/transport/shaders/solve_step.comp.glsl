@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides whether a solve is done, and how it goes on: one workgroup.
+// Decides whether a solve is done, and computes the coefficients of the next extrapolation. One
+// workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_solve.h"
@@ -13,7 +14,7 @@ const int kLanes = 64;
 
 shared Wide partial[kLanes][kSolveSums];
 
-/// Remembers the products of the newest step, and the error that is left.
+/// Adds the inner products of the newest step to the state, and estimates the error that is left.
 void take_step(Wide sums[kSolveSums], inout SolveState state) {
   float bound = state.largest_blend_weight * state.max_albedo;
   float contraction = bound;
