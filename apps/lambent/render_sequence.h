@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "lambent/error.h"
-#include "lambent/painter.h"
+#include "lambent/frame_renderer.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
@@ -13,7 +13,8 @@ namespace lambent::cli {
 /// `scene`, which is posed anew for each frame. Statistics of each go into the list
 /// stats["frames"], also of those before a failure. The first interrupt (Ctrl-C) ends the sequence
 /// after the frame at hand, the second one at once. `view` is that of the first frame.
-Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation,
-                               View view, World& world, Painter& painter, nlohmann::ordered_json& stats);
+Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
+                               World& world, FrameRenderer& renderer,
+                               nlohmann::ordered_json& stats);
 
 }  // namespace lambent::cli

@@ -7,15 +7,20 @@
 #include <cstdio>
 #include <glm/gtc/constants.hpp>
 
+#include "lambent/console.h"
 #include "lambent/first_picture.h"
+#include "lambent/input.h"
 #include "lambent/parse.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
 #include "lambent/world.h"
-#include "scenes/builtin.h"
 
 namespace lambent::cli {
 namespace {
 
 constexpr float kDefaultFov = 45.0f;  // vertical [degrees]
+// Narrower and wider views show nothing that people would recognize [degrees].
+constexpr float kSmallestFov = 1.0f, kLargestFov = 170.0f;
 
 Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   for (const Camera& camera : scene.cameras) {
@@ -27,46 +32,53 @@ Expected<Camera> named_camera(const std::string& wanted, const Scene& scene) {
   if (error == std::errc() && stop == last && index < scene.cameras.size()) {
     return scene.cameras[index];
   }
-  std::string known;
-  for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-    known += (i == 0 ? "" : ", ") + std::to_string(i) + " " + scene.cameras[i].name;
-  }
-  return fail(
-      "--camera", "",
-      "no camera '" + wanted + "'; the scene has " + (known.empty() ? std::string("none") : known));
+  std::vector<std::string> names;
+  for (const Camera& known : scene.cameras) names.push_back(known.name);
+  return fail("--camera", "", no_such("camera", wanted, names));
 }
 
 }  // namespace
 
 void add_scene_options(CLI::App& command, StageOptions& o) {
-  command.add_option("scene", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
+  command.add_option("SCENE", o.scene, "A .gltf or .glb file, or the name of a built-in scene")
       ->required();
+  command.option_defaults()->group("What is there, in which light");
+  add_light_options(command, o.light);
   command
       .add_option("--materials", o.materials, "gltf, or lambert: exact Lambert, nothing specular")
-      ->check(CLI::IsMember({"gltf", "lambert"}))
-      ->capture_default_str();
+      ->check(one_of({"gltf", "lambert"}))
+      ->capture_default_str()
+      ->type_name("M");
   command.add_flag("--no-normal-maps", o.no_normal_maps, "Ignore normal maps");
-  add_light_options(command, o.light);
 }
 
 void add_stage_options(CLI::App& command, StageOptions& o) {
   add_scene_options(command, o);
-  command.add_option("--camera", o.camera, "Camera of the scene, by index or name");
-  command.add_option("--eye", o.eye, "Look from here, x,y,z [m]; needs --target");
-  command.add_option("--target", o.target, "Look at this point, x,y,z [m]");
+  command.option_defaults()->group("Where to look from");
   command
-      .add_option("--fov", o.fov_degrees, "Vertical field of view [degrees] (the camera's, or 45)")
-      ->check(CLI::Range(1.0f, 170.0f));
+      .add_option("--camera", o.camera,
+                  "Camera of the scene, by index or name (its first, else one that shows it)")
+      ->type_name("C");
+  command.add_option("--eye", o.eye, "Look from here [m]; needs --target")->type_name("X,Y,Z");
+  command.add_option("--target", o.target, "Look at this point [m]")->type_name("X,Y,Z");
+  command
+      .add_option("--fov", o.fov_degrees,
+                  "Vertical field of view [degrees], 1 to 170 (the camera's, or 45)")
+      ->check(number(kSmallestFov, kLargestFov))
+      ->type_name("DEG");
 }
 
 Expected<Scene> open_stage(const StageOptions& options) {
   LoadOptions load;
   load.lambert = options.materials == "lambert";
   load.normal_maps = !options.no_normal_maps;
-  Expected<Scene> scene = scenes::open_scene(options.scene, load);
+  Expected<Scene> scene = open_scene_input(options.scene, load);
   if (!scene) return scene;
   for (const std::string& warning : scene->source.warnings) {
-    std::fprintf(stderr, "lambent: warning: %s\n", warning.c_str());
+    warn(warning);
+  }
+  if (triangle_count(*scene) == 0) {
+    return fail(options.scene, "", "the scene has no triangles: there is nothing to render");
   }
   if (const auto done = add_asked_light(options.light, *scene); !done) {
     return tl::unexpected(done.error());
@@ -85,6 +97,11 @@ Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene
 
 Expected<View> choose_view(const StageOptions& options, const World& world, float aspect) {
   const Scene& scene = world.scene();
+  // Written so that NaN fails
+  const float fov_degrees = options.fov_degrees.value_or(kDefaultFov);
+  if (!(fov_degrees >= kSmallestFov && fov_degrees <= kLargestFov)) {
+    return fail("--fov", "", "must be 1 to 170 degrees");
+  }
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
   }

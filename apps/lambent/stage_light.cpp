@@ -3,8 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "lambent/input.h"
 #include "lambent/parse.h"
+#include "lambent/validators.h"
 #include "lambent/world.h"
+#include "scene/limits.h"
 
 namespace lambent::cli {
 namespace {
@@ -19,6 +22,11 @@ bool names_light(const LightOptions& options) {
   return !options.sun.empty() || !options.sky.empty() || !options.environment.empty();
 }
 
+bool are_within(const glm::vec3& color, float largest) {
+  return glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f))) &&
+         glm::all(glm::lessThanEqual(color, glm::vec3(largest)));
+}
+
 Expected<void> add_sun(const LightOptions& options, Scene& scene) {
   if (options.sun.empty()) {
     if (!options.sun_irradiance.empty()) return fail("--sun-irradiance", "", "needs --sun");
@@ -26,21 +34,22 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
   }
   const auto direction = parse_vec3("--sun", options.sun);
   if (!direction) return tl::unexpected(direction.error());
-  if (glm::length(*direction) < kMinDirection)
-    return fail("--sun", "", "the direction has no length");
+  // In double, where no vector of floats is too long for its square
+  const glm::dvec3 way(*direction);
+  if (glm::length(way) < kMinDirection) return fail("--sun", "", "the direction has no length");
   glm::vec3 irradiance = kDefaultSunIrradiance;
   if (!options.sun_irradiance.empty()) {
     const auto given = parse_vec3("--sun-irradiance", options.sun_irradiance);
     if (!given) return tl::unexpected(given.error());
     irradiance = *given;
   }
-  if (glm::any(glm::lessThan(irradiance, glm::vec3(0.0f)))) {
-    return fail("--sun-irradiance", "", "must not be negative");
+  if (!are_within(irradiance, kMaxIrradiance)) {
+    return fail("--sun-irradiance", "", "must be 0 to 1e10 W/m^2");
   }
   Light sun;
   sun.name = "sun";
   sun.type = Light::Type::directional;
-  sun.direction_ws = glm::normalize(*direction);
+  sun.direction_ws = glm::vec3(glm::normalize(way));
   sun.intensity = irradiance;
   scene.lights.push_back(sun);
   return {};
@@ -48,6 +57,8 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
 
 Expected<void> set_sky(const LightOptions& options, Scene& scene) {
   if (!options.environment.empty()) {
+    const auto fine = check_image_input(options.environment);
+    if (!fine) return tl::unexpected(fine.error());
     Expected<Environment> environment = load_environment(options.environment);
     if (!environment) return tl::unexpected(environment.error());
     scene.environment = std::move(*environment);
@@ -56,8 +67,7 @@ Expected<void> set_sky(const LightOptions& options, Scene& scene) {
   if (!options.environment.empty()) return fail("--sky", "", "give either --sky or --environment");
   const auto sky = parse_vec3("--sky", options.sky);
   if (!sky) return tl::unexpected(sky.error());
-  if (glm::any(glm::lessThan(*sky, glm::vec3(0.0f))))
-    return fail("--sky", "", "must not be negative");
+  if (!are_within(*sky, kMaxRadiance)) return fail("--sky", "", "must be 0 to 1e10 W/(m^2 sr)");
   scene.environment = {};
   scene.environment.radiance = *sky;
   return {};
@@ -91,12 +101,16 @@ void add_light_options(CLI::App& command, LightOptions& o) {
       .add_option("--light", o.light,
                   "auto: the scene's, else what suits it. scene, studio, sun (and sky), lamps, or "
                   "none (but what surfaces emit)")
-      ->check(CLI::IsMember({"auto", "scene", "studio", "sun", "lamps", "none"}))
-      ->capture_default_str();
-  command.add_option("--sun", o.sun, "Add a sun whose light travels along x,y,z");
-  command.add_option("--sun-irradiance", o.sun_irradiance, "Of the sun, r,g,b [W/m^2]");
-  command.add_option("--sky", o.sky, "Constant sky, r,g,b [W/(m^2 sr)]");
-  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr");
+      ->check(one_of({"auto", "scene", "studio", "sun", "lamps", "none"}))
+      ->capture_default_str()
+      ->type_name("L");
+  command.add_option("--sun", o.sun, "Add a sun whose light travels this way: --sun=0.3,-1,0.2")
+      ->type_name("X,Y,Z");
+  command.add_option("--sun-irradiance", o.sun_irradiance, "Of that sun [W/m^2] (20,18,15)")
+      ->type_name("R,G,B");
+  command.add_option("--sky", o.sky, "Constant sky [W/(m^2 sr)]")->type_name("R,G,B");
+  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr")
+      ->type_name("FILE");
 }
 
 Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {

@@ -39,12 +39,12 @@ class Median {
 
 /// What updates of a field take, pass by pass.
 struct UpdateTimes {
-  Median trace, shade, relight, blend, place, all, rays;
+  Median trace, shade, solve_bounces, blend, place, all, rays;
 
   void add(const UpdateStatistics& update) {
     trace.add(update.ms("trace"));
     shade.add(update.ms("shade") + update.ms("visibility") + update.ms("lookups"));
-    relight.add(update.ms("solve"));
+    solve_bounces.add(update.ms("solve"));
     blend.add(update.ms("blend_distances") + update.ms("store"));
     place.add(update.ms("placement") + update.ms("edits"));
     double sum = 0.0;
@@ -111,7 +111,7 @@ class Bench {
     const std::string full = probes + " x " + std::to_string(kRays) + " rays: ";
     add(full + "trace", whole.trace);
     add(full + "shade", whole.shade);
-    add(full + "relight", whole.relight);
+    add(full + "solve", whole.solve_bounces);
     add(full + "blend", whole.blend);
     add(full + "maintain, on the host", whole.place);
     add("lookup of " + size(), lookup);

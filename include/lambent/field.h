@@ -20,7 +20,7 @@ namespace lambent {
 class World;
 class ProbeStore;
 class DeviceLookups;
-struct ProbeRecord;
+struct ProbeStatus;
 struct LoadedField;
 
 /// How a probe's irradiance is stored. All three conserve light: they round without bias.
@@ -91,9 +91,9 @@ struct FieldSettings {
   /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
   /// share of it, 1e-7 to 1. Ten times less costs a few iterations more; under some 1e-6
   /// rounding is in the way.
-  float relight_tolerance = 0.002f;
+  float solve_tolerance = 0.002f;
   /// ... or after so many iterations, 1 to 1000. Each costs a fraction of tracing.
-  int max_relights = 32;
+  int max_solve_iterations = 32;
   /// Bounces of indirect light to carry, >= 0; -1: all. 0 is the sky's light alone. A limit is
   /// exact but not accelerated: each bounce costs a relight.
   int max_bounces = -1;
@@ -152,7 +152,7 @@ struct UpdateRequest {
   std::optional<glm::vec3> viewer_ws = std::nullopt;
   /// Points that the camera sees (visible_points), some hundred to a few thousand: with a bound,
   /// probes go first by how much they matter to the light at these, near or far. Costs a lookup a
-  /// point and about half an iteration of relighting. Empty: by their distance from the viewer.
+  /// point and about half an iteration of the solve. Empty: by their distance from the viewer.
   std::span<const FieldQuery> seen = {};
 };
 
@@ -181,13 +181,13 @@ struct UpdateStatistics {
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
-  int probes_recycled = 0;  ///< Moved on to a new place with a volume that follows the viewer.
-  int probes_followed = 0;  ///< Held against what was edited in the world.
-  int probes_touched = 0;   ///< Those among them whose light the edits changed.
-  ProbeCounts states;       ///< After the update.
-  int relights = 0;         ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;    ///< Estimated relative error this update stopped at.
-  double change = 0.0;      ///< Of the stored light, root mean square over root mean square.
+  int probes_recycled = 0;     ///< Moved on to a new place with a volume that follows the viewer.
+  int probes_invalidated = 0;  ///< Held against what was edited in the world.
+  int probes_changed = 0;      ///< Those among them whose light the edits changed.
+  ProbeCounts states;          ///< After the update.
+  int solve_iterations = 0;    ///< Iterations of the multi-bounce solve.
+  double residual = 0.0;       ///< Estimated relative error this update stopped at.
+  double change = 0.0;         ///< Of the stored light, root mean square over root mean square.
 };
 
 /// Volumes of irradiance probes with visibility, and the light that bounces between them.
@@ -234,11 +234,11 @@ class IrradianceField {
   int updates() const;
   /// Bytes that the store holds between updates, for all probes.
   std::size_t store_bytes() const;
-  /// Bytes of the last update's surfels, kept for relighting.
+  /// Bytes of the last update's surfels, kept to solve for the light again.
   std::size_t surfel_bytes() const;
   /// The probes' store, and what else is known of each, for tools that look inside.
   const ProbeStore& store() const;
-  std::span<const ProbeRecord> records() const;
+  std::span<const ProbeStatus> probe_statuses() const;
   /// What looks the field up in a device's memory, for passes there; null: the processor's holds
   /// it.
   const DeviceLookups* on_device() const;

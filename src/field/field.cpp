@@ -36,10 +36,11 @@ Expected<void> check_settings(const FieldSettings& s) {
   }
   if (outside(s.distance_texels, 4, 32)) return fail("", "distance texels", "must be 4 to 32");
   if (outside(s.max_albedo, 0.0f, 0.99f)) return fail("", "max albedo", "must be 0 to 0.99");
-  if (outside(s.relight_tolerance, 1e-7f, 1.0f)) {
-    return fail("", "relight tolerance", "must be 1e-7 to 1");
+  if (outside(s.solve_tolerance, 1e-7f, 1.0f)) {
+    return fail("", "solve tolerance", "must be 1e-7 to 1");
   }
-  if (outside(s.max_relights, 1, 1000)) return fail("", "max relights", "must be 1 to 1000");
+  if (outside(s.max_solve_iterations, 1, 1000))
+    return fail("", "max solve iterations", "must be 1 to 1000");
   if (s.max_bounces < -1) return fail("", "bounces", "must be 0 or more, or -1 for all");
   if (outside(s.emissive_samples, 1, 64)) return fail("", "emissive samples", "must be 1 to 64");
   if (!std::isfinite(s.texture_lod_bias)) return fail("", "texture LOD bias", "must be finite");
@@ -49,13 +50,13 @@ Expected<void> check_settings(const FieldSettings& s) {
 IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
     : settings(field_settings),
       roles(roles_of(volumes)),
-      memory(grids_of(volumes), settings),
-      records(memory.store.probes()),
-      reaches(memory.store.probes()),
-      told_roughly(memory.store.probes()),
-      agenda(memory.store.probes(), roles, settings),
-      backend(make_field_backend_cpu(memory)) {
-  for (const ProbeGrid& grid : memory.store.grids()) grids.push_back(field_grid(grid));
+      data(grids_of(volumes), settings),
+      statuses(data.store.probes()),
+      classification_inputs(data.store.probes()),
+      last_estimate_is_coarse(data.store.probes()),
+      scheduler(data.store.probes(), roles, settings),
+      backend(make_field_backend_cpu(data)) {
+  for (const ProbeGrid& grid : data.store.grids()) grids.push_back(field_grid(grid));
 }
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -74,19 +75,19 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 
 void IrradianceField::reset() {
   State& s = *state_;
-  s.backend = make_field_backend_cpu(s.memory);
-  s.memory.clear();
-  std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
-  std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
-  s.edits = {};
+  s.backend = make_field_backend_cpu(s.data);
+  s.data.clear();
+  std::fill(s.statuses.begin(), s.statuses.end(), ProbeStatus{});
+  std::fill(s.classification_inputs.begin(), s.classification_inputs.end(), ClassificationInput{});
+  s.pending_edits = {};
   s.edited_places.clear();
-  s.late_sleepers.clear();
-  s.followed_revision = 0;
+  s.stale_sleeping.clear();
+  s.applied_revision = 0;
   s.classified = false;
-  s.agenda.changed_all();
-  s.starting = true;
+  s.scheduler.mark_all_changed();
+  s.warming_up = true;
   s.mean_light = 0.0f;
-  s.followed_last = false;
+  s.applied_edits_last = false;
   s.updates = 0;
 }
 
@@ -100,7 +101,7 @@ std::span<const FieldGrid> IrradianceField::grids() const {
   return state_->grids;
 }
 int IrradianceField::probes() const {
-  return state_->memory.store.probes();
+  return state_->data.store.probes();
 }
 const FieldSettings& IrradianceField::settings() const {
   return state_->settings;
@@ -109,20 +110,20 @@ int IrradianceField::updates() const {
   return state_->updates;
 }
 std::size_t IrradianceField::store_bytes() const {
-  return state_->memory.store.bytes();
+  return state_->data.store.bytes();
 }
 std::size_t IrradianceField::surfel_bytes() const {
   return state_->backend->surfel_bytes();
 }
 const ProbeStore& IrradianceField::store() const {
   state_->backend->fetch_store();
-  return state_->memory.store;
+  return state_->data.store;
 }
 const DeviceLookups* IrradianceField::on_device() const {
   return state_->backend->on_device();
 }
-std::span<const ProbeRecord> IrradianceField::records() const {
-  return state_->records;
+std::span<const ProbeStatus> IrradianceField::probe_statuses() const {
+  return state_->statuses;
 }
 
 }  // namespace lambent

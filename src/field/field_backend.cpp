@@ -5,17 +5,17 @@
 namespace lambent {
 
 bool lives_on_device(const World& world, int probes) {
-  return world.on_device() != nullptr && probes <= kMostDeviceProbes;
+  return world.on_device() != nullptr && probes <= kMaxBackendProbes;
 }
 
 std::unique_ptr<FieldBackend> make_field_backend([[maybe_unused]] const World& world,
-                                                 ProbeMemory& memory) {
+                                                 ProbeData& data) {
 #if LAMBENT_VULKAN
-  if (lives_on_device(world, memory.store.probes())) {
-    return make_field_backend_vulkan(world, memory);
+  if (lives_on_device(world, data.store.probes())) {
+    return make_field_backend_vulkan(world, data);
   }
 #endif
-  return make_field_backend_cpu(memory);
+  return make_field_backend_cpu(data);
 }
 
 }  // namespace lambent

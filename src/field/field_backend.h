@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a field lives, and who runs its passes there: the processor, or a device that keeps tiles,
-// surfels and light in its own memory. The host decides what is to be done and to which probes;
-// what it decides by (the probes' statuses, places, and their light where an edit is followed) is
-// in the processor's memory, and a device's backend brings that up to date when it is asked to.
+// surfels and light in its own memory. IrradianceField::State decides what is done with which
+// probes. What it decides by (probe statuses, positions, and the light where edits are applied) is
+// in the processor's memory, which a device's backend brings up to date when it is asked to.
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,9 @@
 #include <span>
 #include <vector>
 
-#include "field/edits/follow.h"
-#include "field/probe_memory.h"
-#include "field/transport/relight.h"
+#include "field/edits/invalidation.h"
+#include "field/probe_data.h"
+#include "field/transport/solve_bounces.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
@@ -23,31 +23,31 @@ namespace vulkan {
 class Recorder;
 }
 
-/// By how much a probe's light changed in an update.
+/// How much a probe's light changed in an update.
 struct LightChange {
-  float relative_square;  ///< As of tile_light.h: of what it holds to what it held.
-  float before, now;      ///< Mean luminance of its texels.
+  float relative_square;  ///< relative_square() of tile_light.h, of the new light to the old.
+  float before, now;      ///< Mean luminance of the probe's texels before and after the update.
 };
 
-/// Probes to trace anew, and how their light is solved for.
+/// The arguments of FieldBackend::update_probes.
 struct ProbeUpdate {
   const World& world;
-  std::vector<TraceGroup> groups;  ///< Without hits.
-  std::vector<int> probes;         ///< Of all groups, one group after the other.
-  std::vector<float> shares;       ///< Of what each holds afterwards, its new light.
-  RelightSettings relight;
-  float darkest = 0.0f;  ///< As relative_square takes it.
-  uint salt = 0;         ///< Of the store's dither.
+  std::vector<TraceGroup> groups;    ///< Probes by their rays. The hits are empty.
+  std::vector<int> probes;           ///< The probes of all groups, group after group.
+  std::vector<float> blend_weights;  ///< How much each probe's new light counts, 0 to 1.
+  SolveSettings solve;
+  float darkest = 0.0f;  ///< See relative_square() [luminance].
+  uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 
-/// What an update of probes came to.
+/// What an update of probes did.
 struct ProbeUpdateResult {
-  std::vector<LightChange> changes;  ///< One a probe.
+  std::vector<LightChange> changes;  ///< One per probe, in the order of ProbeUpdate::probes.
   std::uint64_t probe_rays = 0, shadow_rays = 0;
-  int iterations = 0;   ///< Of the solve.
-  double error = 0.0;   ///< As RelightResult's.
-  double change = 0.0;  ///< As RelightResult's.
-  std::vector<PassTime> passes;
+  int iterations = 0;            ///< Iterations of the solve.
+  double error = 0.0;            ///< See SolveResult::error.
+  double change = 0.0;           ///< See SolveResult::change.
+  std::vector<PassTime> passes;  ///< In the order in which they ran.
 };
 
 /// Looks a field up on the device that holds it.
@@ -57,9 +57,8 @@ class DeviceLookups {
 
   /// Whether the world is on the same device.
   virtual bool is_on(const World& world) const = 0;
-
-  /// Records lookups: `count` queries to as many irradiances [W/m^2], at these addresses
-  /// (QueryRecord and vec3). Binds the world's textures.
+  /// Records the lookup of `count` queries. `queries` and `irradiance` are addresses of QueryRecord
+  /// and vec3 [W/m^2]. Binds the world's textures.
   virtual void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
                               std::uint32_t count, std::uint64_t irradiance) const = 0;
 };
@@ -68,74 +67,82 @@ class FieldBackend {
  public:
   virtual ~FieldBackend() = default;
 
-  /// Whether a field of its size is to live here while it follows this world.
+  /// Whether this is the backend for a field that follows the world. If not, make_field_backend
+  /// makes the one that is.
   virtual bool suits(const World& world) const = 0;
-  /// Null: the processor's memory holds the field.
+  /// Null where the processor's memory holds the field.
   virtual const DeviceLookups* on_device() const = 0;
 
-  // Memory. The processor's is what it works on: none of these does anything there.
+  // Transfers between ProbeData and the device that holds the field. On the processor ProbeData is
+  // the field, and none of these does anything.
 
-  /// Brings light and told, or the store's tiles, in the processor's memory up to date.
+  /// Reads the light and the last irradiance estimates back where the device's are newer.
   virtual void fetch_light() = 0;
+  /// Reads the store's tiles back where the device's are newer.
   virtual void fetch_store() = 0;
-  /// Takes over light and told, which the host changed.
+  /// Uploads the light and the last irradiance estimates.
   virtual void push_light() = 0;
-  /// Takes over where probes stand. Those that moved have no surfels any more; their distances are
-  /// taken over.
+  /// Uploads the grids and the probes' offsets. Drops the surfels of the probes that moved, and
+  /// uploads their distance tiles.
   virtual void push_places(std::span<const int> moved) = 0;
 
   // Passes.
 
-  /// All passes of an update, in the order of update_probes.
+  /// Runs all passes of update_probes() in passes.h.
   virtual ProbeUpdateResult update_probes(ProbeUpdate update) = 0;
-  /// Brings surfels and stored distances of `probes` up to date with the world, and the lookups of
-  /// those `among` all traced probes that this may have changed. `changes` tell what may differ
-  /// from the world that the surfels were found in; what they do not touch comes out as it was.
-  virtual FollowedEdits retrace(const World& world, std::span<const WorldChanges> changes,
-                                std::span<const int> probes, std::span<const int> among,
-                                uint salt) = 0;
-  /// As ProbeSights::look, of a field with hybrid visibility; `cells` as of cells_around. Returns
-  /// the rays traced.
-  virtual std::uint64_t look(const World& world, std::span<const int> cells) = 0;
-  /// Finds the lookups of those `among` traced probes whose surfels may read one of `moved`.
-  /// Returns the rays that their visibility took.
+  /// Brings the surfels and stored distances of `probes` up to date with the world, and finds the
+  /// lookups that this affects again, `among` all traced probes. `changes` name everything that may
+  /// differ from the world in which the surfels were found. What the edits do not affect keeps its
+  /// value.
+  virtual InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
+                                     std::span<const int> probes, std::span<const int> among,
+                                     uint dither_seed) = 0;
+  /// CellVisibility::update of a field with hybrid visibility. `cells` come from cells_around().
+  /// Returns the number of rays traced.
+  virtual std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) = 0;
+  /// Finds the lookups of those `among` the traced probes whose surfels may read one of `moved`.
+  /// Returns the number of visibility rays traced.
   virtual std::uint64_t find_lookups(const World& world, std::span<const int> moved,
                                      std::span<const int> among) = 0;
 
-  /// As relight, of probes that have been traced and in the field's light, which is up to date in
-  /// the processor's memory afterwards.
-  virtual RelightResult solve(std::span<const int> probes, std::span<const float> shares,
-                              const WorkingIrradiance& gain, const RelightSettings& settings) = 0;
-  /// What some probes receive of the light that there is. Texels that no ray counts for stay.
+  /// Solves for the light of some traced probes as solve_bounces() does, starting from the field's
+  /// light. ProbeData::light is up to date afterwards.
+  virtual SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
+                            const WorkingIrradiance& history_ratio,
+                            const SolveSettings& settings) = 0;
+  /// Computes what some probes receive from the field's light. Texels that no ray counts for keep
+  /// what `received` holds.
   virtual void receive(std::span<const int> probes, WorkingIrradiance& received) = 0;
-  /// Luminance of what each probe's rays bring back of direct light and the sky, added up.
+  /// Luminance of the direct and sky light that each probe's rays bring back, summed over its rays
+  /// (processor) or texels (device).
   virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
-  /// Encodes the light of some probes.
-  virtual void store_light(std::span<const int> probes, uint salt) = 0;
+  /// Encodes the light of some probes into the store.
+  virtual void store_light(std::span<const int> probes, uint dither_seed) = 0;
 
-  /// As SendBack of importance.h.
-  virtual std::vector<float> send_back(std::span<const float> received, float least) = 0;
-  /// Irradiance for each query [W/m^2]. `world` is what visibility traces rays in; null, or not on
-  /// the same device: visibility is by distances.
+  /// See ImportanceScatter in importance.h.
+  virtual std::vector<float> scatter_importance(std::span<const float> received, float least) = 0;
+  /// Irradiance for each query [W/m^2]. `world` is the world in which visibility rays are traced.
+  /// Where it is null or not on the field's device, visibility is by distances.
   virtual void irradiance(std::span<const FieldQuery> queries, const World* world,
                           std::span<vec3> result) const = 0;
 
+  /// Bytes that surfels and their lookups take.
   virtual std::size_t surfel_bytes() const = 0;
 };
 
-/// Probes of a field that passes on a device can take: every device takes dispatches of 65,535
-/// groups of eight probes, and indices of texels stay within 31 bits. Larger fields stay on the
-/// host and ask the device for rays alone.
-inline constexpr int kMostDeviceProbes = 1 << 18;
+/// The most probes that passes on a device can handle: every device accepts dispatches of 65,535
+/// groups of eight probes, and texel indices stay within 31 bits. Larger fields stay on the host
+/// and use the device to trace rays only.
+inline constexpr int kMaxBackendProbes = 1 << 18;
 
-/// Whether a field of so many probes that follows the world lives on the world's device.
+/// Whether a field of this many probes lives on the device of the world that it follows.
 bool lives_on_device(const World& world, int probes);
 
-/// The backend for a field that follows the world, with all that the memory holds but surfels. The
-/// memory must outlive it.
-std::unique_ptr<FieldBackend> make_field_backend(const World& world, ProbeMemory& memory);
-std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeMemory& memory);
+/// Makes the backend for a field that follows the world: this is the one place that picks an
+/// executor. It takes over all data but surfels. The data must outlive it.
+std::unique_ptr<FieldBackend> make_field_backend(const World& world, ProbeData& data);
+std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeData& data);
 /// For worlds on a device.
-std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeMemory& memory);
+std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeData& data);
 
 }  // namespace lambent

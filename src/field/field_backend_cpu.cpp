@@ -17,90 +17,92 @@ namespace {
 constexpr std::size_t kProbesPerTask = 64;
 constexpr std::size_t kQueriesPerTask = 4096;
 
-VisibilityRays visibility_in(const World& world, const ProbeMemory& memory) {
-  return {memory.settings.visibility, &world.tracer(), &memory.sights};
+VisibilityRays visibility_in(const World& world, const ProbeData& data) {
+  return {data.settings.visibility, &world.tracer(), &data.cell_visibility};
 }
 
-void store_irradiance(std::span<const int> probes, uint salt, ProbeMemory& memory) {
-  const auto texels = static_cast<std::size_t>(memory.tile_texels());
+void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& data) {
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<vec3> interior(texels);
     for (std::size_t k = begin; k < end; ++k) {
-      const vec4* tile = &memory.light[probes[k] * texels];
+      const vec4* tile = &data.light[probes[k] * texels];
       for (std::size_t t = 0; t < texels; ++t) interior[t] = vec3(tile[t]);
-      memory.store.store_irradiance(probes[k], interior, salt);
+      data.store.store_irradiance(probes[k], interior, dither_seed);
     }
   });
 }
 
 class FieldPassesCpu final : public FieldPasses {
  public:
-  FieldPassesCpu(ProbeUpdate& update, ProbeMemory& memory)
-      : update_(update), memory_(memory), timer_(result.passes) {}
+  FieldPassesCpu(ProbeUpdate& update, ProbeData& data)
+      : update_(update), data_(data), timer_(result.passes) {}
 
   ProbeUpdateResult result;
 
-  const FieldSettings& settings() const override { return memory_.settings; }
+  const FieldSettings& settings() const override { return data_.settings; }
   int batches() const override { return static_cast<int>(update_.groups.size()); }
 
   void trace(int batch) override {
     TraceGroup& group = update_.groups[batch];
-    trace_probe_rays(update_.world.tracer(), memory_.store, group);
+    trace_probe_rays(update_.world.tracer(), data_.store, group);
     result.probe_rays += group.hits.size();
   }
 
   void shade(int batch) override {
-    result.shadow_rays += shade_surfels(update_.world, memory_.store, update_.groups[batch],
-                                        memory_.settings, memory_.traces);
+    result.shadow_rays += shade_surfels(update_.world, data_.store, update_.groups[batch],
+                                        data_.settings, data_.traces);
   }
 
   void blend_distances() override {
     std::span<const float> shares = update_.shares;
     for (const TraceGroup& group : update_.groups) {
-      const DistanceBlend blend(memory_.settings, group.rays->directions);
+      const DistanceBlend blend(data_.settings, group.rays->directions);
       lambent::blend_distances(update_.world.scene(), blend, group,
-                               shares.first(group.probes.size()), update_.salt, memory_.store);
+                               shares.first(group.probes.size()), update_.dither_seed, data_.store);
       shares = shares.subspan(group.probes.size());
     }
   }
 
   void visibility() override {
-    result.shadow_rays += memory_.sights.look(update_.world.tracer(), memory_.store,
-                                              cells_around(memory_.store, update_.probes));
+    result.shadow_rays += data_.cell_visibility.look(update_.world.tracer(), data_.store,
+                                                     cells_around(data_.store, update_.probes));
   }
 
   void lookups() override {
-    result.shadow_rays += find_surfel_lookups(memory_.store, visibility_in(update_.world, memory_),
-                                              update_.probes, memory_.traces);
+    result.shadow_rays += find_surfel_lookups(data_.store, visibility_in(update_.world, data_),
+                                              update_.probes, data_.traces);
   }
 
   void solve() override {
-    const TransportOperator to_these = memory_.transport(update_.probes);
-    const int bounces = memory_.settings.max_bounces;
-    history_ = light_of(memory_.light, update_.probes, memory_.tile_texels());
-    const RelightResult solved =
-        bounces >= 0 ? relight_bounces(to_these, update_.shares, bounces, memory_.light)
-                     : relight(to_these, update_.shares, {}, update_.relight, memory_.light);
+    const TransportOperator to_these = data_.transport(update_.probes);
+    const int bounces = data_.settings.max_bounces;
+    history_ = light_of(data_.light, update_.probes, data_.tile_texels());
+    const SolveResult solved =
+        bounces >= 0
+            ? solve_counted_bounces(to_these, update_.shares, bounces, data_.light)
+            : solve_bounces(to_these, update_.shares, {}, update_.solve_bounces, data_.light);
     result.iterations = solved.iterations;
     result.error = solved.error;
     result.change = solved.change;
-    const auto texels = static_cast<std::size_t>(memory_.tile_texels());
+    const auto texels = static_cast<std::size_t>(data_.tile_texels());
     for (std::size_t k = 0; k < update_.probes.size(); ++k) {
-      std::copy_n(&solved.solution[k * texels], texels, &memory_.told[update_.probes[k] * texels]);
+      std::copy_n(&solved.solution[k * texels], texels,
+                  &data_.last_irradiance_estimate[update_.probes[k] * texels]);
     }
   }
 
   void variability() override {
-    const auto texels = static_cast<std::size_t>(memory_.tile_texels());
+    const auto texels = static_cast<std::size_t>(data_.tile_texels());
     for (std::size_t k = 0; k < update_.probes.size(); ++k) {
-      const TileLight held(&memory_.light[update_.probes[k] * texels], texels),
+      const TileLight held(&data_.light[update_.probes[k] * texels], texels),
           before(&history_[k * texels], texels);
       result.changes.push_back({relative_square(held, before, update_.darkest),
                                 mean_luminance(before), mean_luminance(held)});
     }
   }
 
-  void store() override { store_irradiance(update_.probes, update_.salt, memory_); }
+  void store() override { store_irradiance(update_.probes, update_.dither_seed, data_); }
 
   // The host has chosen and placed the probes.
   void schedule() override {}
@@ -111,7 +113,7 @@ class FieldPassesCpu final : public FieldPasses {
 
  private:
   ProbeUpdate& update_;
-  ProbeMemory& memory_;
+  ProbeData& data_;
   PassTimer timer_;
   const char* name_ = nullptr;
   WorkingIrradiance history_;  // what the update's probes held
@@ -119,10 +121,10 @@ class FieldPassesCpu final : public FieldPasses {
 
 class FieldBackendCpu final : public FieldBackend {
  public:
-  explicit FieldBackendCpu(ProbeMemory& memory) : memory_(memory) {}
+  explicit FieldBackendCpu(ProbeData& data) : data_(data) {}
 
   bool suits(const World& world) const override {
-    return !lives_on_device(world, memory_.store.probes());
+    return !lives_on_device(world, data_.store.probes());
   }
   const DeviceLookups* on_device() const override { return nullptr; }
 
@@ -132,74 +134,75 @@ class FieldBackendCpu final : public FieldBackend {
   void push_places(std::span<const int>) override {}
 
   ProbeUpdateResult update_probes(ProbeUpdate update) override {
-    FieldPassesCpu passes(update, memory_);
+    FieldPassesCpu passes(update, data_);
     lambent::update_probes(passes);
     return std::move(passes.result);
   }
 
-  FollowedEdits retrace(const World& world, std::span<const WorldChanges> changes,
-                        std::span<const int> probes, std::span<const int> among,
-                        uint salt) override {
-    return follow_edits(world, changes, memory_.settings, probes, among,
-                        visibility_in(world, memory_), memory_.store, memory_.traces, salt);
+  InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
+                             std::span<const int> probes, std::span<const int> among,
+                             uint dither_seed) override {
+    return invalidate_surfels(world, changes, data_.settings, probes, among,
+                              visibility_in(world, data_), data_.store, data_.traces, dither_seed);
   }
 
   std::uint64_t look(const World& world, std::span<const int> cells) override {
-    return memory_.sights.look(world.tracer(), memory_.store, cells);
+    return data_.cell_visibility.look(world.tracer(), data_.store, cells);
   }
 
   std::uint64_t find_lookups(const World& world, std::span<const int> moved,
                              std::span<const int> among) override {
-    return find_surfel_lookups(memory_.store, visibility_in(world, memory_),
-                               probes_reading(moved, among, memory_.store, memory_.traces),
-                               memory_.traces);
+    return find_surfel_lookups(data_.store, visibility_in(world, data_),
+                               probes_reading(moved, among, data_.store, data_.traces),
+                               data_.traces);
   }
 
-  RelightResult solve(std::span<const int> probes, std::span<const float> shares,
-                      const WorkingIrradiance& gain, const RelightSettings& settings) override {
-    return relight(memory_.transport(probes), shares, gain, settings, memory_.light);
+  SolveResult solve(std::span<const int> probes, std::span<const float> shares,
+                    const WorkingIrradiance& history_ratio,
+                    const SolveSettings& settings) override {
+    return solve_bounces(data_.transport(probes), shares, history_ratio, settings, data_.light);
   }
 
   void receive(std::span<const int> probes, WorkingIrradiance& received) override {
-    memory_.transport(probes).apply(memory_.light, received, received);
+    data_.transport(probes).apply(data_.light, received, received);
   }
 
   std::vector<double> direct_light(std::span<const int> probes) override {
-    return direct_light_of(memory_.traces, probes);
+    return direct_light_of(data_.traces, probes);
   }
 
-  void store_light(std::span<const int> probes, uint salt) override {
-    store_irradiance(probes, salt, memory_);
+  void store_light(std::span<const int> probes, uint dither_seed) override {
+    store_irradiance(probes, dither_seed, data_);
   }
 
-  std::vector<float> send_back(std::span<const float> received, float least) override {
-    return send_importance_back(memory_.store, memory_.traces, received, least);
+  std::vector<float> scatter_importance(std::span<const float> received, float least) override {
+    return send_importance_back(data_.store, data_.traces, received, least);
   }
 
   void irradiance(std::span<const FieldQuery> queries, const World* world,
                   std::span<vec3> result) const override {
     const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
-    const VisibilityRays by = {memory_.settings.visibility, tracer, &memory_.sights};
+    const VisibilityRays by = {data_.settings.visibility, tracer, &data_.cell_visibility};
     parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-      lookup_irradiance(memory_.store, by, queries.subspan(begin, end - begin),
+      lookup_irradiance(data_.store, by, queries.subspan(begin, end - begin),
                         result.subspan(begin, end - begin));
     });
   }
 
   std::size_t surfel_bytes() const override {
     std::size_t bytes = 0;
-    for (const ProbeTrace& trace : memory_.traces) bytes += trace.bytes();
+    for (const ProbeTrace& trace : data_.traces) bytes += trace.bytes();
     return bytes;
   }
 
  private:
-  ProbeMemory& memory_;
+  ProbeData& data_;
 };
 
 }  // namespace
 
-std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeMemory& memory) {
-  return std::make_unique<FieldBackendCpu>(memory);
+std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeData& data) {
+  return std::make_unique<FieldBackendCpu>(data);
 }
 
 }  // namespace lambent

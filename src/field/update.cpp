@@ -73,20 +73,21 @@ double UpdateStatistics::ms(std::string_view pass) const {
   return known == passes.end() ? 0.0 : known->ms;
 }
 
-uint IrradianceField::State::salt() const {
-  return store_salt(static_cast<uint>(updates), settings.seed);
+uint IrradianceField::State::dither_seed() const {
+  return store_dither_seed(static_cast<uint>(updates), settings.seed);
 }
 
-/// What the groups' rays will count for.
-TracedProbes IrradianceField::State::shares_of(std::span<const TraceGroup> groups) const {
+/// Computes how much the groups' rays will count: all history of n updates' worth of rays and w new
+/// ones blend with the weight w / (n + w), where n is limited by the hysteresis.
+TracedProbes IrradianceField::State::blend_weights_of(std::span<const TraceGroup> groups) const {
   const float longest = longest_average(settings);
   TracedProbes traced;
   for (const TraceGroup& group : groups) {
     const float weight =
         static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
     for (const int probe : group.probes) {
-      const float held = min(records[probe].samples, max(longest - weight, 0.0f));
-      traced.shares.push_back(weight / (held + weight));
+      const float held = min(statuses[probe].samples, max(longest - weight, 0.0f));
+      traced.blend_weights.push_back(weight / (held + weight));
     }
     traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
     traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
@@ -94,29 +95,31 @@ TracedProbes IrradianceField::State::shares_of(std::span<const TraceGroup> group
   return traced;
 }
 
-/// Books what the probes' light says of their noise, and that they were served.
-void IrradianceField::State::book(const World& world, const TracedProbes& traced,
-                                  std::span<const LightChange> changes) {
+/// Learns the noise of the traced probes from how much their light changed, counts their samples,
+/// and notes that they were traced in this update and at the world's revision.
+void IrradianceField::State::update_variability(const World& world, const TracedProbes& traced,
+                                                std::span<const LightChange> changes) {
   const float longest = longest_average(settings);
   double light_sum = 0.0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
     const int probe = traced.probes[k];
-    ProbeRecord& record = records[probe];
+    ProbeStatus& status = statuses[probe];
     const LightChange& change = changes[k];
     light_sum += change.now;
-    learn_noise(told_square(change.relative_square, change.before, traced.shares[k], mean_light),
-                traced.weights[k], record);
-    record.samples = min(record.samples, longest);
-    record.served = static_cast<std::uint32_t>(updates) + 1;
-    record.state = state_once_traced(record.state);
-    record.revision = world.revision();
-    agenda.changed(probe);
+    learn_noise(estimate_relative_square(change.relative_square, change.before,
+                                         traced.blend_weights[k], mean_light),
+                traced.weights[k], status);
+    status.samples = min(status.samples, longest);
+    status.served = static_cast<std::uint32_t>(updates) + 1;
+    status.state = state_once_traced(status.state);
+    status.revision = world.revision();
+    scheduler.mark_changed(probe);
   }
   if (traced.probes.empty()) return;
   const auto count = static_cast<float>(traced.probes.size());
   const float now = static_cast<float>(light_sum) / count;
-  const ProbeCounts& states = agenda.states();
-  const int live = memory.store.probes() - states.off - states.sleeping;
+  const ProbeCounts& states = scheduler.states();
+  const int live = data.store.probes() - states.off - states.sleeping;
   mean_light = learned_light(mean_light, now, count, static_cast<float>(live));
 }
 
@@ -124,40 +127,41 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
                                    UpdateStatistics& statistics) {
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
-      // What woke before it followed an edit holds the average of another light
-      if (records[probe].revision != world.revision()) forget_light(probe, world.revision());
+      // A probe that woke before it was brought up to date holds an average of the light before the
+      // edit
+      if (statuses[probe].revision != world.revision()) reset_history(probe, world.revision());
     }
   }
-  const TracedProbes traced = shares_of(groups);
+  const TracedProbes traced = blend_weights_of(groups);
   for (const TraceGroup& group : groups) {
-    for (const int probe : group.probes) memory.traces[probe].rays = group.rays;
+    for (const int probe : group.probes) data.traces[probe].rays = group.rays;
   }
-  for (const int probe : traced.probes) told_roughly[probe] = 1;
+  for (const int probe : traced.probes) last_estimate_is_coarse[probe] = 1;
   const ProbeUpdateResult found =
-      backend->update_probes({world, std::move(groups), traced.probes, traced.shares,
-                              relight_settings(settings), kDarkShare * mean_light, salt()});
+      backend->update_probes({world, std::move(groups), traced.probes, traced.blend_weights,
+                              solve_settings(settings), kDarkShare * mean_light, dither_seed()});
   statistics.probe_rays += found.probe_rays;
   statistics.shadow_rays += found.shadow_rays;
-  statistics.relights += found.iterations;
+  statistics.solve_iterations += found.iterations;
   statistics.residual = found.error;
   statistics.change = found.change;
   statistics.probes_traced += static_cast<int>(traced.probes.size());
   for (const PassTime& pass : found.passes) add_pass_time(statistics.passes, pass.name, pass.ms);
-  book(world, traced, found.changes);
+  update_variability(world, traced, found.changes);
 }
 
-void IrradianceField::State::solve_start(UpdateStatistics& statistics) {
+void IrradianceField::State::solve_warm_up(UpdateStatistics& statistics) {
   PassTimer timer(statistics.passes);
-  const std::vector<int> traced = memory.traced_probes();
-  const std::vector<float> shares(traced.size(), 1.0f);
-  const RelightResult solved = backend->solve(traced, shares, {}, relight_settings(settings));
-  statistics.relights += solved.iterations;
+  const std::vector<int> traced = data.traced_probes();
+  const std::vector<float> blend_weights(traced.size(), 1.0f);
+  const SolveResult solved = backend->solve(traced, blend_weights, {}, solve_settings(settings));
+  statistics.solve_iterations += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
-  remember_told(traced, solved.solution);
+  store_last_estimates(traced, solved.solution);
   backend->push_light();
   timer.finish(field_pass::kSolve);
-  backend->store_light(traced, salt());
+  backend->store_light(traced, dither_seed());
   timer.finish(field_pass::kStore);
 }
 
@@ -165,25 +169,25 @@ void IrradianceField::State::move_to(const World& world, UpdateStatistics& stati
   if (backend->suits(world)) return;
   backend->fetch_light();
   backend->fetch_store();
-  // Surfels stay behind: probes that have been traced are traced anew, and what they averaged of
-  // another world than this cannot be corrected
-  for (std::size_t probe = 0; probe < records.size(); ++probe) {
-    if (memory.traces[probe].rays == nullptr) continue;
-    memory.traces[probe] = {};
-    if (records[probe].revision != world.revision()) records[probe].samples = 0.0f;
-    records[probe].revision = world.revision();
+  // Surfels are not transferred. Probes that had some are traced again; averages of an older
+  // revision of the world cannot be corrected without surfels and start again
+  for (std::size_t probe = 0; probe < statuses.size(); ++probe) {
+    if (data.traces[probe].rays == nullptr) continue;
+    data.traces[probe] = {};
+    if (statuses[probe].revision != world.revision()) statuses[probe].samples = 0.0f;
+    statuses[probe].revision = world.revision();
   }
-  agenda.changed_all();
-  edits = {};
-  late_sleepers.clear();
-  backend = make_field_backend(world, memory);
-  // Nothing has been placed before the first update
+  scheduler.mark_all_changed();
+  pending_edits = {};
+  stale_sleeping.clear();
+  backend = make_field_backend(world, data);
+  // Before the first update no probe has been placed yet
   if (updates == 0) return;
-  statistics.shadow_rays += look_across_cells(world, all_probes());
+  statistics.shadow_rays += update_cell_visibility(world, all_probes());
 }
 
 std::vector<int> IrradianceField::State::all_probes() const {
-  std::vector<int> all(records.size());
+  std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);
   return all;
 }
@@ -191,12 +195,12 @@ std::vector<int> IrradianceField::State::all_probes() const {
 /// Has volumes follow the viewer, and places and classifies probes.
 void IrradianceField::State::place_all(const World& world, const std::optional<vec3>& viewer_ws,
                                        UpdateStatistics& statistics) {
-  if (viewer_ws) statistics.probes_recycled = follow_viewer(world, *viewer_ws, statistics);
+  if (viewer_ws) statistics.probes_recycled = scroll_volumes(world, *viewer_ws, statistics);
   if (updates == 0) {
     place(world, all_probes());
     placed_revision = world.revision();
   } else {
-    place_edited(world, statistics);
+    relocate_edited(world, statistics);
   }
   classify(world);
 }
@@ -214,10 +218,10 @@ std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) c
 std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
                                                          const std::optional<vec3>& viewer_ws) {
   const auto update = static_cast<uint>(updates);
-  agenda.note(memory.store, records);
+  scheduler.refresh(data.store, statuses);
   const Schedule schedule =
-      budget == 0 ? schedule_all(memory.store, roles, records, settings, update)
-                  : agenda.within(memory.store, budget, update + 1, viewer_ws, importance);
+      budget == 0 ? schedule_all(data.store, roles, statuses, settings, update)
+                  : scheduler.choose(data.store, budget, update + 1, viewer_ws, importance);
   return group_by_rays(schedule, settings, update);
 }
 
@@ -237,37 +241,39 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
     s.backend->fetch_store();
-    s.importance = probe_importance(s.memory.store, request.seen,
+    s.importance = probe_importance(s.data.store, request.seen,
                                     [&](std::span<const float> received, float least) {
-                                      return s.backend->send_back(received, least);
+                                      return s.backend->scatter_importance(received, least);
                                     });
     timer.finish(field_pass::kSchedule);
   }
 
-  const Followed followed = s.follow(world, budget, viewer_ws, statistics);
+  const EditProgress progress = s.apply_scene_edits(world, budget, viewer_ws, statistics);
   timer.skip();
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
-  // Probes that wait to be held against edits would lose sight of them were they traced before
+  // Tracing is put off while stale probes are left: new surfels could no longer be compared with
+  // those from before the edits
   const bool trace =
-      followed != Followed::some &&
-      (budget == 0 ? followed == Followed::nothing || s.followed_last : spent < budget);
-  s.followed_last = followed != Followed::nothing && !trace;
+      progress != EditProgress::partial &&
+      (budget == 0 ? progress == EditProgress::none || s.applied_edits_last : spent < budget);
+  s.applied_edits_last = progress != EditProgress::none && !trace;
   if (trace) {
     std::vector<TraceGroup> groups = s.schedule(budget == 0 ? 0 : budget - spent, viewer_ws);
     timer.finish(field_pass::kSchedule);
     s.trace(world, std::move(groups), statistics);
   }
 
-  s.agenda.note(s.memory.store, s.records);
-  if (s.starting && s.agenda.unserved() == 0) {
-    // Probes that were traced while others knew no light have only seen a part of its bounces
-    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_start(statistics);
-    s.starting = false;
+  s.scheduler.refresh(s.data.store, s.statuses);
+  if (s.warming_up && s.scheduler.unserved() == 0) {
+    // Probes that were traced while others held no light yet have received a part of the bounces
+    // only
+    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);
+    s.warming_up = false;
   }
   ++s.updates;
-  statistics.states = s.agenda.states();
-  // What tracing a probe ray costs, its shadow rays and all else included
-  if (trace && followed == Followed::nothing) {
+  statistics.states = s.scheduler.states();
+  // Learn the cost of a probe ray, with its shadow rays and everything else included
+  if (trace && progress == EditProgress::none) {
     s.ray_cost.learn(statistics.probe_rays, whole.lap());
   }
   return statistics;

@@ -25,7 +25,7 @@ constexpr float kMinEnclosure = 0.75f;
 // and a room is closed where less than this share of the sky reaches what is seen.
 constexpr float kMaxSkyIndoors = 0.08f;
 // A building has a court where this share of its enclosed air has no ceiling.
-constexpr float kMinCourt = 0.15f;
+constexpr float kMinCourt = 0.05f;
 // Sky light in closed rooms with windows, as a share of that outdoors: so that windows are not
 // black.
 constexpr float kSkyThroughWindows = 0.5f;
@@ -33,10 +33,14 @@ constexpr float kSkyThroughWindows = 0.5f;
 // Rays down onto a scene's footprint, along each edge.
 constexpr int kRaysAlongEdge = 16;
 // A scene has a ground where rays meet something over this share of its footprint, this share of
-// them in the lowest part of its height, which is so large.
-constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kGroundHeight = 0.12f;
-// What is flatter than this share of its width is a ground itself.
+// them at one height, and this share at least above that: things that stand on it. One height is
+// a band as thick as this share of the footprint's longer side.
+constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
+constexpr float kGroundBand = 0.03f;
+// What is flatter than this share of its width is a ground itself; and so is a terrain, which is
+// larger [m] and covers its footprint.
 constexpr float kFlatShare = 0.1f;
+constexpr float kTerrainShare = 0.4f, kMinTerrain = 20.0f;
 
 // Ways that the light of the sun may travel, the customary one first: from above one shoulder of
 // somebody who looks along -Z.
@@ -66,15 +70,28 @@ bool has_ground(const World& world, const Bounds& bounds) {
                     0.0f,
                     {0.0f, -1.0f, 0.0f}});
   }
-  float met = 0.0f, low = 0.0f;
+  std::vector<float> heights;
   for (const Hit& hit : trace(world, rays)) {
-    if (hit.missed()) continue;
-    met += 1.0f;
-    const float height = bounds.max.y + size.y - hit.distance - bounds.min.y;
-    if (height < kGroundHeight * size.y) low += 1.0f;
+    if (!hit.missed()) heights.push_back(bounds.max.y + size.y - hit.distance);
   }
   constexpr float kRays = kRaysAlongEdge * kRaysAlongEdge;
-  return met >= kMinFootprint * kRays && low >= kMinGround * met;
+  if (static_cast<float>(heights.size()) < kMinFootprint * kRays) return false;
+  const float width = std::min(size.x, size.z);
+  if (width > kMinTerrain && size.y < kTerrainShare * width) return true;
+
+  // Find the band of heights that holds most of them
+  std::sort(heights.begin(), heights.end());
+  const float band = kGroundBand * std::max(size.x, size.z);
+  std::size_t most = 0, above = 0, first = 0;
+  for (std::size_t last = 0; last < heights.size(); ++last) {
+    while (heights[last] - heights[first] > band) ++first;
+    if (last - first + 1 <= most) continue;
+    most = last - first + 1;
+    above = heights.size() - last - 1;
+  }
+  const auto count = static_cast<float>(heights.size());
+  return static_cast<float>(most) >= kMinGround * count &&
+         static_cast<float>(above) >= kMinThings * count;
 }
 
 /// Whether much of the scene's enclosed air is below the open sky.
@@ -132,7 +149,7 @@ std::string_view name_of(FirstLight light) {
 
 FirstLight choose_first_light(const World& world, const Camera& camera) {
   if (has_lights_or_sky(world.scene())) return FirstLight::scene;
-  const SeenView view = look_through(world, camera);
+  const SeenView view = pass_moving_surfaces(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
   if (light.lit_by_emission >= kMinLitShare &&
@@ -152,7 +169,7 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
 
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {
   if (light == FirstLight::scene) return;
-  const SeenView view = look_through(world, camera);
+  const SeenView view = pass_moving_surfaces(world, camera);
   const std::uint32_t revision = scene.environment.revision + 1;
   if (light == FirstLight::studio) {
     glm::vec3 front(camera.world_from_view[2]);  // the camera looks along its -Z

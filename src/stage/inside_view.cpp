@@ -6,7 +6,9 @@
 #include <unordered_set>
 #include <vector>
 
+#include "raytracing/direct_light.h"
 #include "shared/constants.h"
+#include "shared/random.h"
 #include "shared/rays.h"
 #include "stage/views.h"
 
@@ -34,23 +36,16 @@ constexpr float kTilt = 0.06f;
 // Distances as shares of the diagonal: an eye keeps this far from everything, what is nearer than
 // that fills the view, and depth counts no more beyond that.
 constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
+// Of the choice of lights.
+constexpr std::uint32_t kSeed = 4;
 // Sky counts against a view beyond this share.
 constexpr float kMaxSky = 0.1f;
-// What counts of a view: median depth, and what many small triangles tell of detail, against what
-// is near, sky, and backs of surfaces.
-constexpr float kDepthWeight = 1.5f, kDetailWeight = 0.5f, kNearWeight = 1.5f, kSkyWeight = 1.5f,
-                kBackWeight = 0.8f;
+// What counts of a view: median depth, what many small triangles tell of detail, and how much of it
+// the scene's own lights reach, against what is near, sky, and backs of surfaces.
+constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
+                kSkyWeight = 1.5f, kBackWeight = 0.8f;
 // A view that shows less depth than this share of the diagonal, or more backs, is none.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
-
-// Surface points that is_room judges, rays from each to the outside, and their elevations [rad].
-constexpr int kShellPoints = 256, kShellRays = 4;
-constexpr float kMinShellElevation = 0.09f, kMaxShellElevation = 0.7f;
-// A room is enclosed in this share of its box, at least;
-constexpr float kMinEnclosed = 0.25f;
-// and the share of its surface that shows its front to somebody outside is no larger than this,
-// plus by how much more of it is enclosed.
-constexpr float kMaxShown = 0.45f;
 
 glm::vec3 eye_at(const OpenPlace& place) {
   const float height = place.ceiling - place.floor;
@@ -65,20 +60,62 @@ glm::vec3 eye_at(const OpenPlace& place) {
 struct Panorama {
   glm::vec3 eye{0.0f};
   const Hit* hits = nullptr;
+  const std::uint8_t* lit = nullptr;  ///< 1 for each hit that one of the lights reaches.
 };
+
+/// Where one of the scene's lights stands as seen from a point: an origin and a way for a shadow
+/// ray. Each of the lights is as likely as emissive surfaces together are.
+std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
+                                    RandomStream& random) {
+  const std::vector<Light>& lights = world.scene().lights;
+  const std::size_t sources = lights.size() + (world.emissive().empty() ? 0 : 1);
+  const auto which = static_cast<std::size_t>(next_uniform(random) * static_cast<float>(sources));
+  if (which < lights.size()) {
+    const PunctualSample sample = sample_punctual(lights[which], from);
+    if (sample.irradiance == glm::vec3(0.0f)) return std::nullopt;
+    return Ray{from, 0.0f, sample.to_light, sample.distance};
+  }
+  const vec2 u = next_uniform2(random);
+  const EmitterPoint emitter =
+      sample_emitter_by_power(world, from, {u.x, u.y, next_uniform(random)});
+  if (emitter.radiance == glm::vec3(0.0f)) return std::nullopt;
+  return Ray{from, 0.0f, emitter.to_light, shadow_ray_length(emitter.distance)};
+}
+
+/// 1 for each of the rays' hits that a light reaches; all 0 where the scene has no light.
+std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays,
+                                   std::span<const Hit> hits) {
+  std::vector<std::uint8_t> lit(rays.size(), 0);
+  if (world.scene().lights.empty() && world.emissive().empty()) return lit;
+  std::vector<Ray> to_lights;
+  std::vector<std::size_t> hit_of_ray;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].missed()) continue;
+    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kSeed);
+    const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
+    const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
+    if (!ray) continue;
+    to_lights.push_back(*ray);
+    hit_of_ray.push_back(i);
+  }
+  const std::vector<std::uint8_t> shadowed = trace_occlusion(world, to_lights);
+  for (std::size_t r = 0; r < to_lights.size(); ++r) lit[hit_of_ray[r]] = shadowed[r] == 0 ? 1 : 0;
+  return lit;
+}
 
 /// How good a view in a direction is, by the rays of the panorama that are in its frame; the higher
 /// the better. Minus infinity: it is none.
 float score_view(const Panorama& panorama, int direction, float half_width, float scale) {
   std::vector<float> depths;
   std::unordered_set<std::uint64_t> triangles;
-  float near = 0.0f, sky = 0.0f, backs = 0.0f, rays = 0.0f;
+  float near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
   const float azimuth = kTwoPi * static_cast<float>(direction) / kViewDirections;
   for (std::size_t ring = 0; ring < kRings.size(); ++ring) {
     for (int i = 0; i < kRingRays; ++i) {
       const float turn = kTwoPi * static_cast<float>(i) / kRingRays - azimuth;
       if (std::abs(std::remainder(turn, kTwoPi)) > half_width) continue;
-      const Hit& hit = panorama.hits[ring * kRingRays + static_cast<std::size_t>(i)];
+      const std::size_t at = ring * kRingRays + static_cast<std::size_t>(i);
+      const Hit& hit = panorama.hits[at];
       rays += 1.0f;
       depths.push_back(hit.distance);
       if (hit.missed()) {
@@ -87,6 +124,7 @@ float score_view(const Panorama& panorama, int direction, float half_width, floa
       }
       if (hit.distance < kNear * scale) near += 1.0f;
       if (!hit.front_face) backs += 1.0f;
+      if (panorama.lit[at] != 0) lit += 1.0f;
       triangles.insert(std::uint64_t{hit.instance} << 32 | hit.triangle);
     }
   }
@@ -95,9 +133,11 @@ float score_view(const Panorama& panorama, int direction, float half_width, floa
   std::nth_element(depths.begin(), middle, depths.end());
   const float depth = std::min(*middle / scale, kDeep);
   if (depth < kMinDepth) return -kInfiniteDistance;
-  return kDepthWeight * depth / kDeep +
-         kDetailWeight * static_cast<float>(triangles.size()) / rays - kNearWeight * near / rays -
-         kSkyWeight * std::max(sky / rays - kMaxSky, 0.0f) - kBackWeight * backs / rays;
+  // The first triangles tell more than the last: a window in a wall, more than a leaf in a wood
+  const float detail = std::log1p(static_cast<float>(triangles.size())) / std::log1p(rays);
+  return kDepthWeight * depth / kDeep + kDetailWeight * detail + kLitWeight * lit / rays -
+         kNearWeight * near / rays - kSkyWeight * std::max(sky / rays - kMaxSky, 0.0f) -
+         kBackWeight * backs / rays;
 }
 
 }  // namespace
@@ -105,12 +145,12 @@ float score_view(const Panorama& panorama, int direction, float half_width, floa
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect) {
   const float scale = diagonal(bounds);
-  const std::size_t eyes = std::min(survey.enclosed.size(), kMaxEyes);
+  const std::size_t eyes = std::min(survey.sheltered.size(), kMaxEyes);
   constexpr std::size_t kPanoramaRays = kRings.size() * kRingRays;
   std::vector<Ray> rays;
   rays.reserve(eyes * kPanoramaRays);
   for (std::size_t e = 0; e < eyes; ++e) {
-    const glm::vec3 eye = eye_at(survey.enclosed[e]);
+    const glm::vec3 eye = eye_at(survey.sheltered[e]);
     for (const float elevation : kRings) {
       for (int i = 0; i < kRingRays; ++i) {
         const float azimuth = kTwoPi * static_cast<float>(i) / kRingRays;
@@ -119,12 +159,14 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
     }
   }
   const std::vector<Hit> hits = trace(world, rays);
+  const std::vector<std::uint8_t> lit = find_lit(world, rays, hits);
 
   const float half_width = std::atan(std::tan(0.5f * vertical_fov) * aspect);
   float best = -kInfiniteDistance;
   std::optional<Camera> camera;
   for (std::size_t e = 0; e < eyes; ++e) {
-    const Panorama panorama{rays[e * kPanoramaRays].origin, &hits[e * kPanoramaRays]};
+    const Panorama panorama{rays[e * kPanoramaRays].origin, &hits[e * kPanoramaRays],
+                            &lit[e * kPanoramaRays]};
     const float nearest =
         std::min_element(panorama.hits, panorama.hits + kPanoramaRays,
                          [](const Hit& a, const Hit& b) { return a.distance < b.distance; })
@@ -140,37 +182,6 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
     }
   }
   return camera;
-}
-
-bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey) {
-  if (survey.enclosed_share < kMinEnclosed) return false;
-  const std::vector<SurfacePoint> points =
-      sample_surfaces(world.scene(), subject.instances, kShellPoints);
-  if (points.empty()) return false;
-
-  // Look from the front of each point towards where somebody outside would stand
-  std::vector<Ray> rays;
-  std::vector<std::size_t> point_of_ray;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    for (int i = 0; i < kShellRays; ++i) {
-      const float share = (static_cast<float>(i) + 0.5f) / kShellRays;
-      const float azimuth = kTwoPi * (share + kGoldenRatio * static_cast<float>(p));
-      const float elevation = glm::mix(kMinShellElevation, kMaxShellElevation, share);
-      const glm::vec3 direction = direction_from_angles(azimuth, elevation);
-      if (glm::dot(direction, points[p].normal_ws) <= 0.0f) continue;
-      rays.push_back(
-          {offset_ray_origin(points[p].position_ws, points[p].normal_ws), 0.0f, direction});
-      point_of_ray.push_back(p);
-    }
-  }
-  const std::vector<std::uint8_t> stopped = trace_occlusion(world, rays);
-  std::vector<char> shown(points.size(), 0);
-  for (std::size_t r = 0; r < rays.size(); ++r) {
-    if (stopped[r] == 0) shown[point_of_ray[r]] = 1;
-  }
-  const auto count = static_cast<float>(std::count(shown.begin(), shown.end(), 1));
-  const float shown_share = count / static_cast<float>(points.size());
-  return shown_share <= kMaxShown + survey.enclosed_share - kMinEnclosed;
 }
 
 }  // namespace lambent

@@ -14,8 +14,8 @@ namespace {
 
 // The whole object fits into this share of the frame's width and height.
 constexpr float kFill = 0.84f;
-// Of a scene of one point [m].
-constexpr float kMinRadius = 1e-3f;
+// How far the camera keeps from a scene that is one point [m].
+constexpr float kDistanceToPoint = 1e-3f;
 
 // Points of the surface by which candidates are judged.
 constexpr int kJudgedPoints = 384;
@@ -31,7 +31,7 @@ struct Stand {
 constexpr std::array kStands = {
     Stand{30, 18, 0.00f},  Stand{-30, 18, 0.05f},  Stand{60, 18, 0.10f},  Stand{-60, 18, 0.12f},
     Stand{120, 18, 0.25f}, Stand{-120, 18, 0.27f}, Stand{150, 18, 0.20f}, Stand{-150, 18, 0.22f},
-    Stand{12, 12, 0.08f},  Stand{168, 12, 0.24f},  Stand{30, 40, 0.20f},  Stand{-30, 40, 0.23f},
+    Stand{12, 12, 0.05f},  Stand{168, 12, 0.24f},  Stand{30, 40, 0.20f},  Stand{-30, 40, 0.23f},
     Stand{30, 62, 0.34f},  Stand{-30, 62, 0.36f},  Stand{150, 40, 0.30f}, Stand{-150, 40, 0.32f},
     Stand{30, -20, 0.40f}, Stand{150, -20, 0.50f}, Stand{90, 12, 0.20f},  Stand{-90, 12, 0.22f}};
 // What counts of a candidate's picture: how much of the surface it shows, how much of the frame the
@@ -166,11 +166,10 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
 Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect) {
   const Scene& scene = world.scene();
   const glm::vec3 center = 0.5f * (subject.bounds.min + subject.bounds.max);
-  if (diagonal(subject.bounds) < kMinRadius) {
+  if (diagonal(subject.bounds) == 0.0f) {
     const glm::vec3 toward_eye =
         direction_from_angles(glm::radians(kStands[0].azimuth), glm::radians(kStands[0].elevation));
-    const float distance = kMinRadius / std::tan(0.5f * vertical_fov);
-    return look_at(center + distance * toward_eye, center, vertical_fov);
+    return look_at(center + kDistanceToPoint * toward_eye, center, vertical_fov);
   }
 
   // Judge all candidates, and compare what they show with the most that one of them does

@@ -20,8 +20,9 @@ constexpr std::size_t kRaysPerTask = 128;
 constexpr std::uint32_t kSurfaceSeed = 1;
 constexpr std::uint32_t kSpaceSeed = 2;
 
-// A part of the scene dwarfs the others where they span less than this share of it.
-constexpr float kDwarfedShare = 0.3f;
+// A ground dwarfs what stands on it where that spans less than this share of it; what encloses
+// the rest, less than this: a sky does, a room seldom.
+constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
 // A ground is flatter than this share of its width.
 constexpr float kFlatShare = 0.05f;
 
@@ -32,8 +33,10 @@ constexpr int kWaysAround = 8;
 constexpr float kRise = 0.15f;  // [rad]
 // Ways around that must end at a surface for a place to count as enclosed: all but one.
 constexpr int kMinClosedWays = kWaysAround - 1;
+// For a place to count as sheltered: somebody in an opening has three of them before him.
+constexpr int kMinShelteredWays = 5;
 // Inside solid matter rays meet backs. Winding is authors' accident, so a place is solid only where
-// most of them do.
+// most of them do, and surfaces with two sides do not count.
 constexpr float kMinFrontShare = 0.35f;
 
 /// Triangle areas of a mesh in object space, summed up.
@@ -62,6 +65,31 @@ float area_scale(const Instance& instance) {
 std::size_t pick(std::span<const float> sums, float u) {
   const auto at = std::upper_bound(sums.begin(), sums.end(), u * sums.back());
   return std::min(static_cast<std::size_t>(at - sums.begin()), sums.size() - 1);
+}
+
+bool has_two_sides(const Scene& scene, const Hit& hit) {
+  return scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
+}
+
+/// How many of the `kept` smallest parts, the largest ones of these, are grounds and skies that
+/// dwarf the rest; 0: none are. `around[i]` holds the parts order[0] to order[i].
+std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::uint32_t> order,
+                           std::span<const Bounds> around, std::size_t kept) {
+  bool sky = false;
+  for (std::size_t left = kept; left-- > 1;) {
+    const Bounds& rest = around[left - 1];
+    const Bounds& largest = boxes[order[left]];
+    const glm::vec3 size = largest.max - largest.min;
+    const bool flat = size.y <= kFlatShare * std::max(size.x, size.z);
+    const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
+                          glm::all(glm::greaterThanEqual(largest.max, rest.max));
+    if (!flat && !encloses) return 0;
+    sky = sky || !flat;
+    const float share = diagonal(rest) / diagonal(around[kept - 1]);
+    if (share == 0.0f) return 0;
+    if (share < (sky ? kDwarfedBySky : kDwarfedByGround)) return kept - left;
+  }
+  return 0;
 }
 
 }  // namespace
@@ -160,19 +188,7 @@ Subject find_subject(const World& world) {
   }
 
   std::size_t kept = order.size();
-  while (kept > 1) {
-    const Bounds& rest = around[kept - 2];
-    const Bounds& largest = boxes[order[kept - 1]];
-    if (diagonal(rest) == 0.0f || diagonal(rest) > kDwarfedShare * diagonal(around[kept - 1])) {
-      break;
-    }
-    const glm::vec3 size = largest.max - largest.min;
-    const bool flat = size.y <= kFlatShare * std::max(size.x, size.z);
-    const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
-                          glm::all(glm::greaterThanEqual(largest.max, rest.max));
-    if (!flat && !encloses) break;
-    --kept;
-  }
+  while (const std::size_t dwarfing = count_dwarfing(boxes, order, around, kept)) kept -= dwarfing;
   if (kept == 0) return {};
   order.resize(kept);
   return {std::move(order), around[kept - 1]};
@@ -199,23 +215,35 @@ SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
   const std::vector<Hit> hits = trace(world, rays);
 
   SpaceSurvey survey;
+  float two_sided_sum = 0.0f;
   for (int i = 0; i < kPlaces; ++i) {
     const Hit* around = &hits[static_cast<std::size_t>(i) * kRays];
     const Hit& down = around[kWaysAround];
     const Hit& up = around[kWaysAround + 1];
     const auto met =
         std::count_if(around, around + kRays, [](const Hit& h) { return !h.missed(); });
-    const auto fronts = std::count_if(around, around + kRays,
-                                      [](const Hit& h) { return !h.missed() && h.front_face; });
+    const auto two_sided = std::count_if(around, around + kRays, [&](const Hit& h) {
+      return !h.missed() && has_two_sides(world.scene(), h);
+    });
+    const auto fronts = std::count_if(around, around + kRays, [&](const Hit& h) {
+      return !h.missed() && h.front_face && !has_two_sides(world.scene(), h);
+    });
     const auto closed =
         std::count_if(around, around + kWaysAround, [](const Hit& h) { return !h.missed(); });
-    if (closed < kMinClosedWays || down.missed()) continue;
-    if (static_cast<float>(fronts) < kMinFrontShare * static_cast<float>(met)) continue;
+    if (closed < kMinShelteredWays || down.missed()) continue;
+    const auto one_sided = static_cast<float>(met - two_sided);
+    if (static_cast<float>(fronts) < kMinFrontShare * one_sided) continue;
     const glm::vec3& place = rays[static_cast<std::size_t>(i) * kRays].origin;
-    survey.enclosed.push_back({place, place.y - down.distance,
-                               up.missed() ? bounds.max.y : place.y + up.distance, up.missed()});
+    const OpenPlace open{place, place.y - down.distance,
+                         up.missed() ? bounds.max.y : place.y + up.distance, up.missed()};
+    survey.sheltered.push_back(open);
+    if (closed < kMinClosedWays) continue;
+    survey.enclosed.push_back(open);
+    two_sided_sum += static_cast<float>(two_sided) / static_cast<float>(met);
   }
-  survey.enclosed_share = static_cast<float>(survey.enclosed.size()) / kPlaces;
+  const auto enclosed = static_cast<float>(survey.enclosed.size());
+  survey.enclosed_share = enclosed / kPlaces;
+  if (enclosed > 0.0f) survey.two_sided_share = two_sided_sum / enclosed;
   return survey;
 }
 

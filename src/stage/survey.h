@@ -49,10 +49,23 @@ struct OpenPlace {
 
 /// What random places in a box are.
 struct SpaceSurvey {
-  std::vector<OpenPlace> enclosed;  ///< Air with surfaces around, in a fixed random order.
-  float enclosed_share = 0.0f;      ///< Of the box's volume.
+  /// Air with surfaces around, in a fixed random order.
+  std::vector<OpenPlace> enclosed;
+  /// These, and others that are open to a side or two: where somebody who looks into a room stands.
+  std::vector<OpenPlace> sheltered;
+  float enclosed_share = 0.0f;  ///< Of the box's volume.
+  /// Of the surfaces around enclosed places, how many have two sides, so that which way they are
+  /// wound tells nothing.
+  float two_sided_share = 0.0f;
 };
 SpaceSurvey survey_space(const World& world, const Bounds& bounds);
+
+/// Whether a scene is a shell around most of what it holds: by how much of its box is enclosed air,
+/// and by the share of its surfaces that somebody outside sees from the front.
+bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
+inline bool is_room(const World& world, const Subject& subject) {
+  return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));
+}
 
 /// Length of a box's diagonal [m].
 inline float diagonal(const Bounds& bounds) {

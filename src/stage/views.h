@@ -12,13 +12,9 @@ namespace lambent {
 /// The best view of the subject from outside, all of it in the frame.
 Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect);
 
-/// The best view at eye height from one of the enclosed places; none where each would look at a
+/// The best view at eye height from one of the sheltered places; none where each would look at a
 /// wall. `bounds` holds the room.
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
-
-/// Whether a scene is a shell around most of what it holds, by the share of its surfaces that
-/// somebody outside sees from the front and by how much of its box is enclosed air.
-bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
 
 }  // namespace lambent

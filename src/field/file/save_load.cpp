@@ -37,65 +37,63 @@ bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
 
 /// Takes the place of all light that the field holds.
 void IrradianceField::State::restore(const FieldFile& file, const World& world) {
-  for (int v = 0; v < memory.store.volumes(); ++v) {
+  for (int v = 0; v < data.store.volumes(); ++v) {
     const FieldVolume& volume = file.volumes[v];
-    const int first = memory.store.grid(v).first;
-    memory.store.restore(first, volume.offsets, volume.irradiance, volume.distance);
-    std::copy(volume.records.begin(), volume.records.end(), records.begin() + first);
+    const int first = data.store.grid(v).first;
+    data.store.restore(first, volume.offsets, volume.irradiance, volume.distance);
+    std::copy(volume.records.begin(), volume.records.end(), statuses.begin() + first);
   }
   updates = static_cast<int>(file.updates);
   placed_revision = world.revision();
-  agenda.changed_all();
+  scheduler.mark_all_changed();
   const int n = settings.irradiance_texels;
-  const auto texels = static_cast<std::size_t>(memory.tile_texels());
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
   double sum = 0.0;
   bool never_served = false;
-  for (int probe = 0; probe < memory.store.probes(); ++probe) {
-    vec4* tile = &memory.light[probe * texels];
+  for (int probe = 0; probe < data.store.probes(); ++probe) {
+    vec4* tile = &data.light[probe * texels];
     for (int t = 0; t < n * n; ++t) {
-      tile[t] = vec4(memory.store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
+      tile[t] = vec4(data.store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
     }
     sum += mean_luminance(TileLight(tile, texels));
-    records[probe].revision = world.revision();
+    statuses[probe].revision = world.revision();
     // An exact number of bounces is carried through all probes at once
-    if (settings.max_bounces >= 0) records[probe].state = ProbeState::newly_vigilant;
-    never_served = never_served || (is_live(records[probe]) && records[probe].served == 0);
+    if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;
+    never_served = never_served || (is_live(statuses[probe]) && statuses[probe].served == 0);
   }
-  mean_light = static_cast<float>(sum / memory.store.probes());
-  starting = updates == 0 || never_served;
+  mean_light = static_cast<float>(sum / data.store.probes());
+  warming_up = updates == 0 || never_served;
   // What the first update finds of the scene, where that has been
   if (updates == 0) return;
-  std::vector<int> all(records.size());
+  std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);
-  find_reaches(world, all);
-  look_across_cells(world, all);
+  update_classification_inputs(world, all);
+  update_cell_visibility(world, all);
 }
 
-/// A volume as a file holds it: probes in the order of the grid, wherever they are in memory.
+/// A volume as a file holds it: probes in the order of the grid, wherever they are in data.
 FieldVolume IrradianceField::State::volume_for_file(int volume, const World& world) const {
   FieldVolume result;
-  result.grid = memory.store.grid(volume);
+  result.grid = data.store.grid(volume);
   result.role = roles[volume];
-  result.irradiance_texels = memory.store.irradiance_texels();
-  result.distance_texels = memory.store.distance_texels();
-  result.irradiance_format = memory.store.irradiance_format();
-  result.distance_format = memory.store.distance_format();
-  const ProbeGrid& stored = memory.store.grid(volume);
+  result.irradiance_texels = data.store.irradiance_texels();
+  result.distance_texels = data.store.distance_texels();
+  result.irradiance_format = data.store.irradiance_format();
+  result.distance_format = data.store.distance_format();
+  const ProbeGrid& stored = data.store.grid(volume);
   result.grid.scroll = ivec3(0);
   result.grid.first = 0;
-  const std::size_t irradiance_tile =
-      memory.store.irradiance_words().size() / memory.store.probes();
-  const std::size_t distance_tile = memory.store.distance_words().size() / memory.store.probes();
+  const std::size_t irradiance_tile = data.store.irradiance_words().size() / data.store.probes();
+  const std::size_t distance_tile = data.store.distance_words().size() / data.store.probes();
   for (int i = 0; i < probe_count(stored); ++i) {
     const int probe = probe_index(stored, probe_coords(result.grid, i));
-    ProbeRecord& record = result.records.emplace_back(records[probe]);
+    ProbeStatus& status = result.records.emplace_back(statuses[probe]);
     // What waits to follow an edit has averaged another light than the world's
-    if (record.revision != world.revision()) record.samples = 0.0f;
-    result.offsets.push_back(memory.store.offset_words()[probe]);
+    if (status.revision != world.revision()) status.samples = 0.0f;
+    result.offsets.push_back(data.store.offset_words()[probe]);
     const auto irradiance =
-        memory.store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
-    const auto distance =
-        memory.store.distance_words().subspan(probe * distance_tile, distance_tile);
+        data.store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
+    const auto distance = data.store.distance_words().subspan(probe * distance_tile, distance_tile);
     result.irradiance.insert(result.irradiance.end(), irradiance.begin(), irradiance.end());
     result.distance.insert(result.distance.end(), distance.begin(), distance.end());
   }
@@ -109,7 +107,7 @@ Expected<void> save_field(const std::string& path, const IrradianceField& field,
   FieldFile file;
   file.updates = static_cast<std::uint32_t>(state.updates);
   file.scene = identify(world.scene(), state.settings);
-  for (int volume = 0; volume < state.memory.store.volumes(); ++volume) {
+  for (int volume = 0; volume < state.data.store.volumes(); ++volume) {
     file.volumes.push_back(state.volume_for_file(volume, world));
   }
   return write_file_atomically(path, encode_field(file));
@@ -139,7 +137,7 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
   if (!same_light) {
     // What it holds is where to start from, but no average of what is to be found
     for (FieldVolume& volume : file->volumes) {
-      for (ProbeRecord& record : volume.records) record.samples = 0.0f;
+      for (ProbeStatus& status : volume.records) status.samples = 0.0f;
     }
   }
   field->state_->restore(*file, world);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes that follow the viewer: probes of the slab left behind move on to the slab that comes
-// into view, and take over the light that coarser volumes hold there.
+// Scrolling of volumes that follow the viewer: the probes of the slab that is left behind are
+// recycled for the slab that comes into range, and start from the light that the coarser volumes
+// hold there.
 #include <algorithm>
 #include <vector>
 
@@ -18,9 +19,10 @@ constexpr std::size_t kProbesPerTask = 16;
 
 }  // namespace
 
-/// What a probe at a place would hold, from what the field holds there.
-void IrradianceField::State::inherit(std::span<const int> probes, std::span<const vec3> places_ws,
-                                     std::span<vec4> tiles) const {
+/// Looks the field up at the places of some probes, along the direction of every texel.
+void IrradianceField::State::interpolate_tiles(std::span<const int> probes,
+                                               std::span<const vec3> places_ws,
+                                               std::span<vec4> tiles) const {
   const int edge = settings.irradiance_texels;
   const std::size_t texels = tiles.size() / max<std::size_t>(probes.size(), 1);
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -35,58 +37,58 @@ void IrradianceField::State::inherit(std::span<const int> probes, std::span<cons
       }
       backend->irradiance(queries, nullptr, irradiance);
       for (std::size_t t = 0; t < texels; ++t) at_centres[t] = vec4(irradiance[t], 0.0f);
-      memory.tile_fit.apply4(&at_centres[0].x, &tiles[k * texels].x);
+      data.tile_fit.apply4(&at_centres[0].x, &tiles[k * texels].x);
     }
   });
 }
 
-int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer_ws,
-                                          UpdateStatistics& statistics) {
-  // Find the probes that will belong elsewhere, and what the field holds there
+int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewer_ws,
+                                           UpdateStatistics& statistics) {
+  // Find the probes that are recycled, and the light at their new places
   std::vector<int> recycled;
   std::vector<vec3> places;
-  std::vector<ProbeGrid> next(memory.store.grids().begin(), memory.store.grids().end());
-  for (int volume = 0; volume < memory.store.volumes(); ++volume) {
+  std::vector<ProbeGrid> next(data.store.grids().begin(), data.store.grids().end());
+  for (int volume = 0; volume < data.store.volumes(); ++volume) {
     if (!roles[volume].follows_viewer) continue;
-    const ProbeGrid& grid = memory.store.grid(volume);
-    next[volume] = updates == 0 ? around(grid, viewer_ws) : following(grid, viewer_ws);
-    const std::vector<int> probes = recycled_probes(memory.store.grid(volume), next[volume]);
+    const ProbeGrid& grid = data.store.grid(volume);
+    next[volume] = updates == 0 ? centred(grid, viewer_ws) : scrolled(grid, viewer_ws);
+    const std::vector<int> probes = recycled_probes(data.store.grid(volume), next[volume]);
     for (const int probe : probes) {
       places.push_back(probe_position(next[volume], probe_coords(next[volume], probe)));
     }
     recycled.insert(recycled.end(), probes.begin(), probes.end());
   }
-  const auto texels = static_cast<std::size_t>(memory.tile_texels());
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
   WorkingIrradiance tiles(recycled.size() * texels);
-  if (updates > 0) inherit(recycled, places, tiles);
+  if (updates > 0) interpolate_tiles(recycled, places, tiles);
 
-  for (int volume = 0; volume < memory.store.volumes(); ++volume) {
+  for (int volume = 0; volume < data.store.volumes(); ++volume) {
     if (!roles[volume].follows_viewer) continue;
-    memory.store.move_volume(volume, next[volume]);
+    data.store.move_volume(volume, next[volume]);
     grids[volume] = field_grid(next[volume]);
   }
   if (updates == 0 || recycled.empty()) return 0;
 
-  // Place them, with their first distances and the light that was there
+  // Move the recycled probes, with their first distances and the interpolated light
   backend->fetch_light();
   for (std::size_t k = 0; k < recycled.size(); ++k) {
     const int probe = recycled[k];
-    memory.store.set_probe_offset(probe, vec3(0.0f));
-    forget_place(probe);
+    data.store.set_probe_offset(probe, vec3(0.0f));
+    reset_probe(probe);
     for (std::size_t t = 0; t < texels; ++t) {
       const vec4 held = max(tiles[k * texels + t], vec4(0.0f));
-      memory.light[probe * texels + t] = held;
-      if (!edits.before.empty()) edits.before[probe * texels + t] = held;
+      data.light[probe * texels + t] = held;
+      if (!pending_edits.before.empty()) pending_edits.before[probe * texels + t] = held;
     }
   }
   if (settings.relocation) {
     relocate_probes(world.scene(), world.tracer(), recycled, moving_instances(world.scene()),
-                    memory.store);
+                    data.store);
   }
-  settle_in(world, recycled, statistics);
-  for (const int probe : recycled) take_over(probe, world);
+  initialize_relocated(world, recycled, statistics);
+  for (const int probe : recycled) inherit_history(probe, world);
   backend->push_light();
-  backend->store_light(recycled, salt());
+  backend->store_light(recycled, dither_seed());
   return static_cast<int>(recycled.size());
 }
 

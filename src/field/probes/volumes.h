@@ -8,6 +8,7 @@
 #include "field/probes/probe_grid.h"
 #include "lambent/error.h"
 #include "lambent/field.h"
+#include "scene/limits.h"
 
 namespace lambent {
 
@@ -15,8 +16,13 @@ inline constexpr int kMaxCascades = 16;
 // Volumes of one field: more are a typing error or a broken file.
 inline constexpr std::uint32_t kMaxVolumes = 64;
 
-// Spacings beyond these [m] have cells whose size or its square is no number.
-inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = 1e15f;
+// Spacings below the first [m] have cells whose squared size is no number; none is wider than the
+// range of coordinates.
+inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = kMaxCoordinate;
+
+// No volume starts farther from the world's origin along an axis [m]: some millions of the widest
+// cells, which is how far cascades follow a viewer.
+inline constexpr float kMaxOrigin = 1e16f;
 
 /// Whether all three coordinates are numbers.
 bool is_finite(const vec3& v);
@@ -52,15 +58,15 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
 Expected<void> check_settings(const FieldSettings& settings);
 
 /// Whether a volume is one that can follow: straight, of enough probes, and in place.
-bool can_follow(const ProbeGrid& grid);
+bool can_scroll(const ProbeGrid& grid);
 
 /// A volume that follows the viewer, put around one.
-ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws);
+ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The same volume an update later, once it has followed the viewer: in whole cells, and not before
 /// the viewer is most of a cell off its middle. Who walks does not see it move: the box in which it
 /// counts changes smoothly, and holds neither slabs about to go nor slabs that have just come.
-ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws);
+ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// Probes of `next` that belong where `before`, the same volume earlier, had none.
 std::vector<int> recycled_probes(const ProbeGrid& before, const ProbeGrid& next);

@@ -58,22 +58,23 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
 void RecordedField::State::EngineRays::shade(Recorder& to, int) {
   const UpdateMemory& m = s_.memory();
   const DeviceProbes& list = s_.list();
-  const RecordedSharesArguments share = {s_.probe_states(),
-                                         {s_.field.offsets().address()},
-                                         list.index_array(),
-                                         {s_.shares.address()},
-                                         s_.chosen(offsetof(ListState, probes)),
-                                         s_.chosen(offsetof(ListState, largest_share)),
-                                         s_.turn.count,
-                                         s_.turn.on_device ? 1u : 0u,
-                                         longest_average(s_.settings),
-                                         s_.turn.all ? 1u : 0u,
-                                         s_.turn.starts_anew ? 1u : 0u};
+  const RecordedBlendWeightsArguments blend_weight = {
+      s_.probe_states(),
+      {s_.field.offsets().address()},
+      list.index_array(),
+      {s_.blend_weights.address()},
+      s_.chosen(offsetof(ListState, probes)),
+      s_.chosen(offsetof(ListState, largest_blend_weight)),
+      s_.turn.count,
+      s_.turn.on_device ? 1u : 0u,
+      longest_average(s_.settings),
+      s_.turn.all ? 1u : 0u,
+      s_.turn.discards_history ? 1u : 0u};
   const RecordedSurfelsArguments surfel = {
       list.index_array(),       {s_.rays.address()},   {s_.results.address()},
       s_.field.surfels(),       s_.turn.count,         s_.settings.rays_per_probe,
       s_.field.surfel_stride(), s_.settings.max_albedo};
-  s_.field.run_over(to, s_.kernels.shares, share, list, kOverLanes);
+  s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, list, kOverLanes);
   s_.field.run_over(to, s_.kernels.surfels, surfel, list, kOverRays);
   s_.field.record_weights(to, {m.directions.address()}, s_.settings.rays_per_probe,
                           {s_.irradiance_weights.address()}, {s_.distance_weights.address()});
@@ -85,9 +86,10 @@ void RecordedField::State::EngineRays::visibility(Recorder&) {
 }
 
 void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& list,
-                                              FloatArray shares, Vec4Array before) {
+                                              FloatArray blend_weights, Vec4Array before) {
   // Where probes take turns, nobody asks how noisy they are
-  if (s_.schedule) s_.schedule->record_book(to, list, shares, before, s_.turn.update);
+  if (s_.schedule)
+    s_.schedule->record_update_variability(to, list, blend_weights, before, s_.turn.update);
 }
 
 void RecordedField::State::EngineRays::placement(Recorder& to) {

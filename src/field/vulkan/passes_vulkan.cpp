@@ -4,7 +4,8 @@
 namespace lambent {
 
 void FieldPassesVulkan::blend_distances() {
-  update_.field.record_blend_distances(to_, update_.list, {update_.shares.address()}, update_.salt);
+  update_.field.record_blend_distances(to_, update_.list, {update_.blend_weights.address()},
+                                       update_.dither_seed);
 }
 
 void FieldPassesVulkan::lookups() {
@@ -14,21 +15,21 @@ void FieldPassesVulkan::lookups() {
 void FieldPassesVulkan::solve() {
   DeviceSolver& solver = update_.solver;
   if (settings().max_bounces >= 0) {
-    solver.record_bounces(to_, update_.list, update_.shares, settings().max_bounces);
+    solver.record_bounces(to_, update_.list, update_.blend_weights, settings().max_bounces);
   } else {
-    solver.record(to_, update_.list, update_.shares, update_.largest_share, {},
-                  relight_settings(settings()));
+    solver.record(to_, update_.list, update_.blend_weights, update_.largest_blend_weight, {},
+                  solve_settings(settings()));
   }
-  update_.field.record_told(to_, update_.list, {solver.solution().address()});
+  update_.field.record_last_estimates(to_, update_.list, {solver.solution().address()});
 }
 
 void FieldPassesVulkan::variability() {
-  update_.noise.record(to_, update_.list, {update_.shares.address()},
+  update_.noise.record(to_, update_.list, {update_.blend_weights.address()},
                        {update_.solver.history().address()});
 }
 
 void FieldPassesVulkan::store() {
-  update_.field.record_store_light(to_, update_.list, update_.salt);
+  update_.field.record_store_light(to_, update_.list, update_.dither_seed);
 }
 
 }  // namespace lambent

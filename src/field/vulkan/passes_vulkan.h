@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "field/passes.h"
-#include "field/vulkan/device_field.h"
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
+#include "field/vulkan/field_resources.h"
 #include "vulkan/recorder.h"
 
 namespace lambent {
@@ -22,7 +22,7 @@ class RaySourceVulkan {
   virtual int batches() const = 0;
   virtual void schedule(vulkan::Recorder& to) = 0;
   virtual void trace(vulkan::Recorder& to, int batch) = 0;
-  /// Leaves surfels, and the distances that rays saw (DeviceField::record_seen_distances).
+  /// Leaves surfels, and the distances that rays saw (FieldResources::record_seen_distances).
   virtual void shade(vulkan::Recorder& to, int batch) = 0;
   virtual void visibility(vulkan::Recorder& to) = 0;
   /// What lookups ask rays of, with its textures bound; null: nothing.
@@ -35,20 +35,20 @@ class RaySourceVulkan {
 class VariabilityVulkan {
  public:
   virtual ~VariabilityVulkan() = default;
-  virtual void record(vulkan::Recorder& to, const DeviceProbes& list, FloatArray shares,
+  virtual void record(vulkan::Recorder& to, const DeviceProbes& list, FloatArray blend_weights,
                       Vec4Array before) = 0;
 };
 
 /// What an update works on.
 struct UpdateVulkan {
-  DeviceField& field;
+  FieldResources& field;
   DeviceSolver& solver;
   RaySourceVulkan& source;
   VariabilityVulkan& noise;
   const DeviceProbes& list;
-  const vulkan::Buffer& shares;  ///< Of the list's probes.
-  float largest_share = 1.0f;
-  uint salt = 0;  ///< Of the store's dither.
+  const vulkan::Buffer& blend_weights;  ///< Of the list's probes.
+  float largest_blend_weight = 1.0f;
+  uint dither_seed = 0;  ///< Of the store's dither.
 };
 
 class FieldPassesVulkan final : public FieldPasses {

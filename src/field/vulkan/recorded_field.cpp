@@ -11,8 +11,8 @@
 namespace lambent::vulkan {
 namespace {
 
-constexpr int kMostFramesInFlight = 16;
-constexpr int kMostPlacingUpdates = 64;
+constexpr int kMaxFramesInFlight = 16;
+constexpr int kMaxPlacingUpdates = 64;
 
 BufferRange range_of(const Buffer& buffer) {
   return {buffer.handle(), buffer.offset(), buffer.bytes(), buffer.address()};
@@ -26,10 +26,10 @@ Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSetting
   if (s.max_bounces >= 0 && (r.probes_per_update != 0 || r.rays_per_update != 0)) {
     return fail("", "bounces", "can be counted only where all probes are traced at once");
   }
-  if (r.frames_in_flight < 1 || r.frames_in_flight > kMostFramesInFlight) {
+  if (r.frames_in_flight < 1 || r.frames_in_flight > kMaxFramesInFlight) {
     return fail("", "frames in flight", "must be 1 to 16");
   }
-  if (r.probes_per_update < 0 || r.probes_per_update > kMostProbes) {
+  if (r.probes_per_update < 0 || r.probes_per_update > kMaxBatchProbes) {
     return fail("", "probes per update", "must be 0 to 65535");
   }
   if (r.rays_per_update != 0) {
@@ -39,7 +39,7 @@ Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSetting
     }
   }
   const int placing = r.placing_updates;
-  if (placing != 0 && (placing < 2 || placing > kMostPlacingUpdates)) {
+  if (placing != 0 && (placing < 2 || placing > kMaxPlacingUpdates)) {
     return fail("", "placing updates", "must be 2 to 64, or 0");
   }
   return {};
@@ -60,7 +60,7 @@ Expected<RecordedField> RecordedField::make(std::shared_ptr<Device> device,
   for (const Volume& volume : *volumes) grids.push_back(volume.grid);
   const ProbeStore shape(grids, settings);
   const bool all_at_once = recorded.probes_per_update == 0 && recorded.rays_per_update == 0;
-  if (all_at_once && shape.probes() > kMostProbes) {
+  if (all_at_once && shape.probes() > kMaxBatchProbes) {
     return fail(
         "", "probes per update",
         "must be given where there are more than 65535: here " + std::to_string(shape.probes()));
@@ -79,20 +79,21 @@ RecordedField& RecordedField::operator=(RecordedField&&) noexcept = default;
 PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
   State& s = *state_;
   assert(update.history >= 0.0f && update.history <= 1.0f);
-  s.turn = s.plan.next(update);
+  s.batch = s.plan.next(update);
   s.times = s.memory().take_times();
-  s.memory().write(s.turn, s.settings);
-  return {static_cast<std::uint32_t>(s.turn.count),
+  s.memory().write(s.batch, s.settings);
+  return {static_cast<std::uint32_t>(s.batch.count),
           static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
-          s.turn.place != kPlaceLeave, s.turn.on_device};
+          s.batch.place != kPlaceLeave, s.batch.on_device};
 }
 
 void RecordedField::State::record_part(EngineRays& source, VkCommandBuffer commands,
                                        void (*part)(FieldPasses&)) {
   Recorder to(*device, commands, memory().next_timer());
   to.barrier();
-  FieldPassesVulkan passes(to, {field, solver, source, source, list(), shares, turn.largest_share,
-                                store_salt(turn.update, settings.seed)});
+  FieldPassesVulkan passes(
+      to, {field, solver, source, source, list(), blend_weights, batch.largest_blend_weight,
+           store_dither_seed(batch.update, settings.seed)});
   part(passes);
   to.barrier();
 }
@@ -130,7 +131,7 @@ BufferRange RecordedField::results() const {
 }
 BufferRange RecordedField::ray_launch() const {
   const State& s = *state_;
-  if (!s.turn.on_device) return {};
+  if (!s.batch.on_device) return {};
   const Buffer& state = s.schedule->state();
   const VkDeviceSize first = kOverLaunch * sizeof(GroupCounts);
   return {state.handle(), state.offset() + first, sizeof(GroupCounts), state.address() + first};
@@ -142,7 +143,7 @@ const std::vector<PassTime>& RecordedField::pass_times() const {
   return state_->times;
 }
 LookupBuffers RecordedField::lookup_buffers() const {
-  const DeviceField& field = state_->field;
+  const FieldResources& field = state_->field;
   return {range_of(field.grids()), range_of(field.offsets()), range_of(field.irradiance()),
           range_of(field.distance()), range_of(state_->record)};
 }

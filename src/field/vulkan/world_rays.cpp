@@ -12,11 +12,11 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// Rays in memory at a time: enough to fill any device, few enough to stay small (about 40 MB).
+// The most rays that are in memory at a time: enough to fill any device, in about 40 MB.
 constexpr int kMaxBatchRays = 1 << 18;
 
-/// The parts of a list that trace the same rays and whose rays fit into memory.
-std::vector<DeviceGroup> batches_of(const DeviceField& field, const DeviceProbes& list) {
+/// Splits a list into batches that trace the same ray set, each small enough for kMaxBatchRays.
+std::vector<DeviceGroup> batches_of(const FieldResources& field, const DeviceProbes& list) {
   std::vector<DeviceGroup> batches;
   for (int first = 0; first < list.count();) {
     const auto rays = field.rays_of(list.probes[first]);
@@ -37,9 +37,9 @@ std::size_t rays_of(const DeviceGroup& batch) {
 
 }  // namespace
 
-WorldRaysVulkan::WorldRaysVulkan(DeviceField& field, HitShading& shading, WorldRayBuffers& buffers,
-                                 const DeviceWorld& world, const DeviceProbes& list,
-                                 std::span<const int> cells, bool sees)
+WorldRaysVulkan::WorldRaysVulkan(FieldResources& field, HitShading& shading,
+                                 WorldRayBuffers& buffers, const DeviceWorld& world,
+                                 const DeviceProbes& list, std::span<const int> cells, bool sees)
     : field_(field),
       shading_(shading),
       buffers_(buffers),
@@ -92,7 +92,7 @@ void WorldRaysVulkan::shade(Recorder& to, int batch) {
 }
 
 void WorldRaysVulkan::visibility(Recorder& to) {
-  field_.record_look(to, world_.tracer(), {cells_.address()}, cell_count_);
+  field_.record_cell_visibility(to, world_.tracer(), {cells_.address()}, cell_count_);
 }
 
 void WorldRaysVulkan::record_counts(Recorder& to) const {

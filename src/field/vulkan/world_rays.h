@@ -21,7 +21,7 @@ class WorldRaysVulkan final : public RaySourceVulkan {
   /// Makes room for the rays of a list's probes. `cells` are those whose probes `visibility` looks
   /// across. `sees`: whether `shade` leaves the distances that rays saw. All that is given outlives
   /// the commands that are recorded.
-  WorldRaysVulkan(DeviceField& field, HitShading& shading, WorldRayBuffers& buffers,
+  WorldRaysVulkan(FieldResources& field, HitShading& shading, WorldRayBuffers& buffers,
                   const DeviceWorld& world, const DeviceProbes& list, std::span<const int> cells,
                   bool sees);
 
@@ -40,7 +40,7 @@ class WorldRaysVulkan final : public RaySourceVulkan {
   std::uint64_t other_rays() const;
 
  private:
-  DeviceField& field_;
+  FieldResources& field_;
   HitShading& shading_;
   WorldRayBuffers& buffers_;
   const DeviceWorld& world_;

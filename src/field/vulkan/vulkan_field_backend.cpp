@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/vulkan/vulkan_field_backend.h"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+#include <utility>
+
+#include "field/passes.h"
+#include "shared/color.h"
+#include "vulkan/device_memory.h"
+#include "vulkan/recorder.h"
+
+namespace lambent {
+namespace {
+
+using vulkan::Buffer;
+using vulkan::Recorder;
+
+// The sum of all importance, in the fixed-point numbers in which it is summed. Rounding each
+// summand to the nearest number adds less than the range that is left to 2^32.
+constexpr double kMaxScattered = 2147483648.0;
+
+// Passes of an update besides those of its batches, at most; and passes of a batch.
+constexpr std::uint32_t kTimedPasses = 16;
+constexpr std::uint32_t kBatchPasses = 2;
+
+std::uint32_t timed_passes(const WorldRaysVulkan& rays) {
+  return kTimedPasses + kBatchPasses * static_cast<std::uint32_t>(rays.batches());
+}
+
+/// Brings the changes of light to where the host reads them, which schedules.
+class ChangesForHost final : public VariabilityVulkan {
+ public:
+  ChangesForHost(const FieldResources& field, std::size_t probes, float darkest)
+      : found(field.device(), probes * sizeof(LightChange), vulkan::Memory::readback,
+              "changes of light"),
+        field_(field),
+        darkest_(darkest) {}
+
+  void record(Recorder& to, const DeviceProbes& list, FloatArray, Vec4Array before) override {
+    field_.record_compare_light(to, list, before, darkest_, {found.address()});
+  }
+
+  const Buffer found;
+
+ private:
+  const FieldResources& field_;
+  float darkest_;
+};
+
+}  // namespace
+
+VulkanFieldBackend::VulkanFieldBackend(const World& world, ProbeData& data)
+    : data_(data),
+      device_(world.on_device()->shared_device()),
+      field_(*device_, data.settings, data.store),
+      solver_(field_),
+      shading_(*device_) {
+  push_light();
+}
+
+bool VulkanFieldBackend::is_on(const World& world) const {
+  return world.on_device() != nullptr && &world.on_device()->device() == device_.get();
+}
+
+void VulkanFieldBackend::fetch_light() {
+  if (!light_is_newer_) return;
+  vulkan::read<vec4>(*device_, field_.light(), data_.light);
+  vulkan::read<vec4>(*device_, field_.last_irradiance_estimate(), data_.last_irradiance_estimate);
+  light_is_newer_ = false;
+}
+
+void VulkanFieldBackend::fetch_store() {
+  if (!store_is_newer_) return;
+  field_.read_store(data_.store);
+  store_is_newer_ = false;
+}
+
+void VulkanFieldBackend::push_light() {
+  vulkan::write<vec4>(*device_, data_.light, field_.light());
+  vulkan::write<vec4>(*device_, data_.last_irradiance_estimate, field_.last_irradiance_estimate());
+  light_is_newer_ = false;
+}
+
+/// Takes over what the host may have changed, unless the device's is newer.
+void VulkanFieldBackend::upload_light() {
+  if (!light_is_newer_) push_light();
+}
+
+void VulkanFieldBackend::push_places(std::span<const int> moved) {
+  field_.set_places(data_.store);
+  field_.set_rays(moved, nullptr);
+  field_.write_distances(data_.store, moved);
+}
+
+void VulkanFieldBackend::store_light(std::span<const int> probes, uint dither_seed) {
+  DeviceProbes list;
+  list.probes.assign(probes.begin(), probes.end());
+  list.indices = host_buffer(*device_, probes, "probes to store");
+  device_->run([&](Recorder& to) { field_.record_store_light(to, list, dither_seed); });
+  store_is_newer_ = true;
+}
+
+template <class T>
+std::vector<T> VulkanFieldBackend::in_order_of(const DeviceProbes& list, std::span<const T> given,
+                                               std::size_t each) const {
+  std::vector<T> ordered(given.size());
+  for (std::size_t named = 0; named < list.position.size(); ++named) {
+    std::copy_n(&given[named * each], each, &ordered[list.position[named] * each]);
+  }
+  return ordered;
+}
+
+/// Those that have been traced.
+std::vector<int> VulkanFieldBackend::traced_among(std::span<const int> probes) const {
+  std::vector<int> traced;
+  for (const int probe : probes) {
+    if (field_.rays_of(probe)) traced.push_back(probe);
+  }
+  return traced;
+}
+
+ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
+  ProbeUpdateResult result;
+  if (update.probes.empty()) return result;
+  upload_light();
+  for (const TraceGroup& group : update.groups) field_.set_rays(group.probes, group.rays);
+  const DeviceProbes list = field_.list(update.probes);
+  const std::vector<float> blend_weights = in_order_of<float>(list, update.blend_weights, 1);
+  const Buffer blend_weight_buffer = host_buffer<float>(*device_, blend_weights, "blend weights");
+  const bool hybrid = data_.settings.visibility == Visibility::hybrid;
+  const std::vector<int> cells =
+      hybrid ? cells_around(data_.store, update.probes) : std::vector<int>();
+  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *update.world.on_device(), list, cells,
+                       /*sees=*/true);
+  ChangesForHost changes(field_, update.probes.size(), update.darkest);
+  field_.reserve_seen(list);
+  field_.reserve_transport(list);
+  solver_.reserve(list);
+
+  vulkan::Timestamps timestamps(*device_, timed_passes(rays));
+  device_->run([&](Recorder& untimed) {
+    Recorder to(*device_, untimed.commands(), &timestamps);
+    const float largest = *std::max_element(blend_weights.begin(), blend_weights.end());
+    FieldPassesVulkan passes(to, {field_, solver_, rays, changes, list, blend_weight_buffer,
+                                  largest, update.dither_seed});
+    lambent::update_probes(passes);
+    rays.record_counts(to);
+  });
+  light_is_newer_ = store_is_newer_ = true;
+  for (const vulkan::DevicePassTime& pass : timestamps.read()) {
+    result.passes.push_back({pass.name, pass.ms});
+  }
+  result.probe_rays = rays.probe_rays();
+  result.shadow_rays = rays.other_rays();
+  const DeviceSolve solved = solver_.result();
+  result.iterations = solved.iterations;
+  result.error = solved.error;
+  result.change = solved.change;
+  const std::span<const LightChange> found = changes.found.as<LightChange>();
+  for (const std::size_t position : list.position) result.changes.push_back(found[position]);
+  return result;
+}
+
+/// Rays are cheap here and finding out which may differ is not: all are traced again.
+InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<const WorldChanges>,
+                                               std::span<const int> probes,
+                                               std::span<const int> among, uint dither_seed) {
+  const std::vector<int> traced = traced_among(probes);
+  if (traced.empty()) return {};
+  const DeviceProbes list = field_.list(traced), everyone = field_.list(traced_among(among));
+  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *world.on_device(), list, {},
+                       /*sees=*/false);
+  device_->run([&](Recorder& to) {
+    field_.record_distances_before(to, list);
+    for (int batch = 0; batch < rays.batches(); ++batch) {
+      rays.trace(to, batch);
+      rays.shade(to, batch);
+    }
+    field_.record_move_distances(to, list, dither_seed);
+    field_.record_lookups(to, everyone, rays.tracer());
+    rays.record_counts(to);
+  });
+  store_is_newer_ = true;
+  return {rays.probe_rays(), rays.other_rays(), {}};
+}
+
+SolveResult VulkanFieldBackend::solve(std::span<const int> probes,
+                                      std::span<const float> blend_weights,
+                                      const WorkingIrradiance& history_ratio,
+                                      const SolveSettings& settings) {
+  const auto texels = static_cast<std::size_t>(field_.tile_texels());
+  SolveResult result;
+  result.solution.assign(probes.size() * texels, vec4(0.0f));
+  if (probes.empty()) return result;
+  upload_light();
+  const DeviceProbes list = field_.list(probes);
+  const std::vector<float> ordered = in_order_of(list, blend_weights, 1);
+  const Buffer blend_weight_buffer = host_buffer<float>(*device_, ordered, "blend weights");
+  Buffer history_ratios;
+  if (!history_ratio.empty()) {
+    history_ratios =
+        host_buffer<vec4>(*device_, in_order_of(list, std::span<const vec4>(history_ratio), texels),
+                          "history ratios");
+  }
+  field_.reserve_transport(list);
+  solver_.reserve(list);
+  const float largest = *std::max_element(ordered.begin(), ordered.end());
+  device_->run([&](Recorder& to) {
+    solver_.record(to, list, blend_weight_buffer, largest,
+                   {history_ratio.empty() ? 0 : history_ratios.address()}, settings);
+  });
+  std::vector<vec4> found(probes.size() * texels);
+  vulkan::read<vec4>(*device_, solver_.solution(), found);
+  for (std::size_t named = 0; named < probes.size(); ++named) {
+    std::copy_n(&found[list.position[named] * texels], texels, &result.solution[named * texels]);
+  }
+  light_is_newer_ = true;
+  fetch_light();
+  const DeviceSolve solved = solver_.result();
+  result.iterations = solved.iterations;
+  result.error = solved.error;
+  result.change = solved.change;
+  return result;
+}
+
+void VulkanFieldBackend::receive(std::span<const int> probes, WorkingIrradiance& received) {
+  if (probes.empty()) return;
+  const auto texels = static_cast<std::size_t>(field_.tile_texels());
+  const DeviceProbes list = field_.list(probes);
+  const Buffer before = host_buffer<vec4>(
+      *device_, in_order_of(list, std::span<const vec4>(received), texels), "light before");
+  const Buffer found(*device_, probes.size() * texels * sizeof(vec4), vulkan::Memory::readback,
+                     "received light");
+  field_.reserve_transport(list);
+  device_->run([&](Recorder& to) {
+    field_.record_transport(
+        to, list, {{field_.light().address()}, {before.address()}, {}, {found.address()}});
+  });
+  for (std::size_t named = 0; named < probes.size(); ++named) {
+    std::copy_n(&found.as<vec4>()[list.position[named] * texels], texels,
+                &received[named * texels]);
+  }
+}
+
+std::vector<double> VulkanFieldBackend::direct_light(std::span<const int> probes) {
+  std::vector<double> light(probes.size(), 0.0);
+  std::vector<int> traced;
+  std::vector<std::size_t> named;
+  for (std::size_t k = 0; k < probes.size(); ++k) {
+    if (!field_.rays_of(probes[k])) continue;
+    traced.push_back(probes[k]);
+    named.push_back(k);
+  }
+  if (traced.empty()) return light;
+  const auto texels = static_cast<std::size_t>(field_.tile_texels());
+  const DeviceProbes list = field_.list(traced);
+  const Buffer nothing(*device_, traced.size() * texels * sizeof(vec4), vulkan::Memory::upload,
+                       "no light");
+  const Buffer found(*device_, nothing.bytes(), vulkan::Memory::readback, "direct light");
+  field_.reserve_transport(list);
+  device_->run([&](Recorder& to) {
+    field_.record_transport(
+        to, list,
+        {{field_.light().address()}, {nothing.address()}, {}, {found.address()}, kGatherDirect});
+  });
+  for (std::size_t k = 0; k < traced.size(); ++k) {
+    const vec4* tile = &found.as<vec4>()[list.position[k] * texels];
+    for (std::size_t t = 0; t < texels; ++t) light[named[k]] += luminance(vec3(tile[t]));
+  }
+  return light;
+}
+
+std::vector<float> VulkanFieldBackend::scatter_importance(std::span<const float> received,
+                                                          float least) {
+  std::vector<int> sending;
+  for (int probe = 0; probe < field_.probes(); ++probe) {
+    if (received[probe] > least && field_.rays_of(probe)) sending.push_back(probe);
+  }
+  std::vector<float> sent(received.size(), 0.0f);
+  if (sending.empty()) return sent;
+  const DeviceProbes list = field_.list(sending);
+  const Buffer given = host_buffer(*device_, received, "importance");
+  const Buffer sums(*device_, received.size_bytes(), vulkan::Memory::device, "importance sent");
+  const Buffer taken(*device_, received.size_bytes(), vulkan::Memory::readback, "importance taken");
+  // Sum fixed-point numbers, so that the order of additions does not matter. Probes send no more
+  // importance in total than they received
+  const double most = std::accumulate(received.begin(), received.end(), 0.0);
+  const auto scale = static_cast<float>(kMaxScattered / most);
+  device_->run([&](Recorder& to) {
+    to.fill(sums, 0u);
+    to.barrier();
+    field_.record_scatter_importance(to, list, {given.address()}, {sums.address()}, scale);
+    to.copy(sums, taken, received.size_bytes());
+  });
+  for (std::size_t i = 0; i < sent.size(); ++i) {
+    sent[i] = static_cast<float>(taken.as<std::uint32_t>()[i]) / scale;
+  }
+  return sent;
+}
+
+}  // namespace lambent
