@@ -55,18 +55,19 @@ class FieldPassesCpu final : public FieldPasses {
   }
 
   void blend_distances() override {
-    std::span<const float> shares = update_.shares;
+    std::span<const float> blend_weights = update_.blend_weights;
     for (const TraceGroup& group : update_.groups) {
       const DistanceBlend blend(data_.settings, group.rays->directions);
       lambent::blend_distances(update_.world.scene(), blend, group,
-                               shares.first(group.probes.size()), update_.dither_seed, data_.store);
-      shares = shares.subspan(group.probes.size());
+                               blend_weights.first(group.probes.size()), update_.dither_seed,
+                               data_.store);
+      blend_weights = blend_weights.subspan(group.probes.size());
     }
   }
 
   void visibility() override {
-    result.shadow_rays += data_.cell_visibility.look(update_.world.tracer(), data_.store,
-                                                     cells_around(data_.store, update_.probes));
+    result.shadow_rays += data_.cell_visibility.update(update_.world.tracer(), data_.store,
+                                                       cells_around(data_.store, update_.probes));
   }
 
   void lookups() override {
@@ -80,8 +81,8 @@ class FieldPassesCpu final : public FieldPasses {
     history_ = light_of(data_.light, update_.probes, data_.tile_texels());
     const SolveResult solved =
         bounces >= 0
-            ? solve_counted_bounces(to_these, update_.shares, bounces, data_.light)
-            : solve_bounces(to_these, update_.shares, {}, update_.solve_bounces, data_.light);
+            ? solve_counted_bounces(to_these, update_.blend_weights, bounces, data_.light)
+            : solve_bounces(to_these, update_.blend_weights, {}, update_.solve, data_.light);
     result.iterations = solved.iterations;
     result.error = solved.error;
     result.change = solved.change;
@@ -146,8 +147,8 @@ class FieldBackendCpu final : public FieldBackend {
                               visibility_in(world, data_), data_.store, data_.traces, dither_seed);
   }
 
-  std::uint64_t look(const World& world, std::span<const int> cells) override {
-    return data_.cell_visibility.look(world.tracer(), data_.store, cells);
+  std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) override {
+    return data_.cell_visibility.update(world.tracer(), data_.store, cells);
   }
 
   std::uint64_t find_lookups(const World& world, std::span<const int> moved,
@@ -157,10 +158,11 @@ class FieldBackendCpu final : public FieldBackend {
                                data_.traces);
   }
 
-  SolveResult solve(std::span<const int> probes, std::span<const float> shares,
+  SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
                     const WorkingIrradiance& history_ratio,
                     const SolveSettings& settings) override {
-    return solve_bounces(data_.transport(probes), shares, history_ratio, settings, data_.light);
+    return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings,
+                         data_.light);
   }
 
   void receive(std::span<const int> probes, WorkingIrradiance& received) override {

@@ -2,10 +2,10 @@
 // The passes of an update of the field, as executors supply them; update.cpp says in which order
 // they run.
 //
-// There are two executors: the processor (passes_cpu.cpp), which does what it is asked at once, and
-// Vulkan (vulkan/passes_vulkan.h), which only records. Where rays come from is the executor's ray
-// source: Embree, our Vulkan world, or an engine. An engine shades what rays meet with commands of
-// its own, so that its update is recorded in parts.
+// There are two executors: the processor (field_backend_cpu.cpp), which does what it is asked at
+// once, and Vulkan (vulkan/passes_vulkan.h), which only records. Where rays come from is the
+// executor's ray source: Embree, our Vulkan world, or an engine. An engine shades what rays meet
+// with commands of its own, so that its update is recorded in parts.
 #pragma once
 
 #include "lambent/field.h"
@@ -34,14 +34,14 @@ class FieldPasses {
   virtual ~FieldPasses() = default;
 
   virtual const FieldSettings& settings() const = 0;
-  /// Parts in which the update's rays are traced and shaded, so that each fits into memory.
+  /// The number of batches in which the update's rays are traced and shaded. Each fits into memory.
   virtual int batches() const = 0;
 
-  /// Chooses the probes and draws their rays, where the executor and not the host decides.
+  /// Chooses the probes and draws their rays, where the executor decides and not the host.
   virtual void schedule() = 0;
   /// Finds what a batch's rays meet.
   virtual void trace(int batch) = 0;
-  /// Makes surfels of what they met, with the direct light on them.
+  /// Makes surfels of a batch's hits, with the direct light on them.
   virtual void shade(int batch) = 0;
   /// Blends the distances that all rays saw into the store.
   virtual void blend_distances() = 0;
@@ -51,28 +51,32 @@ class FieldPasses {
   virtual void lookups() = 0;
   /// Solves for the light of all bounces, and blends it into what the probes hold.
   virtual void solve() = 0;
-  /// Finds by how much that changed their light.
+  /// Finds by how much the solution changed the probes' light.
   virtual void variability() = 0;
-  /// Encodes their light for lookups.
+  /// Encodes the probes' light for lookups.
   virtual void store() = 0;
-  /// Moves probes and says what they are for, where the update's own rays are all there is to
-  /// decide by.
+  /// Relocates and classifies the probes, where the update's own rays are all there is to decide
+  /// by.
   virtual void placement() = 0;
 
-  /// Around each pass, with its name.
+  /// Is called before each pass, with its name, ...
   virtual void begin(const char* name) = 0;
+  /// ... and after it.
   virtual void end() = 0;
 };
 
-/// All passes of an update whose probes the host has chosen and placed.
+/// Runs all passes of an update whose probes the host has placed and chosen.
 void update_probes(FieldPasses& passes);
 
-// The parts in which an engine records an update; they follow one another in this order.
+// An engine records an update in four parts, in this order, with commands of its own in between.
 
+/// Runs the schedule.
 void choose_rays(FieldPasses& passes);
+/// Finds the hits of the chosen rays. The engine shades them afterwards.
 void find_hits(FieldPasses& passes);
-/// From hits that the engine has shaded to stored light.
+/// Runs all passes from shaded hits to stored light.
 void follow_hits(FieldPasses& passes);
+/// Runs the placement.
 void maintain_probes(FieldPasses& passes);
 
 }  // namespace lambent

@@ -197,7 +197,7 @@ void IrradianceField::State::place_all(const World& world, const std::optional<v
                                        UpdateStatistics& statistics) {
   if (viewer_ws) statistics.probes_recycled = scroll_volumes(world, *viewer_ws, statistics);
   if (updates == 0) {
-    place(world, all_probes());
+    place_probes(world, all_probes());
     placed_revision = world.revision();
   } else {
     relocate_edited(world, statistics);

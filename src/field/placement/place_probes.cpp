@@ -52,7 +52,7 @@ std::uint64_t IrradianceField::State::update_cell_visibility(const World& world,
                                                              std::span<const int> probes) {
   if (settings.visibility != Visibility::hybrid) return 0;
   const std::vector<int> cells = cells_around(data.store, probes);
-  return backend->look(world, cells);
+  return backend->update_cell_visibility(world, cells);
 }
 
 void IrradianceField::State::initialize_relocated(const World& world, std::span<const int> moved,

@@ -16,21 +16,22 @@ void RecordedField::State::EngineRays::schedule(Recorder& to) {
                                            {s_.memory().directions.address()},
                                            {s_.rays.address()},
                                            s_.chosen(offsetof(ListState, probes)),
-                                           s_.turn.count,
+                                           s_.batch.count,
                                            s_.settings.rays_per_probe,
                                            s_.ray_mask,
-                                           s_.turn.all ? 1u : 0u,
-                                           s_.turn.on_device ? 1u : 0u,
+                                           s_.batch.all ? 1u : 0u,
+                                           s_.batch.on_device ? 1u : 0u,
                                            0u};
-  if (s_.turn.history < 1.0f) {
-    const FadeSamplesArguments fade = {{s_.standing.address()}, s_.field.probes(), s_.turn.history};
+  if (s_.batch.history < 1.0f) {
+    const FadeSamplesArguments fade = {
+        {s_.standing.address()}, s_.field.probes(), s_.batch.history};
     to.run(s_.kernels.fade_samples, fade, s_.field.probes());
     to.barrier();
   }
-  if (s_.turn.on_device) {
-    s_.schedule->record_choose(to, s_.probe_states(), s_.turn.update, s_.turn.all);
+  if (s_.batch.on_device) {
+    s_.schedule->record_choose(to, s_.probe_states(), s_.batch.update, s_.batch.all);
   }
-  to.run(s_.kernels.rays, arguments, s_.settings.rays_per_probe, s_.turn.count);
+  to.run(s_.kernels.rays, arguments, s_.settings.rays_per_probe, s_.batch.count);
 }
 
 void RecordedField::State::EngineRays::trace(Recorder& to, int) {
@@ -46,7 +47,7 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
       {s_.hits.address()},
       count,
       0u};
-  if (s_.turn.on_device) {
+  if (s_.batch.on_device) {
     to.trace_indirect(s_.tracer.closest, arguments, s_.schedule->state(),
                       kOverLaunch * sizeof(GroupCounts));
     return;
@@ -54,7 +55,7 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
   to.trace(s_.tracer.closest, arguments, count);
 }
 
-/// From what the engine told to surfels, and what they count for.
+/// Turns the engine's results into surfels and computes the blend weights and the ray weights.
 void RecordedField::State::EngineRays::shade(Recorder& to, int) {
   const UpdateMemory& m = s_.memory();
   const DeviceProbes& list = s_.list();
@@ -65,15 +66,15 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
       {s_.blend_weights.address()},
       s_.chosen(offsetof(ListState, probes)),
       s_.chosen(offsetof(ListState, largest_blend_weight)),
-      s_.turn.count,
-      s_.turn.on_device ? 1u : 0u,
+      s_.batch.count,
+      s_.batch.on_device ? 1u : 0u,
       longest_average(s_.settings),
-      s_.turn.all ? 1u : 0u,
-      s_.turn.discards_history ? 1u : 0u};
-  const RecordedSurfelsArguments surfel = {
-      list.index_array(),       {s_.rays.address()},   {s_.results.address()},
-      s_.field.surfels(),       s_.turn.count,         s_.settings.rays_per_probe,
-      s_.field.surfel_stride(), s_.settings.max_albedo};
+      s_.batch.all ? 1u : 0u,
+      s_.batch.discards_history ? 1u : 0u};
+  const RecordedSurfelsArguments surfel = {list.index_array(),       {s_.rays.address()},
+                                           {s_.results.address()},   s_.field.surfels(),
+                                           s_.batch.count,           s_.settings.rays_per_probe,
+                                           s_.field.surfel_stride(), s_.settings.max_albedo};
   s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, list, kOverLanes);
   s_.field.run_over(to, s_.kernels.surfels, surfel, list, kOverRays);
   s_.field.record_weights(to, {m.directions.address()}, s_.settings.rays_per_probe,
@@ -89,14 +90,14 @@ void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& 
                                               FloatArray blend_weights, Vec4Array before) {
   // Where probes take turns, nobody asks how noisy they are
   if (s_.schedule)
-    s_.schedule->record_update_variability(to, list, blend_weights, before, s_.turn.update);
+    s_.schedule->record_update_variability(to, list, blend_weights, before, s_.batch.update);
 }
 
 void RecordedField::State::EngineRays::placement(Recorder& to) {
   const MaintainArguments arguments = {
       {s_.field.grids().address()}, s_.probe_states(),      s_.list().index_array(),
-      {s_.rays.address()},          {s_.results.address()}, s_.turn.count,
-      s_.settings.rays_per_probe,   s_.turn.place,          s_.turn.all ? 1u : 0u};
+      {s_.rays.address()},          {s_.results.address()}, s_.batch.count,
+      s_.settings.rays_per_probe,   s_.batch.place,         s_.batch.all ? 1u : 0u};
   s_.field.run_over(to, s_.kernels.maintain, arguments, s_.list(), kOverProbes);
 }
 

@@ -62,9 +62,8 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
   DeviceSolver solver_;
   HitShading shading_;
   WorldRayBuffers ray_buffers_;
-  // What the processor's memory has yet to be brought up to date with
-  bool light_is_newer_ = false;  // light, and what of it the last rays told
-  bool store_is_newer_ = false;  // tiles
+  bool light_is_newer_ = false;  // the device has newer light and estimates than ProbeData
+  bool store_is_newer_ = false;  // the device has newer tiles than ProbeData
 };
 
 }  // namespace lambent
