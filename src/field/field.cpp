@@ -47,16 +47,16 @@ Expected<void> check_settings(const FieldSettings& s) {
   return {};
 }
 
-IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
+IrradianceField::State::State(const FieldSettings& field_settings,
+                              std::span<const Volume> asked_volumes)
     : settings(field_settings),
-      roles(roles_of(volumes)),
-      data(grids_of(volumes), settings),
+      volumes{roles_of(asked_volumes), {}},
+      data(grids_of(asked_volumes), settings),
       statuses(data.store.probes()),
-      classification_inputs(data.store.probes()),
-      last_estimate_is_coarse(data.store.probes()),
-      scheduler(data.store.probes(), roles, settings),
+      placement{.classification_inputs = std::vector<ClassificationInput>(data.store.probes())},
+      scheduling{ProbeScheduler(data.store.probes(), volumes.roles, settings)},
       backend(make_field_backend_cpu(data)) {
-  for (const ProbeGrid& grid : data.store.grids()) grids.push_back(field_grid(grid));
+  for (const ProbeGrid& grid : data.store.grids()) volumes.grids.push_back(field_grid(grid));
 }
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -78,16 +78,17 @@ void IrradianceField::reset() {
   s.backend = make_field_backend_cpu(s.data);
   s.data.clear();
   std::fill(s.statuses.begin(), s.statuses.end(), ProbeStatus{});
-  std::fill(s.classification_inputs.begin(), s.classification_inputs.end(), ClassificationInput{});
-  s.pending_edits = {};
-  s.edited_places.clear();
-  s.stale_sleeping.clear();
-  s.applied_revision = 0;
-  s.classified = false;
-  s.scheduler.mark_all_changed();
-  s.warming_up = true;
-  s.mean_light = 0.0f;
-  s.applied_edits_last = false;
+  std::fill(s.placement.classification_inputs.begin(), s.placement.classification_inputs.end(),
+            ClassificationInput{});
+  s.edits.pending = {};
+  s.placement.edited_places.clear();
+  s.edits.stale_sleeping.clear();
+  s.edits.applied_revision = 0;
+  s.placement.classified = false;
+  s.scheduling.scheduler.mark_all_changed();
+  s.scheduling.warming_up = true;
+  s.scheduling.mean_light = 0.0f;
+  s.edits.applied_last = false;
   s.updates = 0;
 }
 
@@ -98,7 +99,7 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
 }
 
 std::span<const FieldGrid> IrradianceField::grids() const {
-  return state_->grids;
+  return state_->volumes.grids;
 }
 int IrradianceField::probes() const {
   return state_->data.store.probes();

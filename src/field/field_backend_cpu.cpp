@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "core/pass_times.h"
+#include "field/edits/history_ratio.h"
 #include "field/field_backend.h"
 #include "field/lookup/lookup_volumes.h"
 #include "field/passes.h"
@@ -59,15 +60,14 @@ class FieldPassesCpu final : public FieldPasses {
     for (const TraceGroup& group : update_.groups) {
       const DistanceBlend blend(data_.settings, group.rays->directions);
       lambent::blend_distances(update_.world.scene(), blend, group,
-                               blend_weights.first(group.probes.size()), update_.dither_seed,
-                               data_.store);
+                               blend_weights.first(group.probes.size()), update_.dither_seed, data_.store);
       blend_weights = blend_weights.subspan(group.probes.size());
     }
   }
 
   void visibility() override {
     result.shadow_rays += data_.cell_visibility.update(update_.world.tracer(), data_.store,
-                                                       cells_around(data_.store, update_.probes));
+                                                     cells_around(data_.store, update_.probes));
   }
 
   void lookups() override {
@@ -86,11 +86,7 @@ class FieldPassesCpu final : public FieldPasses {
     result.iterations = solved.iterations;
     result.error = solved.error;
     result.change = solved.change;
-    const auto texels = static_cast<std::size_t>(data_.tile_texels());
-    for (std::size_t k = 0; k < update_.probes.size(); ++k) {
-      std::copy_n(&solved.solution[k * texels], texels,
-                  &data_.last_irradiance_estimate[update_.probes[k] * texels]);
-    }
+    store_last_estimates(update_.probes, solved.solution, data_);
   }
 
   void variability() override {
@@ -161,8 +157,7 @@ class FieldBackendCpu final : public FieldBackend {
   SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
                     const WorkingIrradiance& history_ratio,
                     const SolveSettings& settings) override {
-    return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings,
-                         data_.light);
+    return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings, data_.light);
   }
 
   void receive(std::span<const int> probes, WorkingIrradiance& received) override {

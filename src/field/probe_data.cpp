@@ -14,7 +14,8 @@ ProbeData::ProbeData(std::span<const ProbeGrid> volumes, const FieldSettings& fi
       traces(store.probes()),
       cell_visibility(store.probes()),
       light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
-      last_irradiance_estimate(light.size(), vec4(0.0f)) {}
+      last_irradiance_estimate(light.size(), vec4(0.0f)),
+      last_estimate_is_coarse(store.probes(), 0) {}
 
 std::vector<int> ProbeData::traced_probes() const {
   std::vector<int> traced;
@@ -29,6 +30,7 @@ void ProbeData::clear() {
   cell_visibility = CellVisibility(store.probes());
   std::fill(traces.begin(), traces.end(), ProbeTrace{});
   std::fill(light.begin(), light.end(), vec4(0.0f));
+  std::fill(last_estimate_is_coarse.begin(), last_estimate_is_coarse.end(), std::uint8_t{0});
   std::fill(last_irradiance_estimate.begin(), last_irradiance_estimate.end(), vec4(0.0f));
 }
 

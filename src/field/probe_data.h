@@ -2,6 +2,7 @@
 // What the passes of an update work on, in the processor's data.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,6 +28,9 @@ struct ProbeData {
   CellVisibility cell_visibility;  ///< Only hybrid visibility keeps it up to date.
   WorkingIrradiance light;         ///< The irradiance that the store encodes.
   WorkingIrradiance last_irradiance_estimate;  ///< What each probe's last rays alone estimated.
+  /// 1 where a probe's last estimate comes from a solve that stopped at its tolerance, so that it
+  /// is less exact than what edits are compared by.
+  std::vector<std::uint8_t> last_estimate_is_coarse;
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
   /// Returns the probes that have been traced, in ascending order.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/pass_times.h"
+#include "field/edits/history_ratio.h"
 #include "field/field_state.h"
 #include "field/passes.h"
 #include "field/schedule/importance.h"
@@ -77,69 +78,25 @@ uint IrradianceField::State::dither_seed() const {
   return store_dither_seed(static_cast<uint>(updates), settings.seed);
 }
 
-/// Computes how much the groups' rays will count: all history of n updates' worth of rays and w new
-/// ones blend with the weight w / (n + w), where n is limited by the hysteresis.
-TracedProbes IrradianceField::State::blend_weights_of(std::span<const TraceGroup> groups) const {
-  const float longest = longest_average(settings);
-  TracedProbes traced;
-  for (const TraceGroup& group : groups) {
-    const float weight =
-        static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
-    for (const int probe : group.probes) {
-      const float held = min(statuses[probe].samples, max(longest - weight, 0.0f));
-      traced.blend_weights.push_back(weight / (held + weight));
-    }
-    traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
-    traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
-  }
-  return traced;
-}
-
-/// Learns the noise of the traced probes from how much their light changed, counts their samples,
-/// and notes that they were traced in this update and at the world's revision.
-void IrradianceField::State::update_variability(const World& world, const TracedProbes& traced,
-                                                std::span<const LightChange> changes) {
-  const float longest = longest_average(settings);
-  double light_sum = 0.0;
-  for (std::size_t k = 0; k < traced.probes.size(); ++k) {
-    const int probe = traced.probes[k];
-    ProbeStatus& status = statuses[probe];
-    const LightChange& change = changes[k];
-    light_sum += change.now;
-    learn_noise(estimate_relative_square(change.relative_square, change.before,
-                                         traced.blend_weights[k], mean_light),
-                traced.weights[k], status);
-    status.samples = min(status.samples, longest);
-    status.served = static_cast<std::uint32_t>(updates) + 1;
-    status.state = state_once_traced(status.state);
-    status.revision = world.revision();
-    scheduler.mark_changed(probe);
-  }
-  if (traced.probes.empty()) return;
-  const auto count = static_cast<float>(traced.probes.size());
-  const float now = static_cast<float>(light_sum) / count;
-  const ProbeCounts& states = scheduler.states();
-  const int live = data.store.probes() - states.off - states.sleeping;
-  mean_light = learned_light(mean_light, now, count, static_cast<float>(live));
-}
-
 void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> groups,
                                    UpdateStatistics& statistics) {
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
       // A probe that woke before it was brought up to date holds an average of the light before the
       // edit
-      if (statuses[probe].revision != world.revision()) reset_history(probe, world.revision());
+      if (statuses[probe].revision != world.revision()) {
+        reset_history(probe, world.revision(), statuses, scheduling.scheduler);
+      }
     }
   }
-  const TracedProbes traced = blend_weights_of(groups);
+  const TracedProbes traced = blend_weights_of(groups, settings, statuses);
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) data.traces[probe].rays = group.rays;
   }
-  for (const int probe : traced.probes) last_estimate_is_coarse[probe] = 1;
-  const ProbeUpdateResult found =
-      backend->update_probes({world, std::move(groups), traced.probes, traced.blend_weights,
-                              solve_settings(settings), kDarkShare * mean_light, dither_seed()});
+  for (const int probe : traced.probes) data.last_estimate_is_coarse[probe] = 1;
+  const ProbeUpdateResult found = backend->update_probes(
+      {world, std::move(groups), traced.probes, traced.blend_weights, solve_settings(settings),
+       kDarkShare * scheduling.mean_light, dither_seed()});
   statistics.probe_rays += found.probe_rays;
   statistics.shadow_rays += found.shadow_rays;
   statistics.solve_iterations += found.iterations;
@@ -147,7 +104,9 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   statistics.change = found.change;
   statistics.probes_traced += static_cast<int>(traced.probes.size());
   for (const PassTime& pass : found.passes) add_pass_time(statistics.passes, pass.name, pass.ms);
-  update_variability(world, traced, found.changes);
+  update_variability(traced, found.changes,
+                     {static_cast<std::uint32_t>(updates) + 1, world.revision()}, settings,
+                     statuses, scheduling);
 }
 
 void IrradianceField::State::solve_warm_up(UpdateStatistics& statistics) {
@@ -158,7 +117,7 @@ void IrradianceField::State::solve_warm_up(UpdateStatistics& statistics) {
   statistics.solve_iterations += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
-  store_last_estimates(traced, solved.solution);
+  store_last_estimates(traced, solved.solution, data);
   backend->push_light();
   timer.finish(field_pass::kSolve);
   backend->store_light(traced, dither_seed());
@@ -177,9 +136,9 @@ void IrradianceField::State::move_to(const World& world, UpdateStatistics& stati
     if (statuses[probe].revision != world.revision()) statuses[probe].samples = 0.0f;
     statuses[probe].revision = world.revision();
   }
-  scheduler.mark_all_changed();
-  pending_edits = {};
-  stale_sleeping.clear();
+  scheduling.scheduler.mark_all_changed();
+  edits.pending = {};
+  edits.stale_sleeping.clear();
   backend = make_field_backend(world, data);
   // Before the first update no probe has been placed yet
   if (updates == 0) return;
@@ -198,11 +157,14 @@ void IrradianceField::State::place_all(const World& world, const std::optional<v
   if (viewer_ws) statistics.probes_recycled = scroll_volumes(world, *viewer_ws, statistics);
   if (updates == 0) {
     place_probes(world, all_probes());
-    placed_revision = world.revision();
+    placement.placed_revision = world.revision();
   } else {
     relocate_edited(world, statistics);
   }
-  classify(world);
+  // An exact number of bounces is carried through all probes at once
+  if (settings.max_bounces < 0) {
+    classify(world, data.store, placement, statuses, scheduling.scheduler);
+  }
 }
 
 /// The rays that an update may trace; 0: no bound.
@@ -210,7 +172,7 @@ std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) c
   // An exact number of bounces is carried through all probes at once
   if (settings.max_bounces >= 0) return 0;
   if (!(request.time_budget_ms > 0.0)) return request.ray_budget;
-  const std::uint64_t learned = ray_cost.rays_within(request.time_budget_ms);
+  const std::uint64_t learned = scheduling.ray_cost.rays_within(request.time_budget_ms);
   return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
 }
 
@@ -218,10 +180,11 @@ std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) c
 std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
                                                          const std::optional<vec3>& viewer_ws) {
   const auto update = static_cast<uint>(updates);
-  scheduler.refresh(data.store, statuses);
+  scheduling.scheduler.refresh(data.store, statuses);
   const Schedule schedule =
-      budget == 0 ? schedule_all(data.store, roles, statuses, settings, update)
-                  : scheduler.choose(data.store, budget, update + 1, viewer_ws, importance);
+      budget == 0 ? schedule_all(data.store, volumes.roles, statuses, settings, update)
+                  : scheduling.scheduler.choose(data.store, budget, update + 1, viewer_ws,
+                                                scheduling.importance);
   return group_by_rays(schedule, settings, update);
 }
 
@@ -238,13 +201,13 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.place_all(world, viewer_ws, statistics);
   timer.finish(field_pass::kPlacement);
 
-  s.importance.clear();
+  s.scheduling.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
     s.backend->fetch_store();
-    s.importance = probe_importance(s.data.store, request.seen,
-                                    [&](std::span<const float> received, float least) {
-                                      return s.backend->scatter_importance(received, least);
-                                    });
+    s.scheduling.importance = probe_importance(
+        s.data.store, request.seen, [&](std::span<const float> received, float least) {
+          return s.backend->scatter_importance(received, least);
+        });
     timer.finish(field_pass::kSchedule);
   }
 
@@ -255,26 +218,26 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   // those from before the edits
   const bool trace =
       progress != EditProgress::partial &&
-      (budget == 0 ? progress == EditProgress::none || s.applied_edits_last : spent < budget);
-  s.applied_edits_last = progress != EditProgress::none && !trace;
+      (budget == 0 ? progress == EditProgress::none || s.edits.applied_last : spent < budget);
+  s.edits.applied_last = progress != EditProgress::none && !trace;
   if (trace) {
     std::vector<TraceGroup> groups = s.schedule(budget == 0 ? 0 : budget - spent, viewer_ws);
     timer.finish(field_pass::kSchedule);
     s.trace(world, std::move(groups), statistics);
   }
 
-  s.scheduler.refresh(s.data.store, s.statuses);
-  if (s.warming_up && s.scheduler.unserved() == 0) {
+  s.scheduling.scheduler.refresh(s.data.store, s.statuses);
+  if (s.scheduling.warming_up && s.scheduling.scheduler.unserved() == 0) {
     // Probes that were traced while others held no light yet have received a part of the bounces
     // only
     if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);
-    s.warming_up = false;
+    s.scheduling.warming_up = false;
   }
   ++s.updates;
-  statistics.states = s.scheduler.states();
+  statistics.states = s.scheduling.scheduler.states();
   // Learn the cost of a probe ray, with its shadow rays and everything else included
   if (trace && progress == EditProgress::none) {
-    s.ray_cost.learn(statistics.probe_rays, whole.lap());
+    s.scheduling.ray_cost.learn(statistics.probe_rays, whole.lap());
   }
   return statistics;
 }

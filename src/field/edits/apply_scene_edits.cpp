@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "core/pass_times.h"
+#include "field/edits/history_ratio.h"
 #include "field/edits/invalidation.h"
 #include "field/field_state.h"
 #include "field/passes.h"
@@ -77,6 +78,40 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
   return slice;
 }
 
+/// Lowers the sample counts of probes whose light the pending edits changed.
+void reduce_history(const PendingEdits& pending, const WorkingIrradiance& light, int tile_texels,
+                    std::span<ProbeStatus> statuses, ProbeScheduler& scheduler) {
+  const auto texels = static_cast<std::size_t>(tile_texels);
+  for (const int probe : pending.updated) {
+    const TileLight held(&pending.before[probe * texels], texels),
+        found(&light[probe * texels], texels);
+    if (relative_square(found, held) < kChangedFraction * kChangedFraction) continue;
+    // The more the distribution of the light changed, the fewer samples the average is worth
+    const float kept = likeness(found, held);
+    statuses[probe].samples = max(statuses[probe].samples * kept * kept, 1.0f);
+    scheduler.mark_changed(probe);
+  }
+}
+
+/// Sorts stale probes by how urgently they must be brought up to date: overdue ones come first, so
+/// that a world that is edited without end leaves none stale for ever. Then come probes by their
+/// importance, or by their distance from the viewer.
+void order_stale_probes(std::uint64_t revision, const ProbeStore& store,
+                        std::span<const ProbeStatus> statuses, std::span<const float> importance,
+                        const std::optional<vec3>& viewer_ws, std::vector<int>& waiting) {
+  std::vector<float> rank(statuses.size(), 0.0f);
+  for (const int probe : waiting) {
+    if (revision - statuses[probe].revision > kOverdueRevisions) {
+      rank[probe] = -std::numeric_limits<float>::max();
+    } else if (!importance.empty()) {
+      rank[probe] = -importance[probe];
+    } else if (viewer_ws) {
+      rank[probe] = glm::distance(store.probe_position_ws(probe), *viewer_ws);
+    }
+  }
+  std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) { return rank[a] < rank[b]; });
+}
+
 }  // namespace
 
 /// Brings one slice of the probes up to date. Scales their light by the ratio in which direct light
@@ -114,15 +149,17 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   PassTimer watch(statistics.passes);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
   if (ray_budget != 0 && spent >= ray_budget) return;
-  std::size_t count = std::min(sleeping_per_slice, stale_sleeping.size());
+  std::size_t count = std::min(edits.sleeping_per_slice, edits.stale_sleeping.size());
   if (ray_budget != 0 && count > 0) {
     count = std::min(
-        count, next_slice(stale_sleeping, data.traces, statuses, ray_budget - spent).probes.size());
+        count,
+        next_slice(edits.stale_sleeping, data.traces, statuses, ray_budget - spent).probes.size());
   }
-  std::vector<int> probes(stale_sleeping.begin(),
-                          stale_sleeping.begin() + static_cast<std::ptrdiff_t>(count));
-  stale_sleeping.erase(stale_sleeping.begin(),
-                       stale_sleeping.begin() + static_cast<std::ptrdiff_t>(probes.size()));
+  std::vector<int> probes(edits.stale_sleeping.begin(),
+                          edits.stale_sleeping.begin() + static_cast<std::ptrdiff_t>(count));
+  edits.stale_sleeping.erase(
+      edits.stale_sleeping.begin(),
+      edits.stale_sleeping.begin() + static_cast<std::ptrdiff_t>(probes.size()));
   // Probes that woke up meanwhile have been traced since
   std::erase_if(probes, [&](int probe) { return statuses[probe].revision == world.revision(); });
   if (probes.empty()) return;
@@ -130,7 +167,7 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   std::uint64_t oldest = world.revision();
   for (const int probe : probes) oldest = std::min(oldest, statuses[probe].revision);
   const WorkingIrradiance before = light_of(data.light, probes, data.tile_texels());
-  const WorkingIrradiance history_ratio = history_ratio_of(probes);
+  const WorkingIrradiance history_ratio = history_ratio_of(probes, data);
   apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, statistics);
   watch.finish(field_pass::kEdits);
 
@@ -175,17 +212,17 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
 /// Solves for the light of all probes that the pending edits have reached so far.
 void IrradianceField::State::solve_edited(UpdateStatistics& statistics) {
   const int texels = data.tile_texels();
-  const WorkingIrradiance before = light_of(pending_edits.before, pending_edits.updated, texels);
+  const WorkingIrradiance before = light_of(edits.pending.before, edits.pending.updated, texels);
   const WorkingIrradiance history_ratio =
-      light_of(pending_edits.history_ratio, pending_edits.updated, texels);
-  const std::vector<float> blend_weights(pending_edits.updated.size(), 1.0f);
+      light_of(edits.pending.history_ratio, edits.pending.updated, texels);
+  const std::vector<float> blend_weights(edits.pending.updated.size(), 1.0f);
   const SolveResult solved =
-      backend->solve(pending_edits.updated, blend_weights, history_ratio, solve_settings(settings));
+      backend->solve(edits.pending.updated, blend_weights, history_ratio, solve_settings(settings));
   statistics.solve_iterations += solved.iterations;
   statistics.residual = solved.error;
   statistics.probes_changed =
-      store_edited_light(pending_edits.updated, before, solved, history_ratio);
-  WorkingIrradiance change = light_of(data.light, pending_edits.updated, texels);
+      store_edited_light(edits.pending.updated, before, solved, history_ratio);
+  WorkingIrradiance change = light_of(data.light, edits.pending.updated, texels);
   const double whole = norm(change);
   add_scaled(change, -1.0f, before, change);
   statistics.change = whole > 0.0 ? norm(change) / whole : 0.0;
@@ -210,39 +247,25 @@ StaleProbes IrradianceField::State::find_stale_probes(const World& world) {
     } else {
       // The average is lost without surfels to compare, after more edits than the world's log
       // holds, and where bounces are counted
-      reset_history(probe, revision);
+      reset_history(probe, revision, statuses, scheduling.scheduler);
     }
   }
   return stale;
 }
 
-/// Lowers the sample counts of probes whose light the pending edits changed.
-void IrradianceField::State::reduce_history() {
-  const auto texels = static_cast<std::size_t>(data.tile_texels());
-  for (const int probe : pending_edits.updated) {
-    const TileLight held(&pending_edits.before[probe * texels], texels),
-        found(&data.light[probe * texels], texels);
-    if (relative_square(found, held) < kChangedFraction * kChangedFraction) continue;
-    // The more the distribution of the light changed, the fewer samples the average is worth
-    const float kept = likeness(found, held);
-    statuses[probe].samples = max(statuses[probe].samples * kept * kept, 1.0f);
-    scheduler.mark_changed(probe);
-  }
-}
-
 /// Keeps the light before the edits, while light and surfels still belong to the same world.
 void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const int> traced) {
-  if (!pending_edits.before.empty() && pending_edits.revision == revision) return;
-  if (pending_edits.before.empty()) {
-    refine_last_estimates(traced);
+  if (!edits.pending.before.empty() && edits.pending.revision == revision) return;
+  if (edits.pending.before.empty()) {
+    refine_last_estimates(traced, *backend, data);
   } else {
     // The averages of probes that earlier edits changed are of the light before those edits
-    reduce_history();
+    reduce_history(edits.pending, data.light, data.tile_texels(), statuses, scheduling.scheduler);
   }
-  pending_edits.before = data.light;
-  pending_edits.history_ratio.resize(data.light.size());
-  pending_edits.updated.clear();
-  pending_edits.revision = revision;
+  edits.pending.before = data.light;
+  edits.pending.history_ratio.resize(data.light.size());
+  edits.pending.updated.clear();
+  edits.pending.revision = revision;
 }
 
 /// Brings waiting probes up to date, slice by slice, until the budget is spent. It works in slices
@@ -259,10 +282,10 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
   while (!stale.waiting.empty() && spent < most) {
     const Slice slice = next_slice(stale.waiting, data.traces, statuses, most - spent);
     const std::vector<WorldChanges> changes = *world.changes_since(slice.oldest);
-    const WorkingIrradiance history_ratio = history_ratio_of(slice.probes);
+    const WorkingIrradiance history_ratio = history_ratio_of(slice.probes, data);
     for (std::size_t k = 0; k < slice.probes.size(); ++k) {
       std::copy_n(&history_ratio[k * texels], texels,
-                  &pending_edits.history_ratio[slice.probes[k] * texels]);
+                  &edits.pending.history_ratio[slice.probes[k] * texels]);
     }
     watch.finish(field_pass::kSolve);
     apply_edits_to_slice(world, changes, slice.probes, stale.traced, statistics);
@@ -274,9 +297,9 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
   }
   std::sort(updated.begin(), updated.end());
   std::vector<int> merged;
-  std::merge(pending_edits.updated.begin(), pending_edits.updated.end(), updated.begin(),
+  std::merge(edits.pending.updated.begin(), edits.pending.updated.end(), updated.begin(),
              updated.end(), std::back_inserter(merged));
-  pending_edits.updated = std::move(merged);
+  edits.pending.updated = std::move(merged);
 }
 
 EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::uint64_t ray_budget,
@@ -284,23 +307,27 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
                                                        UpdateStatistics& statistics) {
   PassTimer watch(statistics.passes);
   const std::uint64_t revision = world.revision();
-  if (applied_revision == revision && stale_sleeping.empty()) return EditProgress::none;
-  if (applied_revision > revision) {
+  if (edits.applied_revision == revision && edits.stale_sleeping.empty()) return EditProgress::none;
+  if (edits.applied_revision > revision) {
     // The world is another object than before, and its log says nothing about these probes
-    for (const int probe : stale_sleeping) reset_history(probe, revision);
-    stale_sleeping.clear();
+    for (const int probe : edits.stale_sleeping)
+      reset_history(probe, revision, statuses, scheduling.scheduler);
+    edits.stale_sleeping.clear();
   }
   backend->fetch_light();
   StaleProbes stale = find_stale_probes(world);
-  if (applied_revision != revision) {
-    sleeping_per_slice = (stale.sleeping.size() + kSleepingSlices - 1) / kSleepingSlices;
+  if (edits.applied_revision != revision) {
+    edits.sleeping_per_slice = (stale.sleeping.size() + kSleepingSlices - 1) / kSleepingSlices;
     std::stable_sort(stale.sleeping.begin(), stale.sleeping.end(),
                      [&](int a, int b) { return statuses[a].revision < statuses[b].revision; });
-    stale_sleeping = std::move(stale.sleeping);
+    edits.stale_sleeping = std::move(stale.sleeping);
   }
   const bool any = !stale.waiting.empty();
   if (any) {
-    order_stale_probes(stale.waiting, ray_budget, viewer_ws, revision);
+    if (ray_budget != 0) {
+      order_stale_probes(revision, data.store, statuses, scheduling.importance, viewer_ws,
+                         stale.waiting);
+    }
     begin_edits(revision, stale.traced);
     watch.finish(field_pass::kEdits);
     apply_edits_in_slices(world, ray_budget, stale, statistics);
@@ -309,37 +336,12 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
     watch.finish(field_pass::kSolve);
     if (!stale.waiting.empty()) return EditProgress::partial;
   }
-  if (!pending_edits.before.empty()) reduce_history();
-  pending_edits = {};
-  applied_revision = revision;
+  if (!edits.pending.before.empty())
+    reduce_history(edits.pending, data.light, data.tile_texels(), statuses, scheduling.scheduler);
+  edits.pending = {};
+  edits.applied_revision = revision;
   apply_edits_to_sleeping(world, ray_budget, stale.traced, statistics);
   return any ? EditProgress::complete : EditProgress::none;
-}
-
-/// Under a budget, overdue probes come first, so that a world that is edited without end leaves
-/// none stale for ever. Then come probes by their importance, or by their distance from the viewer.
-void IrradianceField::State::order_stale_probes(std::vector<int>& waiting, std::uint64_t ray_budget,
-                                                const std::optional<vec3>& viewer_ws,
-                                                std::uint64_t revision) const {
-  if (ray_budget == 0) return;
-  std::vector<float> rank(statuses.size(), 0.0f);
-  for (const int probe : waiting) {
-    if (revision - statuses[probe].revision > kOverdueRevisions) {
-      rank[probe] = -std::numeric_limits<float>::max();
-    } else if (!importance.empty()) {
-      rank[probe] = -importance[probe];
-    } else if (viewer_ws) {
-      rank[probe] = glm::distance(data.store.probe_position_ws(probe), *viewer_ws);
-    }
-  }
-  std::stable_sort(waiting.begin(), waiting.end(), [&](int a, int b) { return rank[a] < rank[b]; });
-}
-
-/// Lets a probe start its average again.
-void IrradianceField::State::reset_history(int probe, std::uint64_t revision) {
-  statuses[probe].samples = 0.0f;
-  statuses[probe].revision = revision;
-  scheduler.mark_changed(probe);
 }
 
 }  // namespace lambent

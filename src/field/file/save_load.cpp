@@ -44,8 +44,8 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     std::copy(volume.records.begin(), volume.records.end(), statuses.begin() + first);
   }
   updates = static_cast<int>(file.updates);
-  placed_revision = world.revision();
-  scheduler.mark_all_changed();
+  placement.placed_revision = world.revision();
+  scheduling.scheduler.mark_all_changed();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   double sum = 0.0;
@@ -61,8 +61,8 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;
     never_served = never_served || (is_live(statuses[probe]) && statuses[probe].served == 0);
   }
-  mean_light = static_cast<float>(sum / data.store.probes());
-  warming_up = updates == 0 || never_served;
+  scheduling.mean_light = static_cast<float>(sum / data.store.probes());
+  scheduling.warming_up = updates == 0 || never_served;
   // What the first update finds of the scene, where that has been
   if (updates == 0) return;
   std::vector<int> all(statuses.size());
@@ -75,7 +75,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
 FieldVolume IrradianceField::State::volume_for_file(int volume, const World& world) const {
   FieldVolume result;
   result.grid = data.store.grid(volume);
-  result.role = roles[volume];
+  result.role = volumes.roles[volume];
   result.irradiance_texels = data.store.irradiance_texels();
   result.distance_texels = data.store.distance_texels();
   result.irradiance_format = data.store.irradiance_format();

@@ -17,13 +17,11 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-}  // namespace
-
 /// Looks the field up at the places of some probes, along the direction of every texel.
-void IrradianceField::State::interpolate_tiles(std::span<const int> probes,
-                                               std::span<const vec3> places_ws,
-                                               std::span<vec4> tiles) const {
-  const int edge = settings.irradiance_texels;
+void interpolate_tiles(const ProbeData& data, const FieldBackend& backend,
+                       std::span<const int> probes, std::span<const vec3> places_ws,
+                       std::span<vec4> tiles) {
+  const int edge = data.settings.irradiance_texels;
   const std::size_t texels = tiles.size() / max<std::size_t>(probes.size(), 1);
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<FieldQuery> queries(texels);
@@ -35,12 +33,14 @@ void IrradianceField::State::interpolate_tiles(std::span<const int> probes,
         const vec3 direction = tile_direction(texel, edge);
         queries[t] = {places_ws[k], direction, direction};
       }
-      backend->irradiance(queries, nullptr, irradiance);
+      backend.irradiance(queries, nullptr, irradiance);
       for (std::size_t t = 0; t < texels; ++t) at_centres[t] = vec4(irradiance[t], 0.0f);
       data.tile_fit.apply4(&at_centres[0].x, &tiles[k * texels].x);
     }
   });
 }
+
+}  // namespace
 
 int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewer_ws,
                                            UpdateStatistics& statistics) {
@@ -49,7 +49,7 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
   std::vector<vec3> places;
   std::vector<ProbeGrid> next(data.store.grids().begin(), data.store.grids().end());
   for (int volume = 0; volume < data.store.volumes(); ++volume) {
-    if (!roles[volume].follows_viewer) continue;
+    if (!volumes.roles[volume].follows_viewer) continue;
     const ProbeGrid& grid = data.store.grid(volume);
     next[volume] = updates == 0 ? centred(grid, viewer_ws) : scrolled(grid, viewer_ws);
     const std::vector<int> probes = recycled_probes(data.store.grid(volume), next[volume]);
@@ -60,12 +60,12 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
   }
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   WorkingIrradiance tiles(recycled.size() * texels);
-  if (updates > 0) interpolate_tiles(recycled, places, tiles);
+  if (updates > 0) interpolate_tiles(data, *backend, recycled, places, tiles);
 
   for (int volume = 0; volume < data.store.volumes(); ++volume) {
-    if (!roles[volume].follows_viewer) continue;
+    if (!volumes.roles[volume].follows_viewer) continue;
     data.store.move_volume(volume, next[volume]);
-    grids[volume] = field_grid(next[volume]);
+    volumes.grids[volume] = field_grid(next[volume]);
   }
   if (updates == 0 || recycled.empty()) return 0;
 
@@ -74,11 +74,11 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
   for (std::size_t k = 0; k < recycled.size(); ++k) {
     const int probe = recycled[k];
     data.store.set_probe_offset(probe, vec3(0.0f));
-    reset_probe(probe);
+    reset_probe(probe, data, statuses, scheduling.scheduler);
     for (std::size_t t = 0; t < texels; ++t) {
       const vec4 held = max(tiles[k * texels + t], vec4(0.0f));
       data.light[probe * texels + t] = held;
-      if (!pending_edits.before.empty()) pending_edits.before[probe * texels + t] = held;
+      if (!edits.pending.before.empty()) edits.pending.before[probe * texels + t] = held;
     }
   }
   if (settings.relocation) {
