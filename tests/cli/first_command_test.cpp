@@ -172,7 +172,7 @@ TEST_F(FirstCommand, WritesJpegsThatShowThePicture) {
       error += std::abs(ours->layers[0].image.pixels[i] - truth);
       mean += truth;
     }
-    EXPECT_LT(error, 0.05 * mean);
+    EXPECT_LT(error, 0.1 * mean);  // one sample a pixel is noise, which JPEG blurs
   }
 }
 
