@@ -44,15 +44,15 @@ void lookup_hybrid(benchmark::State& state) {
   const RayTracer& tracer = work.world.tracer();
   std::vector<int> probes(store.probes());
   std::iota(probes.begin(), probes.end(), 0);
-  ProbeSights sights(store.probes());
-  sights.look(tracer, store, probes);
+  CellVisibility cell_visibility(store.probes());
+  cell_visibility.update(tracer, store, probes);
   const std::vector<FieldQuery> queries = pixel_queries(work);
   std::vector<glm::vec3> irradiance(queries.size());
   std::atomic<std::uint64_t> rays = 0;
   const auto look_up = [&](Visibility mode) {
     return time_ms([&] {
       parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-        rays += lookup_irradiance(store, {mode, &tracer, &sights},
+        rays += lookup_irradiance(store, {mode, &tracer, &cell_visibility},
                                   std::span(queries).subspan(begin, end - begin),
                                   std::span(irradiance).subspan(begin, end - begin));
       });

@@ -18,7 +18,7 @@ void update(benchmark::State& state) {
   Workload& work = workload();
   std::vector<Hit> hits;
   std::vector<std::uint8_t> occluded;
-  Median update_ms, tracing_ms, ratio, blend, relight, trace, shade, relights;
+  Median update_ms, tracing_ms, ratio, blend, solve_bounces, trace, shade, solve_iterations;
   UpdateStatistics last;
   for (auto _ : state) {
     const UpdateRays rays = record_update_rays(work, work.field.updates());
@@ -34,10 +34,10 @@ void update(benchmark::State& state) {
     tracing_ms.add(tracing);
     ratio.add(elapsed / tracing);
     blend.add(last.blend_ms / tracing);
-    relight.add(last.relight_ms / last.relights / tracing);
+    solve_bounces.add(last.solve_ms / last.solve_iterations / tracing);
     trace.add(last.trace_ms / tracing);
     shade.add(last.shade_ms / tracing);
-    relights.add(last.relights);
+    solve_iterations.add(last.solve_iterations);
   }
   state.counters["median_ms"] = update_ms.value();
   state.counters["tracing_ms"] = tracing_ms.value();
@@ -45,8 +45,8 @@ void update(benchmark::State& state) {
   state.counters["trace_share_of_tracing"] = trace.value();
   state.counters["shade_share_of_tracing"] = shade.value();
   state.counters["blend_share_of_tracing"] = blend.value();
-  state.counters["relight_iteration_share_of_tracing"] = relight.value();
-  state.counters["relights"] = relights.value();
+  state.counters["solve_iteration_share_of_tracing"] = solve_bounces.value();
+  state.counters["solve_iterations"] = solve_iterations.value();
   state.counters["probe_rays"] = static_cast<double>(last.probe_rays);
   state.counters["shadow_rays"] = static_cast<double>(last.shadow_rays);
   state.counters["store_bytes_per_probe"] =

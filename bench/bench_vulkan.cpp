@@ -75,7 +75,8 @@ struct ProbeBlend {
     std::vector<HitRecord> records;
     for (const Hit& hit : group.hits) records.push_back({hit.distance, 0, 0, {}, 1u});
     hits = vulkan::upload(*device(), records, "hits");
-    shares = vulkan::upload(*device(), std::vector<float>(probes.size(), 0.1f), "shares");
+    blend_weights =
+        vulkan::upload(*device(), std::vector<float>(probes.size(), 0.1f), "blend_weights");
     received = vulkan::Buffer(*device(), probes.size() * field.tile_texels() * sizeof(vec4),
                               vulkan::Memory::device, "received");
     list = field.list(probes);
@@ -111,10 +112,10 @@ struct ProbeBlend {
   }
 
   ProbeStore store;
-  DeviceField field;
+  FieldResources field;
   DeviceSolver solver;
   TraceGroup group;
-  vulkan::Buffer hits, shares, received;
+  vulkan::Buffer hits, blend_weights, received;
   DeviceProbes list;
 };
 
@@ -125,7 +126,7 @@ void vulkan_blend(benchmark::State& state, ProbeBlend& (*blend_of)()) {
   const DeviceGroup all = {0, blend.list.count(), kRays};
   time_on_device(state, [&](vulkan::Recorder& to) {
     blend.field.record_seen_distances(to, blend.list, all, {blend.hits.address()});
-    blend.field.record_blend_distances(to, blend.list, {blend.shares.address()}, 1u);
+    blend.field.record_blend_distances(to, blend.list, {blend.blend_weights.address()}, 1u);
     blend.field.record_receive(to, blend.list, blend.transport());
     blend.field.record_store_light(to, blend.list, 1u);
   });
@@ -140,7 +141,7 @@ void vulkan_blend_usual_tiles(benchmark::State& state) {
 }
 
 /// Once round: light gathered at surfels, and what probes receive of it.
-void vulkan_relight(benchmark::State& state) {
+void vulkan_solve(benchmark::State& state) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   ProbeBlend& blend = ProbeBlend::usual();
   time_on_device(state, [&](vulkan::Recorder& to) {
@@ -157,7 +158,7 @@ void vulkan_find_lookups(benchmark::State& state) {
 void vulkan_lookup(benchmark::State& state) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   const Workload& work = workload();
-  const DeviceField field(*device(), work.field.settings(), work.field.store());
+  const FieldResources field(*device(), work.field.settings(), work.field.store());
   const std::vector<FieldQuery> queries = pixel_queries(work);
   const vulkan::Buffer in = vulkan::upload(*device(), queries, "queries");
   const vulkan::Buffer out(*device(), queries.size() * sizeof(vec3), vulkan::Memory::device, "E");
@@ -177,7 +178,7 @@ void lookup_by_rays(benchmark::State& state, Visibility visibility) {
   FieldSettings settings = work.field.settings();
   settings.visibility = visibility;
   const ProbeStore& store = work.field.store();
-  const DeviceField field(world.device(), settings, store);
+  const FieldResources field(world.device(), settings, store);
   std::vector<int> probes(store.probes());
   std::iota(probes.begin(), probes.end(), 0);
   const std::vector<int> cells = cells_around(store, probes);
@@ -188,7 +189,8 @@ void lookup_by_rays(benchmark::State& state, Visibility visibility) {
                            "E");
   world.device().run([&](vulkan::Recorder& to) {
     to.bind_textures(world.scene().textures());
-    field.record_look(to, world.tracer(), {lowest.address()}, static_cast<int>(cells.size()));
+    field.record_cell_visibility(to, world.tracer(), {lowest.address()},
+                                 static_cast<int>(cells.size()));
   });
   const vulkan::Buffer rays(world.device(), sizeof(uint), vulkan::Memory::readback, "rays");
   time_on_device(state, [&](vulkan::Recorder& to) {
@@ -214,7 +216,7 @@ void timed(benchmark::internal::Benchmark* bench) {
 
 BENCHMARK(vulkan_blend_published_tiles)->Apply(timed);
 BENCHMARK(vulkan_blend_usual_tiles)->Apply(timed);
-BENCHMARK(vulkan_relight)->Apply(timed);
+BENCHMARK(vulkan_solve)->Apply(timed);
 BENCHMARK(vulkan_find_lookups)->Apply(timed);
 BENCHMARK(vulkan_lookup)->Apply(timed);
 BENCHMARK(vulkan_lookup_hybrid)->Apply(timed);

@@ -60,9 +60,9 @@ UpdateRays record_update_rays(const Workload& work, int update) {
 
   // Shade each probe's hits for the sake of the shadow rays
   const std::vector<VolumeRole> roles(1);  // the field's own grid alone
-  const std::vector<int> probes =
-      schedule_all(store, roles, work.field.records(), settings, static_cast<std::uint32_t>(update))
-          .probes;
+  const std::vector<int> probes = schedule_all(store, roles, work.field.probe_statuses(), settings,
+                                               static_cast<std::uint32_t>(update))
+                                      .probes;
   const std::size_t rays = set.directions.size();
   std::vector<std::vector<Ray>> shadows(probes.size());
   UpdateRays result;

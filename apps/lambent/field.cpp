@@ -41,7 +41,7 @@ Summary summarize(const FieldVolume& volume) {
   const ProbeStore store = volume.store();
   const int n = volume.irradiance_texels;
   for (int probe = 0; probe < store.probes(); ++probe) {
-    const ProbeRecord& record = volume.records[probe];
+    const ProbeStatus& record = volume.records[probe];
     ++summary.states[static_cast<std::size_t>(record.state)];
     summary.samples += record.samples;
     if (volume.offsets[probe] != 0) ++summary.relocated;
@@ -75,7 +75,7 @@ Json json_of(const FieldFile& field) {
     json["spacings_m"].push_back(array_of(grid.spacing));
     json["axes"].push_back(
         Json::array({array_of(grid.axes[0]), array_of(grid.axes[1]), array_of(grid.axes[2])}));
-    json["follow_viewer"].push_back(volume.role.follows_viewer);
+    json["scroll_volumes"].push_back(volume.role.follows_viewer);
     json["irradiance_formats"].push_back(
         kIrradianceFormats[static_cast<int>(volume.irradiance_format)]);
     json["distance_formats"].push_back(kDistanceFormats[static_cast<int>(volume.distance_format)]);

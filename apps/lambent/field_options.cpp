@@ -62,16 +62,16 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
     ++reached.updates;
     reached.settled = last.change < kSettledChange;
     sum.place_ms += last.place_ms;
-    sum.follow_ms += last.follow_ms;
+    sum.edits_ms += last.edits_ms;
     sum.trace_ms += last.trace_ms;
     sum.shade_ms += last.shade_ms;
-    sum.relight_ms += last.relight_ms;
+    sum.solve_ms += last.solve_ms;
     sum.blend_ms += last.blend_ms;
     sum.probe_rays += last.probe_rays;
     sum.shadow_rays += last.shadow_rays;
     sum.probes_traced += last.probes_traced;
-    sum.probes_followed += last.probes_followed;
-    sum.probes_touched += last.probes_touched;
+    sum.probes_invalidated += last.probes_invalidated;
+    sum.probes_changed += last.probes_changed;
     sum.probes_recycled += last.probes_recycled;
     if (progress) progress("field", static_cast<double>(reached.updates) / most);
   }
@@ -90,8 +90,8 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
   stats["probe_rays"] = sum.probe_rays;
   stats["surfel_shadow_rays"] = sum.shadow_rays;
   stats["probes_traced"] = sum.probes_traced;
-  stats["probes_followed"] = sum.probes_followed;
-  stats["probes_touched"] = sum.probes_touched;
+  stats["probes_invalidated"] = sum.probes_invalidated;
+  stats["probes_changed"] = sum.probes_changed;
   stats["probes_recycled"] = sum.probes_recycled;
   stats["probes_off"] = last.states.off;
   stats["probes_sleeping"] = last.states.sleeping;
@@ -99,14 +99,14 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
   stats["probes_awake"] = last.states.awake;
   stats["probes_newly_vigilant"] = last.states.newly_vigilant;
   stats["probes_vigilant"] = last.states.vigilant;
-  stats["relights_last_update"] = last.relights;
-  stats["relight_residual"] = last.residual;
+  stats["solve_iterations_last_update"] = last.solve_iterations;
+  stats["solve_residual"] = last.residual;
   stats["field_change_last_update"] = last.change;
   stats["place_ms"] = sum.place_ms;
-  stats["follow_ms"] = sum.follow_ms;
+  stats["edits_ms"] = sum.edits_ms;
   stats["trace_ms"] = sum.trace_ms;
   stats["shade_ms"] = sum.shade_ms;
-  stats["relight_ms"] = sum.relight_ms;
+  stats["solve_ms"] = sum.solve_ms;
   stats["blend_ms"] = sum.blend_ms;
   return reached;
 }

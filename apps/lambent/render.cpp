@@ -7,11 +7,11 @@
 #include "core/memory.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
+#include "lambent/frame_renderer.h"
 #include "lambent/help.h"
 #include "lambent/input.h"
 #include "lambent/memory_check.h"
 #include "lambent/output.h"
-#include "lambent/painter.h"
 #include "lambent/parse.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
@@ -32,23 +32,23 @@ constexpr const char* kExamples =
     "  lambent render scene.glb --eye 2,1.7,3 --target 0,1,0 --layers -o layers.exr\n";
 
 Expected<void> render_picture(const RenderOptions& options, const World& world,
-                              const Camera& camera, Painter& painter, Json& stats) {
+                              const Camera& camera, FrameRenderer& renderer, Json& stats) {
   std::optional<float> stops;
   if (const auto made = make_folders(options.output); !made) return made;
   Expected<LayeredImage> image;  // what --verify compares
   if (options.verify_samples > 0) {
-    image = painter.paint(world, camera, stats);
+    image = renderer.paint(world, camera, stats);
     if (!image) return tl::unexpected(image.error());
   }
   const auto done = options.verify_samples > 0
                         ? write_output(options, *image, options.output, stops)
-                        : painter.paint_to_file(world, camera, options.output, stops, stats);
+                        : renderer.paint_to_file(world, camera, options.output, stops, stats);
   if (!done) return done;
-  tell_written(options.output, pixels_text(painter.size().x, painter.size().y),
+  tell_written(options.output, pixels_text(renderer.size().x, renderer.size().y),
                stops ? exposure_text(*stops) : "");
   if (options.verify_samples == 0) return {};
-  if (world.on_device() == nullptr) return painter.verify(world, camera, *image, stats);
-  return painter.verify(World(world.scene()), camera, *image, stats);
+  if (world.on_device() == nullptr) return renderer.verify(world, camera, *image, stats);
+  return renderer.verify(World(world.scene()), camera, *image, stats);
 }
 
 /// The animation that the options name; -1: all of them.
@@ -112,11 +112,11 @@ Expected<void> render(const RenderOptions& options) {
   stats["build_ms"] = world.build_ms();
   stats["acceleration_structure_bytes"] = world.bytes();
 
-  Painter painter(options, *size);
+  FrameRenderer renderer(options, *size);
   const Expected<void> done =
       options.frames > 0
-          ? render_sequence(options, *scene, *animation, *view, world, painter, stats)
-          : render_picture(options, world, view->camera, painter, stats);
+          ? render_sequence(options, *scene, *animation, *view, world, renderer, stats)
+          : render_picture(options, world, view->camera, renderer, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;

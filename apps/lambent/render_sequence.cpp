@@ -15,7 +15,8 @@
 namespace lambent::cli {
 
 Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
-                               World& world, Painter& painter, nlohmann::ordered_json& stats) {
+                               World& world, FrameRenderer& renderer,
+                               nlohmann::ordered_json& stats) {
   const InterruptGuard guard;
   stats["fps"] = options.fps;
   nlohmann::ordered_json& list = stats["frames"] = nlohmann::ordered_json::array();
@@ -46,10 +47,10 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["changed_lights"] = changes->lights.size();
     written.push_back(frame_path(options.output, i));
     if (const auto made = make_folders(written.back()); !made) return made;
-    const auto done = painter.paint_to_file(world, view.camera, written.back(), stops, frame);
+    const auto done = renderer.paint_to_file(world, view.camera, written.back(), stops, frame);
     if (!done) return done;
   }
-  tell_written(written, pixels_text(painter.size().x, painter.size().y),
+  tell_written(written, pixels_text(renderer.size().x, renderer.size().y),
                stops ? exposure_text(*stops) : "");
   return {};
 }

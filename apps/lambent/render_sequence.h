@@ -4,7 +4,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "lambent/error.h"
-#include "lambent/painter.h"
+#include "lambent/frame_renderer.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
@@ -14,6 +14,7 @@ namespace lambent::cli {
 /// stats["frames"], also of those before a failure. The first interrupt (Ctrl-C) ends the sequence
 /// after the frame at hand, the second one at once. `view` is that of the first frame.
 Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
-                               World& world, Painter& painter, nlohmann::ordered_json& stats);
+                               World& world, FrameRenderer& renderer,
+                               nlohmann::ordered_json& stats);
 
 }  // namespace lambent::cli

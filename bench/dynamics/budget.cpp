@@ -16,8 +16,8 @@ constexpr int kReferenceSamples = 1024;
 
 // Errors to reach, and how long that may take: updates, and times the rays that uniform took.
 constexpr std::array kTargets = {0.08, 0.04, 0.03};
-constexpr int kMostUpdates = 400;
-constexpr std::uint64_t kMostTimes = 2;
+constexpr int kMaxUpdateCount = 400;
+constexpr std::uint64_t kMaxTimes = 2;
 constexpr std::uint64_t kAdaptiveBudget = 100000;  // rays a frame
 
 /// Rays that a full update traces, of all kinds.
@@ -64,7 +64,7 @@ std::vector<Mark> follow_error(Subject& subject, const UpdateRequest& request,
   IrradianceField field = subject.fresh_field(subject.field.settings());
   std::vector<Mark> marks;
   std::uint64_t rays = 0;
-  for (int i = 0; i < kMostUpdates && rays < most_rays; ++i) {
+  for (int i = 0; i < kMaxUpdateCount && rays < most_rays; ++i) {
     rays += field.update(subject.world, request).probe_rays;
     marks.push_back({rays, compare(light_at(field, points), settled).relative_rmse});
     if (marks.back().error <= target) break;
@@ -90,7 +90,7 @@ void compare_adaptive(const std::string& name) {
                                                  std::numeric_limits<std::uint64_t>::max());
   const std::vector<Mark> adaptive =
       follow_error(subject, {kAdaptiveBudget, 0.0, viewer_of(subject), seen}, points, settled,
-                   hardest, kMostTimes * uniform.back().rays);
+                   hardest, kMaxTimes * uniform.back().rays);
   for (const double target : kTargets) {
     const auto first = static_cast<double>(rays_to(uniform, target));
     const auto second = static_cast<double>(rays_to(adaptive, target));

@@ -34,8 +34,8 @@ std::vector<double> true_light(const Subject& house) {
   FieldSettings settings = house.field.settings();
   settings.rays_per_probe = kTruthRays;
   settings.hysteresis = 0.999f;
-  settings.relight_tolerance = 1e-5f;
-  settings.max_relights = 200;
+  settings.solve_tolerance = 1e-5f;
+  settings.max_solve_iterations = 200;
   const World world(house.scene);
   IrradianceField field = house.fresh_field(settings);
   for (int i = 0; i < kTruthUpdates; ++i) field.update(world);
@@ -68,7 +68,7 @@ void measure_house() {
     house.apply_edits();
     house.field.update(house.world);
     // A budget of one ray has nothing traced, but open air follow, probe by probe
-    while (house.field.update(house.world, {.ray_budget = 1}).probes_followed > 0) continue;
+    while (house.field.update(house.world, {.ray_budget = 1}).probes_invalidated > 0) continue;
     const std::vector<double> after = probe_light(house.field);
     const std::vector<double> true_after = true_light(house);
     int changed = 0, touched = 0, both = 0;

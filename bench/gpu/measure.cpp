@@ -39,16 +39,16 @@ class Median {
 
 /// What updates of a field take, pass by pass.
 struct UpdateTimes {
-  Median trace, shade, relight, blend, place, all, rays;
+  Median trace, shade, solve_bounces, blend, place, all, rays;
 
   void add(const UpdateStatistics& update) {
     trace.add(update.trace_ms);
     shade.add(update.shade_ms);
-    relight.add(update.relight_ms);
+    solve_bounces.add(update.solve_ms);
     blend.add(update.blend_ms);
-    place.add(update.place_ms + update.follow_ms);
-    all.add(update.trace_ms + update.shade_ms + update.relight_ms + update.blend_ms +
-            update.place_ms + update.follow_ms);
+    place.add(update.place_ms + update.edits_ms);
+    all.add(update.trace_ms + update.shade_ms + update.solve_ms + update.blend_ms +
+            update.place_ms + update.edits_ms);
     rays.add(static_cast<double>(update.probe_rays));
   }
 };
@@ -110,7 +110,7 @@ class Bench {
     const std::string full = probes + " x " + std::to_string(kRays) + " rays: ";
     add(full + "trace", whole.trace);
     add(full + "shade", whole.shade);
-    add(full + "relight", whole.relight);
+    add(full + "solve", whole.solve_bounces);
     add(full + "blend", whole.blend);
     add(full + "maintain, on the host", whole.place);
     add("lookup of " + size(), lookup);

@@ -16,8 +16,8 @@ namespace lambent {
 
 class World;
 class ProbeStore;
-class FieldDevice;
-struct ProbeRecord;
+class FieldBackend;
+struct ProbeStatus;
 struct LoadedField;
 
 /// How a probe's irradiance is stored. All three conserve light: they round without bias.
@@ -88,9 +88,9 @@ struct FieldSettings {
   /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
   /// share of it, 1e-7 to 1. Ten times less costs a few iterations more; under some 1e-6
   /// rounding is in the way.
-  float relight_tolerance = 0.002f;
+  float solve_tolerance = 0.002f;
   /// ... or after so many iterations, 1 to 1000. Each costs a fraction of tracing.
-  int max_relights = 32;
+  int max_solve_iterations = 32;
   /// Bounces of indirect light to carry, >= 0; -1: all. 0 is the sky's light alone. A limit is
   /// exact but not accelerated: each bounce costs a relight.
   int max_bounces = -1;
@@ -149,7 +149,7 @@ struct UpdateRequest {
   std::optional<glm::vec3> viewer_ws = std::nullopt;
   /// Points that the camera sees (visible_points), some hundred to a few thousand: with a bound,
   /// probes go first by how much they matter to the light at these, near or far. Costs a lookup a
-  /// point and about half an iteration of relighting. Empty: by their distance from the viewer.
+  /// point and about half an iteration of the solve. Empty: by their distance from the viewer.
   std::span<const FieldQuery> seen = {};
 };
 
@@ -167,21 +167,21 @@ struct ProbeCounts {
 struct UpdateStatistics {
   double place_ms = 0.0;          ///< Moving volumes, moving probes off the grid, and finding out
                                   ///< what they are for.
-  double follow_ms = 0.0;         ///< Finding what edits of the world changed.
+  double edits_ms = 0.0;          ///< Finding what edits of the world changed.
   double trace_ms = 0.0;          ///< Closest hits of the probe rays.
   double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
-  double relight_ms = 0.0;        ///< Multi-bounce solve.
+  double solve_ms = 0.0;          ///< Multi-bounce solve.
   double blend_ms = 0.0;          ///< Distances and irradiance into the store.
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
-  int probes_recycled = 0;  ///< Moved on to a new place with a volume that follows the viewer.
-  int probes_followed = 0;  ///< Held against what was edited in the world.
-  int probes_touched = 0;   ///< Those among them whose light the edits changed.
-  ProbeCounts states;       ///< After the update.
-  int relights = 0;         ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;    ///< Estimated relative error this update stopped at.
-  double change = 0.0;      ///< Of the stored light, root mean square over root mean square.
+  int probes_recycled = 0;     ///< Moved on to a new place with a volume that follows the viewer.
+  int probes_invalidated = 0;  ///< Held against what was edited in the world.
+  int probes_changed = 0;      ///< Those among them whose light the edits changed.
+  ProbeCounts states;          ///< After the update.
+  int solve_iterations = 0;    ///< Iterations of the multi-bounce solve.
+  double residual = 0.0;       ///< Estimated relative error this update stopped at.
+  double change = 0.0;         ///< Of the stored light, root mean square over root mean square.
 };
 
 /// Volumes of irradiance probes with visibility, and the light that bounces between them.
@@ -228,13 +228,13 @@ class IrradianceField {
   int updates() const;
   /// Bytes that the store holds between updates, for all probes.
   std::size_t store_bytes() const;
-  /// Bytes of the last update's surfels, kept for relighting.
+  /// Bytes of the last update's surfels, kept to solve for the light again.
   std::size_t surfel_bytes() const;
   /// The probes' store, and what else is known of each, for tools that look inside.
   const ProbeStore& store() const;
-  std::span<const ProbeRecord> records() const;
+  std::span<const ProbeStatus> probe_statuses() const;
   /// What keeps the field in a device's memory, for passes there; null: the processor's holds it.
-  const FieldDevice* on_device() const;
+  const FieldBackend* on_device() const;
 
  private:
   friend Expected<void> save_field(const std::string& path, const IrradianceField& field,

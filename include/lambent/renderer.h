@@ -57,7 +57,7 @@ struct IndirectSources {
   const IrradianceField* field = nullptr;  ///< Null: none.
   /// The part of `field`'s light that another source brings, as a field of its own: it is taken out
   /// of what pixels receive. Null: nothing is.
-  const IrradianceField* taken_out = nullptr;
+  const IrradianceField* subtracted_field = nullptr;
   /// One bounce of directional, point and spot lights from reflective shadow maps, in range; null:
   /// none. Not together with FrameSettings::gather_rays.
   const RsmSettings* rsm = nullptr;

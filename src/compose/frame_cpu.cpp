@@ -82,13 +82,14 @@ void look_up(const World& world, const IrradianceField& field, const GBuffer& gb
 }
 
 /// Takes what another source brings out of the field's light, and adds that source's own.
-void replace_light(const std::vector<vec3>& taken_out, const std::vector<vec3>& added,
+void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<vec3>& added,
                    std::vector<vec3>& irradiance) {
-  irradiance.resize(std::max({irradiance.size(), taken_out.size(), added.size()}), vec3(0.0f));
+  irradiance.resize(std::max({irradiance.size(), subtracted_field.size(), added.size()}),
+                    vec3(0.0f));
   parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!added.empty()) irradiance[i] += added[i];
-      if (!taken_out.empty()) irradiance[i] -= taken_out[i];
+      if (!subtracted_field.empty()) irradiance[i] -= subtracted_field[i];
       irradiance[i] = max(irradiance[i], vec3(0.0f));
     }
   });
@@ -176,8 +177,8 @@ class FramePassesCpu final : public FramePasses {
     } else {
       look_up(request_.world, *sources.field, gbuffer_, normal_at, light_.irradiance);
     }
-    if (sources.taken_out != nullptr) {
-      look_up(request_.world, *sources.taken_out, gbuffer_, normal_at, taken_out_);
+    if (sources.subtracted_field != nullptr) {
+      look_up(request_.world, *sources.subtracted_field, gbuffer_, normal_at, subtracted_);
     }
     timer_.finish("indirect");
   }
@@ -196,7 +197,7 @@ class FramePassesCpu final : public FramePasses {
     const bool alone = request_.sources.field == nullptr;
     look_up_rsm(*rsm_, gbuffer_, request_.camera, request_.settings.width, band_, from_maps_);
     if (alone) light_.irradiance.clear();
-    replace_light(taken_out_, from_maps_, light_.irradiance);
+    replace_light(subtracted_, from_maps_, light_.irradiance);
     if (alone) light_.mirror_irradiance = light_.irradiance;
     timer_.finish("rsm.upsample");
   }
@@ -233,7 +234,7 @@ class FramePassesCpu final : public FramePasses {
   int sample_ = 0;
   GBuffer gbuffer_;
   BandLight light_;
-  std::vector<vec3> taken_out_, from_maps_;
+  std::vector<vec3> subtracted_, from_maps_;
 };
 
 }  // namespace

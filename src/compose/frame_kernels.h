@@ -28,7 +28,7 @@ struct FrameKernels {
 
   // Of a band's pixels
   vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;
-  vulkan::Buffer queries, irradiance, mirror_irradiance, taken_out, from_maps;
+  vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
   // Of the rays that gather some pixels' light
   vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
       gathered_direct, gathered_field;

@@ -99,10 +99,10 @@ struct ViewGeometryArguments {
 /// Takes what another source brings out of the field's light, and adds that source's own.
 struct ReplaceLightArguments {
   Vec3Array irradiance;
-  Vec3Array taken_out;
+  Vec3Array subtracted_field;
   Vec3Array added;
   uint count;
-  uint takes_out;  ///< 1: there is something to take out.
+  uint subtracts;  ///< 1: there is something to take out.
 };
 
 /// Adds what pixels show to their layers.

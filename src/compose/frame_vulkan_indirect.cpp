@@ -6,7 +6,7 @@
 #include "compose/frame_vulkan.h"
 #include "compose/rsm_frame.h"
 #include "core/stopwatch.h"
-#include "field/field_device.h"
+#include "field/field_backend.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
 
@@ -25,7 +25,7 @@ constexpr std::uint32_t kViewPixels = 1u << 18;
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count,
                                 const Buffer& irradiance) {
-  const FieldDevice* there = field.on_device();
+  const FieldBackend* there = field.on_device();
   if (there != nullptr && there->is_on(request_.world)) {
     add(name, [this, there, &queries, &irradiance, count](Recorder& to) {
       there->record_lookups(to, &request_.world, queries.address(), count, irradiance.address());
@@ -60,10 +60,11 @@ void FramePassesVulkan::indirect() {
     add("indirect", ask(0u));
     look_up("indirect", *sources.field, kernels_.queries, pixels_, kernels_.irradiance);
   }
-  if (sources.taken_out == nullptr) return;
-  reserve<vec3>(pixels_, "taken out", kernels_.taken_out);
+  if (sources.subtracted_field == nullptr) return;
+  reserve<vec3>(pixels_, "taken out", kernels_.subtracted_field);
   add("indirect", ask(0u));
-  look_up("indirect", *sources.taken_out, kernels_.queries, pixels_, kernels_.taken_out);
+  look_up("indirect", *sources.subtracted_field, kernels_.queries, pixels_,
+          kernels_.subtracted_field);
 }
 
 /// Final gathering, some pixels at a time; see gather.cpp.
@@ -215,10 +216,10 @@ void FramePassesVulkan::rsm() {
 
 void FramePassesVulkan::rsm_upsample() {
   const bool alone = request_.sources.field == nullptr;
-  const bool takes_out = request_.sources.taken_out != nullptr && !alone;
+  const bool subtracts = request_.sources.subtracted_field != nullptr && !alone;
   reserve<vec3>(pixels_, "light of maps", kernels_.from_maps);
   reserve<vec3>(pixels_, "irradiance", kernels_.irradiance);
-  reserve<vec3>(takes_out ? pixels_ : 1, "taken out", kernels_.taken_out);
+  reserve<vec3>(subtracts ? pixels_ : 1, "taken out", kernels_.subtracted_field);
   const RsmViewOnDevice band =
       reserve_geometry(request_.settings.width, band_.rows, kernels_.band_geometry);
   add_geometry("rsm.upsample", band, 0u, pixels_);
@@ -232,10 +233,10 @@ void FramePassesVulkan::rsm_upsample() {
       to.barrier();
     }
     const ReplaceLightArguments arguments = {{kernels_.irradiance.address()},
-                                             {kernels_.taken_out.address()},
+                                             {kernels_.subtracted_field.address()},
                                              {kernels_.from_maps.address()},
                                              pixels_,
-                                             takes_out ? 1u : 0u};
+                                             subtracts ? 1u : 0u};
     to.run(kernels_.replace_light, arguments, pixels_);
   });
 }

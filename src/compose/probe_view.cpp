@@ -123,7 +123,7 @@ class SphereFinder {
   /// Whether an earlier volume answers for a place alone, so that nobody asks this one.
   bool is_spoken_for(const vec3& place_ws) const {
     for (int earlier = 0; earlier < volume_; ++earlier) {
-      if (volume_share(store_.grid(earlier), place_ws) >= 1.0f) return true;
+      if (volume_blend_weight(store_.grid(earlier), place_ws) >= 1.0f) return true;
     }
     return false;
   }
@@ -135,7 +135,7 @@ class SphereFinder {
 };
 
 /// Share of the way from new to the oldest that a probe becomes.
-float age_share(const IrradianceField& field, const ProbeRecord& record) {
+float age_share(const IrradianceField& field, const ProbeStatus& record) {
   if (record.served == 0) return 1.0f;
   const auto age = static_cast<float>(field.updates()) - static_cast<float>(record.served);
   return std::log2(1.0f + max(age, 0.0f)) / std::log2(1.0f + static_cast<float>(kMaxProbeAge));
@@ -144,7 +144,7 @@ float age_share(const IrradianceField& field, const ProbeRecord& record) {
 vec3 color_of(const IrradianceField& field, ProbeAspect aspect, const SphereHit& hit,
               const vec3& to_viewer_ws) {
   const ProbeStore& store = field.store();
-  const ProbeRecord& record = field.records()[hit.probe];
+  const ProbeStatus& record = field.probe_statuses()[hit.probe];
   const float round = mix(kRim, 1.0f, max(dot(hit.normal_ws, to_viewer_ws), 0.0f));
   switch (aspect) {
     case ProbeAspect::irradiance:

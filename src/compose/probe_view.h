@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "lambent/field.h"
 #include "lambent/image.h"
 #include "lambent/scene.h"

@@ -5,7 +5,7 @@
 #include "shared/color.h"
 #include "shared/cross_bilateral.h"
 #include "shared/packing.h"
-#include "shared/relight.h"
+#include "shared/reorient_irradiance.h"
 
 namespace lambent {
 namespace {

@@ -58,7 +58,7 @@ struct ConstPlanes {
 inline constexpr int kPositionPlane = 0, kNormalPlane = 3, kInverseDepthPlane = 6, kGuidePlanes = 7;
 /// Irradiance r, g, b. While it is blurred, each holds two values, so that half as much memory is
 /// read: in its upper half the upper half of the irradiance's float, rounded, in its lower half
-/// that of a component x, y, z of what it is relit with, R of shared/relight.h.
+/// that of a component x, y, z of what it is relit with, R of shared/reorient_irradiance.h.
 inline constexpr int kLightPlanes = 3;
 
 /// What the filter reads of a pixel, or of a neighbour.

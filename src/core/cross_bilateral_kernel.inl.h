@@ -19,14 +19,14 @@ LAMBENT_FORCE_INLINE void lane_weights(Lanes& weight, const GuideLanes& here,
 
 /// Light and what it is relit with.
 struct BlurLanes {
-  Lanes light[kLightPlanes], relighting[kLightPlanes];
+  Lanes light[kLightPlanes], reorientation[kLightPlanes];
 };
 
 LAMBENT_FORCE_INLINE void load_blurred(BlurLanes& lanes, const ConstPlanes& planes, int i) {
   for (int c = 0; c < kLightPlanes; ++c) {
     Lanes word;
     load(word, planes.at(c) + i);
-    unpack_halves(lanes.light[c], lanes.relighting[c], word);
+    unpack_halves(lanes.light[c], lanes.reorientation[c], word);
   }
 }
 
@@ -51,13 +51,13 @@ LAMBENT_FORCE_INLINE void blur(BlurLanes& sums, const GuideLanes& here, const Bl
     load_blurred(blurred, source.light, i);
     for (int c = 0; c < kLightPlanes; ++c) {
       sums.light[c] += weight * blurred.light[c];
-      sums.relighting[c] += weight * blurred.relighting[c];
+      sums.reorientation[c] += weight * blurred.reorientation[c];
     }
   }
   const Lanes scale = 1.0f / sum;
   for (int c = 0; c < kLightPlanes; ++c) {
     sums.light[c] *= scale;
-    sums.relighting[c] *= scale;
+    sums.reorientation[c] *= scale;
   }
 }
 
@@ -82,7 +82,7 @@ static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
             [&](const BlurLanes& blurred, const GuideLanes&, int i) {
               for (int c = 0; c < kLightPlanes; ++c) {
                 Lanes word;
-                pack_halves(word, blurred.light[c], blurred.relighting[c]);
+                pack_halves(word, blurred.light[c], blurred.reorientation[c]);
                 store(out.at(c) + i, word);
               }
             });
@@ -91,16 +91,17 @@ static void blur_row(const BlurSource& centre, const BlurSource* neighbours,
 static void blur_row_relit(const BlurSource& centre, const BlurSource* neighbours,
                            std::size_t neighbour_count, const Planes& out, int count,
                            float inverse_tolerance) {
-  blur_each(
-      centre, neighbours, neighbour_count, count, inverse_tolerance,
-      [&](const BlurLanes& blurred, const GuideLanes& here, int i) {
-        // relit_share, for lanes
-        const Lanes light = blurred.light[0] * kRedLuminance + blurred.light[1] * kGreenLuminance +
-                            blurred.light[2] * kBlueLuminance;
-        const Lanes brought = blurred.relighting[0] * here.nx + blurred.relighting[1] * here.ny +
-                              blurred.relighting[2] * here.nz;
-        Lanes share = brought / light + kHorizonLight;
-        keep(share, (share > 0.0f) & (light > 0.0f));
-        for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
-      });
+  blur_each(centre, neighbours, neighbour_count, count, inverse_tolerance,
+            [&](const BlurLanes& blurred, const GuideLanes& here, int i) {
+              // reoriented_fraction, for lanes
+              const Lanes light = blurred.light[0] * kRedLuminance +
+                                  blurred.light[1] * kGreenLuminance +
+                                  blurred.light[2] * kBlueLuminance;
+              const Lanes brought = blurred.reorientation[0] * here.nx +
+                                    blurred.reorientation[1] * here.ny +
+                                    blurred.reorientation[2] * here.nz;
+              Lanes share = brought / light + kHorizonLight;
+              keep(share, (share > 0.0f) & (light > 0.0f));
+              for (int c = 0; c < kLightPlanes; ++c) store(out.at(c) + i, blurred.light[c] * share);
+            });
 }

@@ -41,10 +41,11 @@ Expected<void> check_settings(const FieldSettings& s) {
   }
   if (outside(s.distance_texels, 4, 32)) return fail("", "distance texels", "must be 4 to 32");
   if (outside(s.max_albedo, 0.0f, 0.99f)) return fail("", "max albedo", "must be 0 to 0.99");
-  if (outside(s.relight_tolerance, 1e-7f, 1.0f)) {
-    return fail("", "relight tolerance", "must be 1e-7 to 1");
+  if (outside(s.solve_tolerance, 1e-7f, 1.0f)) {
+    return fail("", "solve tolerance", "must be 1e-7 to 1");
   }
-  if (outside(s.max_relights, 1, 1000)) return fail("", "max relights", "must be 1 to 1000");
+  if (outside(s.max_solve_iterations, 1, 1000))
+    return fail("", "max solve iterations", "must be 1 to 1000");
   if (s.max_bounces < -1) return fail("", "bounces", "must be 0 or more, or -1 for all");
   if (outside(s.emissive_samples, 1, 64)) return fail("", "emissive samples", "must be 1 to 64");
   if (!std::isfinite(s.texture_lod_bias)) return fail("", "texture LOD bias", "must be finite");
@@ -57,13 +58,13 @@ IrradianceField::State::State(const FieldSettings& field_settings, std::span<con
       store(grids_of(volumes), field_settings),
       tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
       traces(store.probes()),
-      records(store.probes()),
-      sights(store.probes()),
-      reaches(store.probes()),
+      statuses(store.probes()),
+      cell_visibility(store.probes()),
+      classification_inputs(store.probes()),
       light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
-      told(light.size(), vec4(0.0f)),
-      told_roughly(store.probes()),
-      agenda(store.probes(), roles, settings) {
+      last_irradiance_estimate(light.size(), vec4(0.0f)),
+      last_estimate_is_coarse(store.probes()),
+      scheduler(store.probes(), roles, settings) {
   for (const ProbeGrid& grid : store.grids()) grids.push_back(field_grid(grid));
 }
 
@@ -84,23 +85,23 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 void IrradianceField::reset() {
   State& s = *state_;
   s.device.reset();
-  s.light_behind = s.store_behind = false;
+  s.host_light_is_stale = s.host_store_is_stale = false;
   s.store.clear();
   std::fill(s.light.begin(), s.light.end(), vec4(0.0f));
-  std::fill(s.records.begin(), s.records.end(), ProbeRecord{});
+  std::fill(s.statuses.begin(), s.statuses.end(), ProbeStatus{});
   std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
-  std::fill(s.reaches.begin(), s.reaches.end(), ProbeReach{});
-  s.sights = ProbeSights(s.store.probes());
-  std::fill(s.told.begin(), s.told.end(), vec4(0.0f));
-  s.edits = {};
+  std::fill(s.classification_inputs.begin(), s.classification_inputs.end(), ClassificationInput{});
+  s.cell_visibility = CellVisibility(s.store.probes());
+  std::fill(s.last_irradiance_estimate.begin(), s.last_irradiance_estimate.end(), vec4(0.0f));
+  s.pending_edits = {};
   s.edited_places.clear();
-  s.late_sleepers.clear();
-  s.followed_revision = 0;
+  s.stale_sleeping.clear();
+  s.applied_revision = 0;
   s.classified = false;
-  s.agenda.changed_all();
-  s.starting = true;
+  s.scheduler.mark_all_changed();
+  s.warming_up = true;
   s.mean_light = 0.0f;
-  s.followed_last = false;
+  s.applied_edits_last = false;
   s.updates = 0;
 }
 
@@ -111,7 +112,7 @@ void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<
   if (s.device) return s.device->irradiance(queries, world, result);
   const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
   parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.sights},
+    lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.cell_visibility},
                       queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
   });
 }
@@ -141,11 +142,11 @@ const ProbeStore& IrradianceField::store() const {
   state_->fetch_store();
   return state_->store;
 }
-const FieldDevice* IrradianceField::on_device() const {
+const FieldBackend* IrradianceField::on_device() const {
   return state_->device.get();
 }
-std::span<const ProbeRecord> IrradianceField::records() const {
-  return state_->records;
+std::span<const ProbeStatus> IrradianceField::probe_statuses() const {
+  return state_->statuses;
 }
 
 }  // namespace lambent

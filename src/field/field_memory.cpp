@@ -29,7 +29,7 @@ FieldMemory field_memory(const FieldSettings& s, std::uint64_t probes) {
   memory.bytes_per_probe = tile_bytes(s.irradiance_texels, irradiance_texel) +
                            tile_bytes(s.distance_texels, distance_texel) +
                            kLightCopies * texels * sizeof(vec4) + sizeof(ProbeTrace) +
-                           sizeof(ProbeRecord) + sizeof(ProbeReach);
+                           sizeof(ProbeStatus) + sizeof(ClassificationInput);
   memory.bytes_per_ray = sizeof(Surfel) + sizeof(SurfelLookup) + sizeof(Hit);
   return memory;
 }

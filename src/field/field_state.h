@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that an irradiance field consists of.
+// The private state of IrradianceField: the probes and what they hold, the schedule, and edits of
+// the world that have not reached all probes yet.
 #pragma once
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "field/edits/follow.h"
-#include "field/field_device.h"
+#include "field/edits/invalidation.h"
+#include "field/field_backend.h"
 #include "field/placement/classify.h"
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
 #include "field/probes/volumes.h"
 #include "field/schedule/schedule.h"
 #include "field/transport/blend.h"
-#include "field/transport/relight.h"
+#include "field/transport/solve_bounces.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
@@ -24,168 +25,210 @@ namespace lambent {
 struct FieldFile;
 struct FieldVolume;
 
-/// Edits of the world that some probes have been held against and others not yet.
-struct OpenEdits {
-  std::uint64_t revision = 0;  ///< Of the world.
-  WorkingIrradiance before;    ///< The light when the edits came, of all probes; empty: none.
-  WorkingIrradiance gain;      ///< What was held over what the last rays told, where followed.
-  std::vector<int> followed;   ///< In ascending order.
+/// Edits of the world that have reached some probes and not yet others.
+struct PendingEdits {
+  std::uint64_t revision = 0;  ///< The world's revision that the edits led to.
+  /// The light of all probes before the edits. Empty where no edits are pending.
+  WorkingIrradiance before;
+  /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
+  /// alone estimated (history_ratio.cpp).
+  WorkingIrradiance history_ratio;
+  std::vector<int> updated;  ///< The probes that the edits have reached, in ascending order.
 };
 
-/// Which of the probes that edits of the world may have touched an update held against them.
-enum class Followed { nothing, some, all };
+/// How far an update got with the edits of the world: no probe was stale, some stale probes are
+/// left, or all stale probes have been brought up to date.
+enum class EditProgress { none, partial, complete };
 
-/// A box in which what should keep still was edited: probes are placed anew once it does.
+/// A box in which static geometry was edited. Probes near it are relocated once edits there stop.
 struct EditedPlace {
   Bounds box;
-  int update;  ///< In which it was edited last.
+  int update;  ///< Number of the update that last saw an edit in the box.
 };
 
-/// Probes that an update traces, and for each what its rays count for.
+/// The probes that an update traces, and how much their new rays count.
 struct TracedProbes {
   std::vector<int> probes;
-  std::vector<float> shares;   ///< Of what the probe holds afterwards.
-  std::vector<float> weights;  ///< In updates of the settings' rays.
+  /// For each probe, the weight of the new light in the blend with its history, 0 to 1.
+  std::vector<float> blend_weights;
+  /// For each probe, its number of new rays over FieldSettings::rays_per_probe.
+  std::vector<float> weights;
 };
 
-/// The probes that have been traced, and those among them that know an older world.
-struct Behind {
-  std::vector<int> traced, waiting;
-  std::vector<int> sleepers;  ///< Sleeping ones; not among the waiting.
+/// The probes that have been traced at all, and those whose surfels belong to an older revision of
+/// the world.
+struct StaleProbes {
+  std::vector<int> traced;    ///< All probes that have surfels.
+  std::vector<int> waiting;   ///< The stale probes among them, without the sleeping ones.
+  std::vector<int> sleeping;  ///< The stale probes among them that sleep.
 };
 
 struct IrradianceField::State {
   State(const FieldSettings& field_settings, std::span<const Volume> volumes);
 
   FieldSettings settings;
-  std::vector<VolumeRole> roles;  ///< One a volume.
+  std::vector<VolumeRole> roles;  ///< One entry per volume.
   mutable ProbeStore store;
-  std::vector<FieldGrid> grids;  ///< Of the store, as the public interface tells them.
+  std::vector<FieldGrid> grids;  ///< The grids of the store's volumes, for the public interface.
   BlendMatrix tile_fit;
   std::vector<ProbeTrace> traces;
-  std::vector<ProbeRecord> records;
-  ProbeSights sights;               ///< Kept for hybrid visibility alone; see look_across_cells.
-  std::vector<ProbeReach> reaches;  ///< Of the scene that keeps still.
-  WorkingIrradiance light;          ///< That the store holds, before it was encoded.
-  WorkingIrradiance told;           ///< What of it the last rays told on their own.
-  /// 1: told is as exact as the solution, not as what the probe holds: it was traced since.
-  std::vector<std::uint8_t> told_roughly;
-  ProbeAgenda agenda;
-  std::vector<float> importance;  ///< Of each probe, in an update that knows what is seen.
-  OpenEdits edits;
+  std::vector<ProbeStatus> statuses;
+  CellVisibility cell_visibility;  ///< Only hybrid visibility keeps it up to date.
+  std::vector<ClassificationInput> classification_inputs;  ///< From the static part of the scene.
+  WorkingIrradiance light;                     ///< The irradiance that the store encodes.
+  WorkingIrradiance last_irradiance_estimate;  ///< What each probe's last rays alone estimated.
+  /// 1 where a probe's last estimate comes from a solve that stopped at its tolerance, so that it
+  /// is less exact than what edits are compared by.
+  std::vector<std::uint8_t> last_estimate_is_coarse;
+  ProbeScheduler scheduler;
+  std::vector<float> importance;  ///< Per probe; empty where an update has no visible points.
+  PendingEdits pending_edits;
   std::vector<EditedPlace> edited_places;
-  std::uint64_t placed_revision = 0;  ///< Of the world that edited_places know.
+  std::uint64_t placed_revision = 0;  ///< The revision that edited_places are up to date with.
   RayCost ray_cost;
   int updates = 0;
-  bool starting = true;     ///< Some probe has not been traced since the field knew nothing.
-  float mean_light = 0.0f;  ///< Luminance that probes hold on average, when last traced.
-  std::uint64_t followed_revision = 0;  ///< Of the world that all but sleeping probes know.
-  std::vector<int> late_sleepers;       ///< Sleeping probes that know an older world, oldest first.
-  std::size_t sleepers_a_slice = 0;     ///< ... of which so many follow in an update.
-  bool followed_last = false;           ///< The last update followed edits and traced nothing else.
-  bool classified = false;       ///< Since reaches were found, it was said what probes are for.
-  std::vector<Bounds> moved_to;  ///< What moved when that was last said.
+  bool warming_up = true;              ///< Some live probe has not been traced since the start.
+  float mean_light = 0.0f;             ///< Mean luminance of the live probes.
+  std::uint64_t applied_revision = 0;  ///< The revision that all but sleeping probes know.
+  std::vector<int> stale_sleeping;     ///< Stale sleeping probes, the oldest first.
+  std::size_t sleeping_per_slice = 0;  ///< How many of those an update brings up to date.
+  bool applied_edits_last = false;     ///< The last update applied edits and traced nothing else.
+  bool classified = false;       ///< The classification inputs have not changed since classify().
+  std::vector<Bounds> moved_to;  ///< Bounds of the dynamic instances at the last classify().
 
-  /// Null: the processor's memory holds the field. Else a device's does, and of what is above, the
-  /// store's tiles, the surfels, light and told are as of the last time they were read back.
-  std::unique_ptr<FieldDevice> device;
-  bool light_behind = false;          ///< The device's light and told are newer.
-  mutable bool store_behind = false;  ///< So are its tiles.
+  /// Null where the processor's memory holds the field. Otherwise a device's memory holds it, and
+  /// the store's tiles, the surfels, `light` and `last_irradiance_estimate` above are copies from
+  /// the last time they were read back.
+  std::unique_ptr<FieldBackend> device;
+  bool host_light_is_stale = false;          ///< The device has newer `light` and estimates.
+  mutable bool host_store_is_stale = false;  ///< The device has newer tiles.
 
-  /// Has the passes of this update run where the world is. What moves from the one to the other
-  /// takes its light along; its surfels are found anew.
+  /// Moves the field to the processor or device that the world is on. The light moves along; the
+  /// surfels are dropped, to be traced again.
   void move_to(const World& world, UpdateStatistics& statistics);
-  /// Brings light and told, or the store's tiles, up to date.
+  /// Reads back `light` and `last_irradiance_estimate` where the device's are newer.
   void fetch_light();
+  /// Reads back the store's tiles where the device's are newer.
   void fetch_store() const;
 
   int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
-  /// Of this update's dither.
-  uint salt() const;
+  /// Seed of the dither with which this update stores its results.
+  uint dither_seed() const;
   /// Probes that have surfels, in ascending order.
   std::vector<int> traced_probes() const;
-  RelightSettings relight_settings() const {
-    return {settings.max_albedo, settings.relight_tolerance, settings.max_relights};
+  SolveSettings solve_settings() const {
+    return {settings.max_albedo, settings.solve_tolerance, settings.max_solve_iterations};
   }
   TransportOperator transport(std::span<const int> probes) const {
     return {store.corner_table(), traces, probes, tile_fit, settings.irradiance_texels};
   }
 
-  /// Moves probes to where they are needed and finds what they reach. Those that moved forget what
-  /// they see, and are returned.
-  std::vector<int> place(const World& world, std::span<const int> probes);
-  /// `learn_distances`: stores what they see, too, for a start.
-  void find_reaches(const World& world, std::span<const int> probes, bool learn_distances = false);
-  /// Has a probe forget what it sees.
-  void forget_place(int probe);
-  /// Stores what probes in new places see, and has the surfels that read them ask anew.
-  void settle_in(const World& world, std::span<const int> moved, UpdateStatistics& statistics);
-  /// Has a probe in a new place go on with the light that it was given.
-  void take_over(int probe, const World& world);
-  /// Places probes anew where what keeps still was edited, once nothing there has moved for a
-  /// while.
-  void place_edited(const World& world, UpdateStatistics& statistics);
-  /// Has volumes follow the viewer. Returns how many probes came to belong elsewhere.
-  int follow_viewer(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
-  /// What the field holds at the places where probes will be, as their tiles.
-  void inherit(std::span<const int> probes, std::span<const vec3> places_ws,
-               std::span<vec4> tiles) const;
-  /// Says what each probe is for, with what moves where it is now.
+  /// Relocates some probes, starting from their places on the grid, and updates their
+  /// classification inputs. Resets and returns those that moved.
+  std::vector<int> place_probes(const World& world, std::span<const int> probes);
+  /// Traces the fixed rays of some probes to find what classification needs to know of them. With
+  /// `learn_distances`, the distances of these rays become the probes' first stored distances.
+  void update_classification_inputs(const World& world, std::span<const int> probes,
+                                    bool learn_distances = false);
+  /// Drops a probe's surfels, stored distances and number of samples. Its light stays.
+  void reset_probe(int probe);
+  /// Gives relocated probes their first distances, and finds the lookups of all surfels that read
+  /// one of them again.
+  void initialize_relocated(const World& world, std::span<const int> moved,
+                            UpdateStatistics& statistics);
+  /// Lets a relocated probe continue from the light that it holds.
+  void inherit_history(int probe, const World& world);
+  /// Relocates probes near edited static geometry, once nothing there has been edited for a while.
+  void relocate_edited(const World& world, UpdateStatistics& statistics);
+  /// Scrolls the volumes that follow the viewer. Returns the number of recycled probes.
+  int scroll_volumes(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
+  /// Looks the field up at the places that some probes will move to, in all directions of a tile.
+  /// `tiles` receives what they should store, probe after probe.
+  void interpolate_tiles(std::span<const int> probes, std::span<const vec3> places_ws,
+                         std::span<vec4> tiles) const;
+  /// Sets the state of each probe from its classification input and from where dynamic instances
+  /// are now.
   void classify(const World& world);
-  /// For hybrid visibility: finds which probes of the cells around some see each other. Returns the
-  /// rays traced.
-  std::uint64_t look_across_cells(const World& world, std::span<const int> probes);
+  /// For hybrid visibility, finds which probes of the cells around the given ones see each other.
+  /// Returns the number of rays traced; 0 in other modes.
+  std::uint64_t update_cell_visibility(const World& world, std::span<const int> probes);
   VisibilityRays visibility(const World& world) const {
-    return {settings.visibility, &world.tracer(), &sights};
+    return {settings.visibility, &world.tracer(), &cell_visibility};
   }
 
-  /// Follows the world's edits with about so many rays (0: no bound), near the viewer first.
-  Followed follow(const World& world, std::uint64_t ray_budget,
-                  const std::optional<vec3>& viewer_ws, UpdateStatistics& statistics);
-  WorkingIrradiance gain_of(std::span<const int> probes) const;
-  void tell_exactly(std::span<const int> probes);
-  void remember_told(std::span<const int> probes, const WorkingIrradiance& solution);
-  Behind find_behind(const World& world);
-  void open_edits(std::uint64_t revision, std::span<const int> traced);
-  void follow_in_slices(const World& world, std::uint64_t ray_budget, Behind& behind,
-                        UpdateStatistics& statistics);
-  void follow_slice(const World& world, std::span<const WorldChanges> changes,
-                    std::span<const int> probes, std::span<const int> all,
-                    UpdateStatistics& statistics);
+  /// Brings stale probes up to date with the world, and solves for the light that results. Spends
+  /// about `ray_budget` rays (0: no bound), on important probes or those near the viewer first.
+  EditProgress apply_scene_edits(const World& world, std::uint64_t ray_budget,
+                                 const std::optional<vec3>& viewer_ws,
+                                 UpdateStatistics& statistics);
+  /// The ratio of the light that some probes hold to what their last rays estimate, texel by texel.
+  WorkingIrradiance history_ratio_of(std::span<const int> probes) const;
+  /// Computes coarse last estimates again, from the light as it is held.
+  void refine_last_estimates(std::span<const int> probes);
+  /// Stores what the last rays of some probes estimate, as a solve without history ratio found it.
+  void store_last_estimates(std::span<const int> probes, const WorkingIrradiance& solution);
+  /// Finds the stale probes. Those that cannot be brought up to date start their average again.
+  StaleProbes find_stale_probes(const World& world);
+  /// Keeps the light before edits, while light and surfels still belong to the same world.
+  void begin_edits(std::uint64_t revision, std::span<const int> traced);
+  /// Brings waiting probes up to date until the budget is spent, and removes them from
+  /// `stale.waiting`.
+  void apply_edits_in_slices(const World& world, std::uint64_t ray_budget, StaleProbes& stale,
+                             UpdateStatistics& statistics);
+  /// Brings one slice of the stale probes up to date. `all` are all traced probes.
+  void apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
+                            std::span<const int> probes, std::span<const int> all,
+                            UpdateStatistics& statistics);
+  /// Luminance of the direct and sky light that each probe's rays bring back, summed over its rays
+  /// (processor) or texels (device).
   std::vector<double> direct_light(std::span<const int> probes);
-  FollowedEdits follow_surfels(const World& world, std::span<const WorldChanges> changes,
-                               std::span<const int> probes, std::span<const int> all);
-  void solve_edits(UpdateStatistics& statistics);
-  int settle_edits(std::span<const int> probes, const WorkingIrradiance& before,
-                   const RelightResult& solved, const WorkingIrradiance& gain);
-  void lose_samples();
-  void put_in_order(std::vector<int>& waiting, std::uint64_t ray_budget,
-                    const std::optional<vec3>& viewer_ws, std::uint64_t revision) const;
-  /// Has some of the sleeping probes follow that others left behind.
-  void follow_sleepers(const World& world, std::uint64_t ray_budget, std::span<const int> all,
-                       UpdateStatistics& statistics);
-  void forget_light(int probe, std::uint64_t revision);
+  /// Brings the surfels and stored distances of some probes up to date with the world.
+  InvalidationResult update_stale_surfels(const World& world, std::span<const WorldChanges> changes,
+                                          std::span<const int> probes, std::span<const int> all);
+  /// Solves for the light of all probes that the pending edits have reached.
+  void solve_edited(UpdateStatistics& statistics);
+  /// Stores solved light where it differs visibly from the light before, and restores the old light
+  /// elsewhere. Returns the number of probes whose light changed.
+  int store_edited_light(std::span<const int> probes, const WorkingIrradiance& before,
+                         const SolveResult& solved, const WorkingIrradiance& history_ratio);
+  /// Lowers the sample counts of the probes whose light the pending edits changed.
+  void reduce_history();
+  /// Under a budget, sorts stale probes by how urgently they must be brought up to date.
+  void order_stale_probes(std::vector<int>& waiting, std::uint64_t ray_budget,
+                          const std::optional<vec3>& viewer_ws, std::uint64_t revision) const;
+  /// Brings some of the stale sleeping probes up to date.
+  void apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
+                               std::span<const int> all, UpdateStatistics& statistics);
+  /// Lets a probe start its average again at this revision.
+  void reset_history(int probe, std::uint64_t revision);
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
-  /// Solves for the light of all probes that have been traced, from what their last rays met.
-  void solve_start(UpdateStatistics& statistics);
-  TracedProbes shares_of(std::span<const TraceGroup> groups) const;
+  /// Solves for the light of all traced probes, from what their last rays met.
+  void solve_warm_up(UpdateStatistics& statistics);
+  /// How much the rays of the groups' probes count in the blend with their history.
+  TracedProbes blend_weights_of(std::span<const TraceGroup> groups) const;
+  /// Blends the distances of the groups' hits into the store.
   void blend_in_distances(const Scene& scene, std::span<const TraceGroup> groups,
-                          std::span<const float> shares);
-  /// Noise of probes darker than this is judged as if they were as bright [luminance].
+                          std::span<const float> blend_weights);
+  /// Probes darker than this luminance count as this bright where noise is judged.
   float darkest() const;
+  /// How much the light of some probes differs from `history`.
   std::vector<LightChange> light_changes(std::span<const int> probes,
                                          const WorkingIrradiance& history) const;
-  void book(const World& world, const TracedProbes& traced, std::span<const LightChange> changes);
+  /// Updates the noise, sample counts and states of the probes that were traced.
+  void update_variability(const World& world, const TracedProbes& traced,
+                          std::span<const LightChange> changes);
+  /// What trace() does, on the device.
   void trace_on_device(const World& world, std::span<const TraceGroup> groups,
                        UpdateStatistics& statistics);
-  /// As relight, of probes that have been traced.
-  RelightResult solve(std::span<const int> probes, std::span<const float> shares,
-                      const WorkingIrradiance& gain, const RelightSettings& by);
-  /// Encodes the light of some probes.
+  /// solve_bounces() on the processor or the device. The probes must have surfels.
+  SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
+                    const WorkingIrradiance& history_ratio, const SolveSettings& by);
+  /// Encodes the light of some probes into the store.
   void store_light(std::span<const int> probes);
-  /// Takes over what a file holds.
+  /// Replaces all light by what a file holds.
   void restore(const FieldFile& file, const World& world);
+  /// A volume as a file stores it.
   FieldVolume volume_for_file(int volume, const World& world) const;
 };
 

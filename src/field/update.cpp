@@ -28,34 +28,35 @@ std::vector<int> IrradianceField::State::traced_probes() const {
   return traced;
 }
 
-RelightResult IrradianceField::State::solve(std::span<const int> probes,
-                                            std::span<const float> shares,
-                                            const WorkingIrradiance& gain,
-                                            const RelightSettings& by) {
-  if (!device) return relight(transport(probes), shares, gain, by, light);
-  if (!light_behind) device->write_light(light, told);
-  RelightResult result;
-  const DeviceSolve solved = device->solve(probes, shares, gain, by, &result.solution);
-  device->read_light(light, told);
-  light_behind = false;
+SolveResult IrradianceField::State::solve(std::span<const int> probes,
+                                          std::span<const float> blend_weights,
+                                          const WorkingIrradiance& history_ratio,
+                                          const SolveSettings& by) {
+  if (!device) return solve_bounces(transport(probes), blend_weights, history_ratio, by, light);
+  if (!host_light_is_stale) device->write_light(light, last_irradiance_estimate);
+  SolveResult result;
+  const DeviceSolve solved =
+      device->solve(probes, blend_weights, history_ratio, by, &result.solution);
+  device->read_light(light, last_irradiance_estimate);
+  host_light_is_stale = false;
   result.iterations = solved.iterations;
   result.error = solved.error;
   result.change = solved.change;
   return result;
 }
 
-uint IrradianceField::State::salt() const {
-  return store_salt(static_cast<uint>(updates), settings.seed);
+uint IrradianceField::State::dither_seed() const {
+  return store_dither_seed(static_cast<uint>(updates), settings.seed);
 }
 
 void IrradianceField::State::store_light(std::span<const int> probes) {
   if (device) {
-    device->store_light(probes, salt());
-    store_behind = true;
+    device->store_light(probes, dither_seed());
+    host_store_is_stale = true;
     return;
   }
   const auto texels = static_cast<std::size_t>(tile_texels());
-  const uint dither = salt();
+  const uint dither = dither_seed();
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<vec3> interior(texels);
     for (std::size_t k = begin; k < end; ++k) {
@@ -65,16 +66,17 @@ void IrradianceField::State::store_light(std::span<const int> probes) {
   });
 }
 
-/// What the groups' rays will count for.
-TracedProbes IrradianceField::State::shares_of(std::span<const TraceGroup> groups) const {
+/// Computes how much the groups' rays will count: all history of n updates' worth of rays and w new
+/// ones blend with the weight w / (n + w), where n is limited by the hysteresis.
+TracedProbes IrradianceField::State::blend_weights_of(std::span<const TraceGroup> groups) const {
   const float longest = longest_average(settings);
   TracedProbes traced;
   for (const TraceGroup& group : groups) {
     const float weight =
         static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
     for (const int probe : group.probes) {
-      const float held = min(records[probe].samples, max(longest - weight, 0.0f));
-      traced.shares.push_back(weight / (held + weight));
+      const float held = min(statuses[probe].samples, max(longest - weight, 0.0f));
+      traced.blend_weights.push_back(weight / (held + weight));
     }
     traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
     traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
@@ -82,15 +84,16 @@ TracedProbes IrradianceField::State::shares_of(std::span<const TraceGroup> group
   return traced;
 }
 
-/// Blends the distances that the groups' rays met into the store. `shares` are of all groups'
-/// probes.
+/// Blends the distances of the groups' hits into the store. The blend weights are one per probe,
+/// group after group.
 void IrradianceField::State::blend_in_distances(const Scene& scene,
                                                 std::span<const TraceGroup> groups,
-                                                std::span<const float> shares) {
+                                                std::span<const float> blend_weights) {
   for (const TraceGroup& group : groups) {
     const DistanceBlend blend(settings, group.rays->directions);
-    blend_distances(scene, blend, group, shares.first(group.probes.size()), salt(), store);
-    shares = shares.subspan(group.probes.size());
+    blend_distances(scene, blend, group, blend_weights.first(group.probes.size()), dither_seed(),
+                    store);
+    blend_weights = blend_weights.subspan(group.probes.size());
   }
 }
 
@@ -98,7 +101,7 @@ float IrradianceField::State::darkest() const {
   return kDarkShare * mean_light;
 }
 
-/// By how much the probes' light differs from what it was.
+/// Compares the light of some probes to their `history`.
 std::vector<LightChange> IrradianceField::State::light_changes(
     std::span<const int> probes, const WorkingIrradiance& history) const {
   const auto texels = static_cast<std::size_t>(tile_texels());
@@ -111,28 +114,30 @@ std::vector<LightChange> IrradianceField::State::light_changes(
   return changes;
 }
 
-/// Books what the probes' light says of their noise, and that they were served.
-void IrradianceField::State::book(const World& world, const TracedProbes& traced,
-                                  std::span<const LightChange> changes) {
+/// Learns the noise of the traced probes from how much their light changed, counts their samples,
+/// and notes that they were traced in this update and at the world's revision.
+void IrradianceField::State::update_variability(const World& world, const TracedProbes& traced,
+                                                std::span<const LightChange> changes) {
   const float longest = longest_average(settings);
   double light_sum = 0.0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
     const int probe = traced.probes[k];
-    ProbeRecord& record = records[probe];
+    ProbeStatus& status = statuses[probe];
     const LightChange& change = changes[k];
     light_sum += change.now;
-    learn_noise(told_square(change.relative_square, change.before, traced.shares[k], mean_light),
-                traced.weights[k], record);
-    record.samples = min(record.samples, longest);
-    record.served = static_cast<std::uint32_t>(updates) + 1;
-    record.state = state_once_traced(record.state);
-    record.revision = world.revision();
-    agenda.changed(probe);
+    learn_noise(estimate_relative_square(change.relative_square, change.before,
+                                         traced.blend_weights[k], mean_light),
+                traced.weights[k], status);
+    status.samples = min(status.samples, longest);
+    status.served = static_cast<std::uint32_t>(updates) + 1;
+    status.state = state_once_traced(status.state);
+    status.revision = world.revision();
+    scheduler.mark_changed(probe);
   }
   if (traced.probes.empty()) return;
   const auto count = static_cast<float>(traced.probes.size());
   const float now = static_cast<float>(light_sum) / count;
-  const ProbeCounts& states = agenda.states();
+  const ProbeCounts& states = scheduler.states();
   const int live = store.probes() - states.off - states.sleeping;
   mean_light = learned_light(mean_light, now, count, static_cast<float>(live));
 }
@@ -141,8 +146,9 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
                                    UpdateStatistics& statistics) {
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
-      // What woke before it followed an edit holds the average of another light
-      if (records[probe].revision != world.revision()) forget_light(probe, world.revision());
+      // A probe that woke before it was brought up to date holds an average of the light before the
+      // edit
+      if (statuses[probe].revision != world.revision()) reset_history(probe, world.revision());
     }
   }
   if (device) return trace_on_device(world, groups, statistics);
@@ -153,48 +159,48 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
   }
   statistics.trace_ms += watch.lap();
 
-  const TracedProbes traced = shares_of(groups);
-  blend_in_distances(world.scene(), groups, traced.shares);
+  const TracedProbes traced = blend_weights_of(groups);
+  blend_in_distances(world.scene(), groups, traced.blend_weights);
   statistics.blend_ms += watch.lap();
 
   for (const TraceGroup& group : groups) {
     statistics.shadow_rays += shade_surfels(world, store, group, settings, traces);
   }
-  statistics.shadow_rays += look_across_cells(world, traced.probes);
+  statistics.shadow_rays += update_cell_visibility(world, traced.probes);
   statistics.shadow_rays += find_surfel_lookups(store, visibility(world), traced.probes, traces);
   statistics.shade_ms += watch.lap();
 
-  // Solve for all bounces, starting from the light that is there
+  // Solve for all bounces, starting from the light that the probes hold
   const TransportOperator to_these = transport(traced.probes);
   const WorkingIrradiance history = light_of(light, traced.probes, tile_texels());
-  const RelightResult solved =
+  const SolveResult solved =
       settings.max_bounces >= 0
-          ? relight_bounces(to_these, traced.shares, settings.max_bounces, light)
-          : relight(to_these, traced.shares, {}, relight_settings(), light);
-  remember_told(traced.probes, solved.solution);
-  statistics.relights += solved.iterations;
+          ? solve_counted_bounces(to_these, traced.blend_weights, settings.max_bounces, light)
+          : solve_bounces(to_these, traced.blend_weights, {}, solve_settings(), light);
+  store_last_estimates(traced.probes, solved.solution);
+  statistics.solve_iterations += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
   statistics.probes_traced += static_cast<int>(traced.probes.size());
-  statistics.relight_ms += watch.lap();
+  statistics.solve_ms += watch.lap();
 
-  book(world, traced, light_changes(traced.probes, history));
+  update_variability(world, traced, light_changes(traced.probes, history));
   store_light(traced.probes);
   statistics.blend_ms += watch.lap();
 }
 
-void IrradianceField::State::solve_start(UpdateStatistics& statistics) {
+void IrradianceField::State::solve_warm_up(UpdateStatistics& statistics) {
   Stopwatch watch;
   const std::vector<int> traced = traced_probes();
-  const std::vector<float> shares(traced.size(), 1.0f);
-  const RelightResult solved = solve(traced, shares, {}, relight_settings());
-  statistics.relights += solved.iterations;
+  const std::vector<float> blend_weights(traced.size(), 1.0f);
+  const SolveResult solved = solve(traced, blend_weights, {}, solve_settings());
+  statistics.solve_iterations += solved.iterations;
   statistics.residual = solved.error;
   statistics.change = solved.change;
-  remember_told(traced, solved.solution);
-  if (device) device->write_light(light, told);
+  store_last_estimates(traced, solved.solution);
+  if (device) device->write_light(light, last_irradiance_estimate);
   store_light(traced);
-  statistics.relight_ms += watch.lap();
+  statistics.solve_ms += watch.lap();
 }
 
 UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest& request) {
@@ -212,14 +218,14 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
 
   std::optional<vec3> viewer_ws = request.viewer_ws;
   if (viewer_ws && !is_finite(*viewer_ws)) viewer_ws.reset();
-  if (viewer_ws) statistics.probes_recycled = s.follow_viewer(world, *viewer_ws, statistics);
+  if (viewer_ws) statistics.probes_recycled = s.scroll_volumes(world, *viewer_ws, statistics);
   if (s.updates == 0) {
-    std::vector<int> all(s.records.size());
+    std::vector<int> all(s.statuses.size());
     std::iota(all.begin(), all.end(), 0);
-    s.place(world, all);
+    s.place_probes(world, all);
     s.placed_revision = world.revision();
   } else {
-    s.place_edited(world, statistics);
+    s.relocate_edited(world, statistics);
   }
   s.classify(world);
   statistics.place_ms = watch.lap();
@@ -227,37 +233,41 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   s.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
     s.fetch_store();
-    s.importance = s.device ? probe_importance(s.store, request.seen,
-                                               [&](std::span<const float> received, float least) {
-                                                 return s.device->send_back(received, least);
-                                               })
-                            : probe_importance(s.store, request.seen, s.traces);
+    s.importance = s.device
+                       ? probe_importance(s.store, request.seen,
+                                          [&](std::span<const float> received, float least) {
+                                            return s.device->scatter_importance(received, least);
+                                          })
+                       : probe_importance(s.store, request.seen, s.traces);
   }
-  const Followed followed = s.follow(world, budget, viewer_ws, statistics);
+  const EditProgress progress = s.apply_scene_edits(world, budget, viewer_ws, statistics);
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
-  // Probes that wait to be held against edits would lose sight of them were they traced before
+  // Tracing is put off while stale probes are left: new surfels could no longer be compared with
+  // those from before the edits
   const bool trace =
-      followed != Followed::some &&
-      (budget == 0 ? followed == Followed::nothing || s.followed_last : spent < budget);
-  s.followed_last = followed != Followed::nothing && !trace;
+      progress != EditProgress::partial &&
+      (budget == 0 ? progress == EditProgress::none || s.applied_edits_last : spent < budget);
+  s.applied_edits_last = progress != EditProgress::none && !trace;
   if (trace) {
     const auto update = static_cast<uint>(s.updates);
-    s.agenda.note(s.store, s.records);
+    s.scheduler.refresh(s.store, s.statuses);
     const Schedule schedule =
-        budget == 0 ? schedule_all(s.store, s.roles, s.records, s.settings, update)
-                    : s.agenda.within(s.store, budget - spent, update + 1, viewer_ws, s.importance);
+        budget == 0
+            ? schedule_all(s.store, s.roles, s.statuses, s.settings, update)
+            : s.scheduler.choose(s.store, budget - spent, update + 1, viewer_ws, s.importance);
     s.trace(world, group_by_rays(schedule, s.settings, update), statistics);
   }
-  s.agenda.note(s.store, s.records);
-  if (s.starting && s.agenda.unserved() == 0) {
-    // Probes that were traced while others knew no light have only seen a part of its bounces
-    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_start(statistics);
-    s.starting = false;
+  s.scheduler.refresh(s.store, s.statuses);
+  if (s.warming_up && s.scheduler.unserved() == 0) {
+    // Probes that were traced while others held no light yet have received a part of the bounces
+    // only
+    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);
+    s.warming_up = false;
   }
   ++s.updates;
-  statistics.states = s.agenda.states();
-  // What tracing a probe ray costs, its shadow rays and all else included
-  if (trace && followed == Followed::nothing) {
+  statistics.states = s.scheduler.states();
+  // Learn the cost of a probe ray, with its shadow rays and everything else included
+  if (trace && progress == EditProgress::none) {
     s.ray_cost.learn(statistics.probe_rays, statistics.place_ms + watch.lap());
   }
   return statistics;

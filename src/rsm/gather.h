@@ -29,7 +29,7 @@ struct GatherRow {
 inline constexpr int kWayPlanes = 3;
 
 /// Makes of a row's light and the ways to it light that can be blurred: kLightPlanes of two values.
-void make_relightable(const GatherRow& row);
+void make_reorientable(const GatherRow& row);
 
 /// Gives every pixel of a row the light of the same texels; they lie one after the other.
 void gather_contiguous(const GatherRow& row, std::span<const RsmTexel> texels);

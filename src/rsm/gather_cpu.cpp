@@ -7,7 +7,7 @@
 #include "rsm/geometry.h"
 #include "shared/color.h"
 #include "shared/packing.h"
-#include "shared/relight.h"
+#include "shared/reorient_irradiance.h"
 
 namespace lambent {
 namespace {
@@ -45,8 +45,8 @@ void gather_fetched(const GatherRow& row, int first, const float (*fields)[kLane
   kernel(row, first, fields, ways);
 }
 
-void make_relightable(const GatherRow& row) {
-  static const auto kernel = LAMBENT_BEST_LEVEL(relightable);
+void make_reorientable(const GatherRow& row) {
+  static const auto kernel = LAMBENT_BEST_LEVEL(reorientable);
   kernel(row);
 }
 

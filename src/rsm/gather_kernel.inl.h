@@ -187,8 +187,8 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   store_light(pixels, row, first, ways);
 }
 
-/// relighting (shared/relight.h), for lanes.
-static void relightable(const GatherRow& row) {
+/// reorientation() of shared/reorient_irradiance.h, for lanes.
+static void reorientable(const GatherRow& row) {
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes p;
     load_guide(p, row.guide, i);

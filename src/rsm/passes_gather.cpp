@@ -135,7 +135,7 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
                                   settings.visibility_rays, pixel + x, p, settings.seed);
       }
     }
-    if (row.ways.first != nullptr) make_relightable(row);
+    if (row.ways.first != nullptr) make_reorientable(row);
   });
   return rays;
 }
@@ -173,7 +173,7 @@ void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps
   }
   if (!blurred) return;
   for_each_row(mosaic, nothing,
-               [&](const RowOf& at, const Planes&) { make_relightable(row_at(at)); });
+               [&](const RowOf& at, const Planes&) { make_reorientable(row_at(at)); });
 }
 
 }  // namespace lambent

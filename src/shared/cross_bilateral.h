@@ -10,11 +10,11 @@
 LAMBENT_BEGIN
 
 /// Weight, 0 to 1, of a pixel for another one, whose light is relit for that one's normal
-/// (shared/relight.h). `offset` leads from the other one's point to its own; `inverse_tolerance` is
-/// one over the distance [1/m] from the other one's plane at which it counts for nothing. The
-/// plane, not depth alone: a floor seen at a grazing angle is one surface. The 16th power of the
-/// cosine halves the weight at 17 degrees: bumps count, other surfaces do not. Pixels that see
-/// nothing have a normal of 0 and count for nothing.
+/// (shared/reorient_irradiance.h). `offset` leads from the other one's point to its own;
+/// `inverse_tolerance` is one over the distance [1/m] from the other one's plane at which it counts
+/// for nothing. The plane, not depth alone: a floor seen at a grazing angle is one surface. The
+/// 16th power of the cosine halves the weight at 17 degrees: bumps count, other surfaces do not.
+/// Pixels that see nothing have a normal of 0 and count for nothing.
 LAMBENT_FN float relit_bilateral_weight(vec3 offset, vec3 normal, vec3 other_normal,
                                         float inverse_tolerance) {
   float cosine = max(0.0f, dot(normal, other_normal));

@@ -20,7 +20,7 @@ struct SeenView {
   std::vector<SeenPoint> points;
   float sky_share = 0.0f;
 };
-SeenView look_through(const World& world, const Camera& camera);
+SeenView pass_moving_surfaces(const World& world, const Camera& camera);
 
 /// How the light of a view's points comes about.
 struct ViewLight {

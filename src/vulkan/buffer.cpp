@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kLeastBytes = 16;
 // Uploads up to this size go where the device reads fast, if the host can write there: of such
 // memory there may be little.
-constexpr std::size_t kMostNearBytes = 1 << 20;
+constexpr std::size_t kMaxNearBytes = 1 << 20;
 // Fills and copies go by words.
 constexpr std::size_t kWord = 4;
 
@@ -30,7 +30,7 @@ std::uint32_t memory_type(const Device& device, std::uint32_t types, Memory memo
     wished = needed;
     if (memory == Memory::readback) wished |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     // Small things that kernels read again and again
-    if (memory == Memory::upload && bytes <= kMostNearBytes) {
+    if (memory == Memory::upload && bytes <= kMaxNearBytes) {
       wished |= VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     }
   }

@@ -18,7 +18,7 @@ using testing::run_program;
 // No more than a few seconds on a processor that plays a device.
 const std::string kSmall = " --size 32x24 --samples 1 --updates 1 --probes 3x3x3 --rays 32";
 // Where a ray grazes an edge, or a random decision is as close as rounding, single pixels differ.
-constexpr double kMostRelativeRmse = 0.01;
+constexpr double kMaxRelativeRmse = 0.01;
 
 /// Keeps Vulkan from finding any driver while it lives.
 class NoDriver {
@@ -76,7 +76,7 @@ TEST(VulkanBackend, PaintsWhatTheProcessorPaints) {
   const ProgramResult compared = run_program("compare " + ours + " " + theirs + " --json");
   ASSERT_EQ(compared.status, 0) << compared.errors;
   EXPECT_LT(nlohmann::json::parse(compared.output).at("relative_rmse").get<double>(),
-            kMostRelativeRmse);
+            kMaxRelativeRmse);
   const auto told = nlohmann::json::parse(std::ifstream(stats));
   EXPECT_EQ(told.at("backend"), "vulkan");
   EXPECT_FALSE(told.at("device").get<std::string>().empty());

@@ -163,16 +163,7 @@ TEST_F(FileSafety, AFullDiskIsAFailureThatLeavesNothing) {
 /// Starts the program, sends it a signal after a while, and returns how it ended.
 int interrupted(const std::vector<std::string>& arguments, int number,
                 std::chrono::microseconds after) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> argv = {const_cast<char*>(LAMBENT_PROGRAM)};
-    for (const std::string& argument : arguments) {
-      argv.push_back(const_cast<char*>(argument.c_str()));
-    }
-    argv.push_back(nullptr);
-    execv(LAMBENT_PROGRAM, argv.data());
-    _exit(127);
-  }
+  const pid_t child = testing::start_program(arguments);
   std::this_thread::sleep_for(after);
   kill(child, number);
   int status = -1;

@@ -49,16 +49,7 @@ class LargeWork : public ::testing::Test {
 
 /// Runs the program and returns the most memory that it had [bytes]; 0 where it failed.
 std::uint64_t peak_of(const std::vector<std::string>& arguments) {
-  const pid_t child = fork();
-  if (child == 0) {
-    std::vector<char*> argv = {const_cast<char*>(LAMBENT_PROGRAM)};
-    for (const std::string& argument : arguments) {
-      argv.push_back(const_cast<char*>(argument.c_str()));
-    }
-    argv.push_back(nullptr);
-    execv(LAMBENT_PROGRAM, argv.data());
-    _exit(127);
-  }
+  const pid_t child = testing::start_program(arguments);
   int status = -1;
   rusage use{};
   wait4(child, &status, 0, &use);

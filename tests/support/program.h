@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "support/temporary_directory.h"
 
@@ -38,6 +40,21 @@ inline ProgramResult run_program(const std::string& arguments, const std::string
   std::ifstream file(errors);
   result.errors.assign(std::istreambuf_iterator<char>(file), {});
   return result;
+}
+
+/// Starts `lambent` with these arguments and goes on beside it.
+inline pid_t start_program(const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char*> argv = {const_cast<char*>(LAMBENT_PROGRAM)};
+    for (const std::string& argument : arguments) {
+      argv.push_back(const_cast<char*>(argument.c_str()));
+    }
+    argv.push_back(nullptr);
+    execv(LAMBENT_PROGRAM, argv.data());
+    _exit(127);
+  }
+  return child;
 }
 
 }  // namespace lambent::testing

@@ -42,7 +42,7 @@ inline ProbeStore walked_store(const FieldSettings& settings) {
     grids.push_back(volume.grid);
     if (!volume.role.follows_viewer) continue;
     for (const vec3& viewer : {vec3(1.0f, 1.0f, 1.0f), vec3(-0.7f, 1.9f, 0.8f)}) {
-      grids.back() = following(grids.back(), viewer);
+      grids.back() = scrolled(grids.back(), viewer);
     }
   }
   ProbeStore store(grids, settings);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looking a field up on a device, against the processor's lookup of the same store.
 #include "field/lookup/lookup_volumes.h"
-#include "field/vulkan/device_field.h"
+#include "field/vulkan/field_resources.h"
 #include "support/random_store.h"
 #include "support/vulkan_device.h"
 #include "twin/field_update_cpu.h"
@@ -24,7 +24,7 @@ TEST_P(FieldLookup, AnswersAsTheProcessorDoes) {
   settings.distance_format = GetParam().distance;
   ProbeStore store(test::grids_for(settings, stage.bounds()), settings);
   test::fill_randomly(store);
-  const DeviceField field(device(), settings, store);
+  const FieldResources field(device(), settings, store);
   RandomStream random = make_random_stream(1, 2, 3);
   std::vector<FieldQuery> queries(3000);
   for (FieldQuery& query : queries) {

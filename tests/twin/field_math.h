@@ -64,7 +64,7 @@ LAMBENT_FN FieldMathResult field_math(vec4 a, vec4 b, vec4 c, vec4 d) {
   ivec2 gutter = gutter_texel(int(b.y * 36.0f), 8);
   r.number[4] = float(gutter.x);
   r.number[5] = float(gutter.y);
-  r.number[6] = float(stands_in_matter(int(b.z * 20.0f), 40));
+  r.number[6] = float(is_inside_geometry(int(b.z * 20.0f), 40));
   r.number[7] = counted_distance(3.0f * b.w, a.x < 0.5f ? 1u : 0u, 2.0f);
   vec3 dither = irradiance_dither(uint(a.x * 1000.0f), 7u);
   r.number[8] = dither.x;
@@ -72,21 +72,21 @@ LAMBENT_FN FieldMathResult field_math(vec4 a, vec4 b, vec4 c, vec4 d) {
   r.number[10] = dither.z;
 
   r.number[11] = quotient.high;
-  vec3 shares = step_shares(some_products(vec3(a), vec3(b), vec3(c), vec3(d)), 3);
-  r.number[12] = shares.x;
-  r.number[13] = shares.y;
-  r.number[14] = shares.z;
-  r.number[15] = blend_weight(normalize(vec3(a)), normalize(vec3(b)), 1.0f);
-  r.number[16] = blend_weight(normalize(vec3(c)), normalize(vec3(d)), kDistanceExponent);
+  vec3 coefficients = step_coefficients(some_products(vec3(a), vec3(b), vec3(c), vec3(d)), 3);
+  r.number[12] = coefficients.x;
+  r.number[13] = coefficients.y;
+  r.number[14] = coefficients.z;
+  r.number[15] = ray_weight(normalize(vec3(a)), normalize(vec3(b)), 1.0f);
+  r.number[16] = ray_weight(normalize(vec3(c)), normalize(vec3(d)), kDistanceExponent);
   r.number[17] = remaining_error(0.9f * c.w, d.w, a.x * a.x, 1.0f + b.x);
   KnownNoise known = {2.0f * a.x, uint(40.0f * a.y)};
   known = learned_noise(known, 3.0f * a.z, 0.2f + a.w, b.x < 0.1f ? 0.0f : 20.0f * b.y);
   r.number[18] = known.noise;
   r.number[19] = float(known.samples);
-  r.number[20] = told_square(c.x, c.y, 0.05f + c.z, c.w < 0.1f ? 0.0f : 3.0f * c.w);
+  r.number[20] = estimate_relative_square(c.x, c.y, 0.05f + c.z, c.w < 0.1f ? 0.0f : 3.0f * c.w);
   r.number[21] = learned_light(d.x, d.y, 64.0f * d.z, 100.0f * d.w);
-  r.number[22] = noise_gain(probe_noise(0.2f * a.x, 0.2f * b.x), 30.0f * c.x, 25.0f);
-  r.number[23] = gain_per_noise(d.z);
+  r.number[22] = error_reduction(probe_noise(0.2f * a.x, 0.2f * b.x), 30.0f * c.x, 25.0f);
+  r.number[23] = error_reduction_per_noise(d.z);
   return r;
 }
 

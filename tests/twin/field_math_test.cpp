@@ -56,10 +56,11 @@ TEST(Wide, KeepsTwiceTheDigits) {
 TEST(AndersonMath, TakesStepsBackSoThatNothingIsLeft) {
   // The residual is a sum of the steps' changes: their shares are its coefficients
   const vec3 a(1.0f, 0.2f, 0.1f), b(0.3f, -1.0f, 0.4f), c(0.2f, 0.5f, 0.9f);
-  const vec3 shares = step_shares(some_products(a, b, c, 0.5f * a - 2.0f * b + 0.25f * c), 3);
-  EXPECT_NEAR(shares.x, 0.5f, 1e-5f);
-  EXPECT_NEAR(shares.y, -2.0f, 1e-5f);
-  EXPECT_NEAR(shares.z, 0.25f, 1e-5f);
+  const vec3 coefficients =
+      step_coefficients(some_products(a, b, c, 0.5f * a - 2.0f * b + 0.25f * c), 3);
+  EXPECT_NEAR(coefficients.x, 0.5f, 1e-5f);
+  EXPECT_NEAR(coefficients.y, -2.0f, 1e-5f);
+  EXPECT_NEAR(coefficients.z, 0.25f, 1e-5f);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ const UpdateOnCpu& cascades() {
 class FieldPasses : public test::OnDevice {
  protected:
   /// The device's field as the processor's is once all passes but the solve are done.
-  static DeviceField put(const UpdateOnCpu& update) {
-    DeviceField field(device(), update.settings, update.store);
+  static FieldResources put(const UpdateOnCpu& update) {
+    FieldResources field(device(), update.settings, update.store);
     field.write_surfels(update.all, update.traces);
     return field;
   }
@@ -66,7 +66,7 @@ class FieldPasses : public test::OnDevice {
 
 TEST_F(FieldPasses, RaysLeaveProbesWhereTheyStand) {
   const UpdateOnCpu& update = cascades();
-  DeviceField field = put(update);
+  FieldResources field = put(update);
   const TraceGroup& group = update.groups[1];
   const DeviceProbes list = field.list(group.probes);
   const std::size_t rays = group.rays->rays();
@@ -117,12 +117,13 @@ TEST_F(FieldPasses, DistancesAreBlendedAsOnTheProcessor) {
     FieldSettings settings = few_probes();
     settings.distance_format = format;
     const UpdateOnCpu update(cornell(), settings);
-    DeviceField field = put(update);
+    FieldResources field = put(update);
     field.write_store(update.before);
     const DeviceProbes list = field.list(update.all);
     field.reserve_seen(list);
-    const std::vector<float> shares(update.all.size(), UpdateOnCpu::kShare);
-    const vulkan::Buffer share_buffer = vulkan::upload(device(), shares, "shares");
+    const std::vector<float> blend_weights(update.all.size(), UpdateOnCpu::kShare);
+    const vulkan::Buffer blend_weight_buffer =
+        vulkan::upload(device(), blend_weights, "blend_weights");
     std::vector<vulkan::Buffer> hits;
     int first = 0;
     for (const TraceGroup& group : update.groups) {
@@ -138,7 +139,7 @@ TEST_F(FieldPasses, DistancesAreBlendedAsOnTheProcessor) {
       first += part.count;
     }
     device().run([&](vulkan::Recorder& to) {
-      field.record_blend_distances(to, list, {share_buffer.address()}, UpdateOnCpu::kSalt);
+      field.record_blend_distances(to, list, {blend_weight_buffer.address()}, UpdateOnCpu::kSalt);
     });
     ProbeStore blended = update.before;
     field.read_store(blended);
@@ -146,7 +147,7 @@ TEST_F(FieldPasses, DistancesAreBlendedAsOnTheProcessor) {
   }
 }
 
-void expect_like_lookups(const UpdateOnCpu& update, const DeviceField& field) {
+void expect_like_lookups(const UpdateOnCpu& update, const FieldResources& field) {
   std::size_t further = 0;
   for (const int probe : update.all) {
     const ProbeTrace& trace = update.traces[probe];
@@ -187,7 +188,7 @@ void expect_like_lookups(const UpdateOnCpu& update, const DeviceField& field) {
 
 TEST_F(FieldPasses, SurfelsReadTheFieldAsOnTheProcessor) {
   for (const UpdateOnCpu* update : {&one_volume(), &cascades()}) {
-    DeviceField field = put(*update);
+    FieldResources field = put(*update);
     const DeviceProbes list = field.list(update->all);
     device().run([&](vulkan::Recorder& to) { field.record_lookups(to, list); });
     expect_like_lookups(*update, field);
@@ -196,7 +197,7 @@ TEST_F(FieldPasses, SurfelsReadTheFieldAsOnTheProcessor) {
 
 TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
   for (const UpdateOnCpu* update : {&one_volume(), &cascades()}) {
-    DeviceField field = put(*update);
+    FieldResources field = put(*update);
     const DeviceProbes list = field.list(update->all);
     field.reserve_transport(list);
     WorkingIrradiance light = update->darkness(), expected = light;
@@ -225,20 +226,22 @@ TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
 
 TEST_F(FieldPasses, ASolveComesToWhatTheProcessorsDoes) {
   for (const UpdateOnCpu* update : {&one_volume(), &cascades()}) {
-    DeviceField field = put(*update);
+    FieldResources field = put(*update);
     DeviceSolver solver(field);
     const DeviceProbes list = field.list(update->all);
     solver.reserve(list);
-    const RelightSettings settings{0.95f, 1e-5f, 24};
-    for (const float share : {1.0f, 0.3f}) {
+    const SolveSettings settings{0.95f, 1e-5f, 24};
+    for (const float blend_weight : {1.0f, 0.3f}) {
       WorkingIrradiance expected = update->darkness();
       update->transport().apply_direct(expected, expected);
       vulkan::write<vec4>(device(), expected, field.light());
-      const std::vector<float> shares(update->all.size(), share);
-      const RelightResult there = relight(update->transport(), shares, {}, settings, expected);
-      const vulkan::Buffer share_buffer = vulkan::upload(device(), shares, "shares");
+      const std::vector<float> blend_weights(update->all.size(), blend_weight);
+      const SolveResult there =
+          solve_bounces(update->transport(), blend_weights, {}, settings, expected);
+      const vulkan::Buffer blend_weight_buffer =
+          vulkan::upload(device(), blend_weights, "blend_weights");
       device().run([&](vulkan::Recorder& to) {
-        solver.record(to, list, share_buffer, share, {}, settings);
+        solver.record(to, list, blend_weight_buffer, blend_weight, {}, settings);
       });
       const DeviceSolve here = solver.result();
       EXPECT_NEAR(here.iterations, there.iterations, 1);
@@ -249,26 +252,27 @@ TEST_F(FieldPasses, ASolveComesToWhatTheProcessorsDoes) {
       EXPECT_LE(relative_distance(solved, expected), 2.0 * settings.tolerance);
       const WorkingIrradiance solution =
           in_order(list, download_light(solver.solution(), expected.size()), update->tile_texels());
-      EXPECT_LE(relative_distance(solution, there.solution), 2.0 * settings.tolerance / share);
+      EXPECT_LE(relative_distance(solution, there.solution),
+                2.0 * settings.tolerance / blend_weight);
     }
   }
 }
 
 TEST_F(FieldPasses, ASolveStopsAtTheIterationsItIsGiven) {
   const UpdateOnCpu& update = one_volume();
-  DeviceField field = put(update);
+  FieldResources field = put(update);
   DeviceSolver solver(field);
   const DeviceProbes list = field.list(update.all);
   solver.reserve(list);
-  const vulkan::Buffer shares =
-      vulkan::upload(device(), std::vector<float>(update.all.size(), 1.0f), "shares");
+  const vulkan::Buffer blend_weights =
+      vulkan::upload(device(), std::vector<float>(update.all.size(), 1.0f), "blend_weights");
   WorkingIrradiance plain = update.darkness(), next = plain;
   for (int i = 0; i < 2; ++i) {
     update.transport().apply(plain, update.darkness(), next);
     plain.swap(next);
   }
   device().run([&](vulkan::Recorder& to) {
-    solver.record(to, list, shares, 1.0f, {}, {0.95f, 1e-7f, 2});
+    solver.record(to, list, blend_weights, 1.0f, {}, {0.95f, 1e-7f, 2});
   });
   EXPECT_EQ(solver.result().iterations, 2);
   // Two iterations have nothing to look back on
@@ -279,17 +283,19 @@ TEST_F(FieldPasses, ASolveStopsAtTheIterationsItIsGiven) {
 
 TEST_F(FieldPasses, BouncesAreCountedAsOnTheProcessor) {
   const UpdateOnCpu& update = one_volume();
-  DeviceField field = put(update);
+  FieldResources field = put(update);
   DeviceSolver solver(field);
   const DeviceProbes list = field.list(update.all);
   solver.reserve(list);
-  const std::vector<float> shares(update.all.size(), 0.6f);
-  const vulkan::Buffer share_buffer = vulkan::upload(device(), shares, "shares");
+  const std::vector<float> blend_weights(update.all.size(), 0.6f);
+  const vulkan::Buffer blend_weight_buffer =
+      vulkan::upload(device(), blend_weights, "blend_weights");
   WorkingIrradiance expected = update.darkness();
   update.transport().apply_direct(expected, expected);
   vulkan::write<vec4>(device(), expected, field.light());
-  relight_bounces(update.transport(), shares, 3, expected);
-  device().run([&](vulkan::Recorder& to) { solver.record_bounces(to, list, share_buffer, 3); });
+  solve_counted_bounces(update.transport(), blend_weights, 3, expected);
+  device().run(
+      [&](vulkan::Recorder& to) { solver.record_bounces(to, list, blend_weight_buffer, 3); });
   EXPECT_LE(relative_distance(download_light(field.light(), expected.size()), expected), 1e-5);
 }
 
@@ -299,7 +305,7 @@ TEST_F(FieldPasses, LightIsStoredAsOnTheProcessor) {
     FieldSettings settings = few_probes();
     settings.irradiance_format = format;
     ProbeStore store(test::grids_for(settings, cornell().bounds()), settings);
-    DeviceField field(device(), settings, store);
+    FieldResources field(device(), settings, store);
     RandomStream random = make_random_stream(5, 6, 7);
     WorkingIrradiance light(static_cast<std::size_t>(store.probes()) * field.tile_texels());
     for (vec4& texel : light) {
@@ -335,7 +341,7 @@ TEST_F(FieldPasses, LightIsStoredAsOnTheProcessor) {
 
 TEST_F(FieldPasses, ChangesOfLightAreMeasuredAsOnTheProcessor) {
   const UpdateOnCpu& update = one_volume();
-  DeviceField field = put(update);
+  FieldResources field = put(update);
   const DeviceProbes list = field.list(update.all);
   WorkingIrradiance now = update.darkness(), before = now;
   update.transport().apply_direct(before, before);

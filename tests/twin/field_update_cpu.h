@@ -10,8 +10,8 @@
 #include "field/probes/tile_light.h"
 #include "field/probes/volumes.h"
 #include "field/transport/distances.h"
-#include "field/transport/relight.h"
-#include "field/vulkan/device_field.h"
+#include "field/transport/solve_bounces.h"
+#include "field/vulkan/field_resources.h"
 #include "support/field_scenes.h"
 
 namespace lambent::test {

@@ -35,7 +35,7 @@ inline FieldSettings recorded_settings() {
   return settings;
 }
 
-inline RayResult told_of(const Ray& ray, const Hit& hit, const ShadedHit& shaded) {
+inline RayResult ray_result(const Ray& ray, const Hit& hit, const ShadedHit& shaded) {
   if (hit.missed()) return ray_left(shaded.sky_radiance);
   if (!shaded.counts) return ray_met_back_face(hit.distance, shaded.geometric_normal_ws);
   return ray_met_surface(length(shaded.position_ws - ray.origin), shaded.normal_ws,
@@ -90,7 +90,7 @@ class RecordedFieldTest : public OnDevice {
                  first_ray_index(static_cast<int>(k)), scratch, {&shaded[k * each], each});
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      results.as<RayResult>()[i] = told_of(rays[i], hits[i], shaded[i]);
+      results.as<RayResult>()[i] = ray_result(rays[i], hits[i], shaded[i]);
     }
     device().run([&](vulkan::Recorder& to) {
       copy(to, range(results), field.results());

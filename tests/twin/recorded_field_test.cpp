@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 
@@ -27,7 +27,7 @@ TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const auto states = download<uint>(field.states());
   int off = 0;
   for (std::size_t probe = 0; probe < states.size(); ++probe) {
-    EXPECT_EQ(states[probe] == kProbeOff, on_cpu.records()[probe].state == ProbeState::off);
+    EXPECT_EQ(states[probe] == kProbeOff, on_cpu.probe_statuses()[probe].state == ProbeState::off);
     off += states[probe] == kProbeOff ? 1 : 0;
   }
   EXPECT_GT(off, 0);
@@ -71,7 +71,7 @@ TEST_F(RecordedFieldTest, MovesProbesAtTheStartAndThenLeavesThem) {
 
 TEST_F(RecordedFieldTest, ForgetsWhatItIsToldTo) {
   FieldSettings settings = recorded_settings();
-  settings.relight_tolerance = 1e-5f;
+  settings.solve_tolerance = 1e-5f;
   RecordedField field = make(settings, {});
   for (int i = 0; i < 3; ++i) update(field);
   update(field, {.history = 0.0f});
@@ -104,47 +104,47 @@ TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   EXPECT_TRUE(refused(settings, {}));
 }
 
-TEST(TurnPlan, ServesEachProbeOnceARound) {
+TEST(BatchPlan, ServesEachProbeOnceARound) {
   RecordedFieldSettings recorded;
   recorded.probes_per_update = 30;
   recorded.placing_updates = 3;
-  vulkan::TurnPlan plan(FieldSettings{}, recorded, 100);
+  vulkan::BatchPlan plan(FieldSettings{}, recorded, 100);
   for (int round = 0; round < 5; ++round) {
     int next = 0;
     for (int i = 0; i < 4; ++i) {
-      const vulkan::Turn turn = plan.next({});
-      EXPECT_EQ(turn.first, next);
-      next += turn.count;
+      const vulkan::ProbeBatch batch = plan.next({});
+      EXPECT_EQ(batch.first, next);
+      next += batch.count;
       const uint place[] = {kPlaceFirstStep, kPlaceStep, kPlaceEnd, kPlaceLeave, kPlaceLeave};
-      EXPECT_EQ(turn.place, place[round]);
-      EXPECT_EQ(turn.starts_anew, round < 2);
-      EXPECT_FLOAT_EQ(turn.largest_share, round < 4 ? 1.0f : 0.5f);
+      EXPECT_EQ(batch.place, place[round]);
+      EXPECT_EQ(batch.discards_history, round < 2);
+      EXPECT_FLOAT_EQ(batch.largest_blend_weight, round < 4 ? 1.0f : 0.5f);
     }
     EXPECT_EQ(next, 100);
   }
 }
 
-TEST(TurnPlan, LeavesItToTheDeviceOnceRoundsAreOver) {
+TEST(BatchPlan, LeavesItToTheDeviceOnceRoundsAreOver) {
   const FieldSettings settings;
   RecordedFieldSettings recorded;
   recorded.rays_per_update = 30 * settings.rays_per_probe;
   recorded.placing_updates = 3;
-  vulkan::TurnPlan plan(settings, recorded, 100);
+  vulkan::BatchPlan plan(settings, recorded, 100);
   EXPECT_EQ(plan.most_probes(), 24);
   const auto expect_rounds = [&](int rounds) {
     for (int i = 0; i < rounds * 5; ++i) {
-      const vulkan::Turn turn = plan.next({});
-      EXPECT_FALSE(turn.on_device);
-      EXPECT_EQ(turn.first, 24 * (i % 5));
-      EXPECT_EQ(turn.count, i % 5 == 4 ? 4 : 24);
+      const vulkan::ProbeBatch batch = plan.next({});
+      EXPECT_FALSE(batch.on_device);
+      EXPECT_EQ(batch.first, 24 * (i % 5));
+      EXPECT_EQ(batch.count, i % 5 == 4 ? 4 : 24);
     }
   };
   const auto expect_device = [&] {
-    const vulkan::Turn turn = plan.next({});
-    EXPECT_TRUE(turn.on_device);
-    EXPECT_EQ(turn.count, 24);
-    EXPECT_EQ(turn.place, kPlaceLeave);
-    EXPECT_FALSE(turn.starts_anew);
+    const vulkan::ProbeBatch batch = plan.next({});
+    EXPECT_TRUE(batch.on_device);
+    EXPECT_EQ(batch.count, 24);
+    EXPECT_EQ(batch.place, kPlaceLeave);
+    EXPECT_FALSE(batch.discards_history);
   };
   expect_rounds(3);
   for (int i = 0; i < 20; ++i) expect_device();

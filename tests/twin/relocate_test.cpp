@@ -20,7 +20,7 @@ using vulkan::Buffer, vulkan::Memory;
 // Steps of stored offsets that rounding may move one by, and the share of probes that it may make
 // decide otherwise: for another one of two surfaces as near, say.
 constexpr int kOffsetTolerance = 1;
-constexpr double kMostOtherwise = 0.02;
+constexpr double kMaxOtherwise = 0.02;
 
 /// Boxes strewn through each other: all kinds of corners, and probes in solid matter.
 Scene clutter() {
@@ -34,11 +34,11 @@ Scene clutter() {
   return test::scene_of(std::move(boxes));
 }
 
-RayResult told_of(const Sight& sight, const mat3& axes) {
-  if (missed(sight)) return ray_left(vec3(0.0f));
-  const vec3 normal = axes * sight.normal;
-  if (sight.back_face != 0) return ray_met_back_face(sight.distance, normal);
-  return ray_met_surface(sight.distance, normal, normal, vec3(0.5f), vec3(0.0f), vec3(0.0f));
+RayResult ray_result(const FixedRayHit& hit, const mat3& axes) {
+  if (missed(hit)) return ray_left(vec3(0.0f));
+  const vec3 normal = axes * hit.normal;
+  if (hit.back_face != 0) return ray_met_back_face(hit.distance, normal);
+  return ray_met_surface(hit.distance, normal, normal, vec3(0.5f), vec3(0.0f), vec3(0.0f));
 }
 
 /// Probes on both sides.
@@ -71,7 +71,7 @@ class Relocated {
                                          {rays_.address()},
                                          {results_.address()},
                                          static_cast<int>(probes_),
-                                         static_cast<int>(sight_directions().size()),
+                                         static_cast<int>(fixed_ray_directions().size()),
                                          place,
                                          1u};
     device_.run([&](vulkan::Recorder& to) {
@@ -88,7 +88,7 @@ class Relocated {
   int in_matter() const { return in_matter_; }
 
  private:
-  std::size_t rays() const { return probes_ * sight_directions().size(); }
+  std::size_t rays() const { return probes_ * fixed_ray_directions().size(); }
 
   /// A grid askew, so that frames matter.
   static ProbeGrid grid() {
@@ -102,33 +102,34 @@ class Relocated {
     for (std::size_t k = 0; k < probes_; ++k) {
       viewpoints.push_back({store_.probe_position_ws(static_cast<int>(k)), store_.grid(0).axes});
     }
-    sights_.resize(rays());
-    look_around(stage_.scene, stage_.world.tracer(), viewpoints, {}, sights_);
-    const std::span<const vec3> directions = sight_directions();
+    fixed_hits_.resize(rays());
+    trace_fixed_rays(stage_.scene, stage_.world.tracer(), viewpoints, {}, fixed_hits_);
+    const std::span<const vec3> directions = fixed_ray_directions();
     for (std::size_t i = 0; i < rays(); ++i) {
       rays_.as<RayRecord>()[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,
                                   directions[i % directions.size()], 1.0f, kRayMeetsAll};
-      results_.as<RayResult>()[i] = told_of(sights_[i], store_.grid(0).axes);
+      results_.as<RayResult>()[i] = ray_result(fixed_hits_[i], store_.grid(0).axes);
     }
   }
 
   /// Whether a probe's step comes out as the device's. The device's goes on from the processor's.
   bool step_on_cpu(std::size_t k, uint place) {
     const auto probe = static_cast<int>(k);
-    const std::size_t n = sight_directions().size();
-    const std::span<const Sight> around(&sights_[k * n], n);
+    const std::size_t n = fixed_ray_directions().size();
+    const std::span<const FixedRayHit> around(&fixed_hits_[k * n], n);
     ProbeStanding& standing = standing_.as<ProbeStanding>()[k];
     const vec3 spacing = store_.grid(0).spacing, offset = store_.probe_offset(probe);
-    ProbeWalk& walk = walks_[k];
-    if (place == kPlaceFirstStep) walk = begin_walk(offset);
-    const uint blocked = in_solid_matter(around) ? 1u : 0u;
-    if (walk.at_rest == 0) {
+    RelocationState& relocation = relocations_[k];
+    if (place == kPlaceFirstStep) relocation = begin_relocation(offset);
+    const uint blocked = inside_geometry(around) ? 1u : 0u;
+    if (relocation.converged == 0) {
       const vec3 position = offset * spacing;
       const vec3 better = better_position(around, position, vec3(0.0f), spacing);
       const float margin = kSurfaceMargin * smallest_spacing(store_.grid(0));
-      const float unrest = probe_unrest(position, better, margin, blocked);
-      vec3 next = step_walk(walk, offset, better == position ? offset : better / spacing, unrest);
-      if (place == kPlaceEnd) next = walk.best;
+      const float cost = placement_cost(position, better, margin, blocked);
+      vec3 next =
+          relocation_step(relocation, offset, better == position ? offset : better / spacing, cost);
+      if (place == kPlaceEnd) next = relocation.best;
       store_.set_probe_offset(probe, next);
     }
     const bool has_moved = store_.probe_offset(probe) != offset;
@@ -139,7 +140,7 @@ class Relocated {
     same = same && (standing.samples == 0.0f) == has_moved;
     moved_ += has_moved ? 1 : 0;
     in_matter_ += blocked != 0 ? 1 : 0;
-    standing = {1.0f, store_.offset_words()[k], walk};
+    standing = {1.0f, store_.offset_words()[k], relocation};
     return same;
   }
 
@@ -150,8 +151,8 @@ class Relocated {
   std::size_t probes_;
   vulkan::RecordedKernels kernels_;
   Buffer grids_, standing_, states_, list_, rays_, results_;
-  std::vector<Sight> sights_;
-  std::vector<ProbeWalk> walks_ = std::vector<ProbeWalk>(probes_);
+  std::vector<FixedRayHit> fixed_hits_;
+  std::vector<RelocationState> relocations_ = std::vector<RelocationState>(probes_);
   int moved_ = 0, in_matter_ = 0;
 };
 
@@ -165,7 +166,7 @@ TEST_F(RelocationKernel, HasProbesStandWhereTheProcessorDoes) {
     otherwise += probes.step(place);
     ++steps;
   }
-  EXPECT_LE(otherwise, kMostOtherwise * static_cast<double>(probes.probes()) * steps);
+  EXPECT_LE(otherwise, kMaxOtherwise * static_cast<double>(probes.probes()) * steps);
   EXPECT_GT(probes.moved(), 50);
   EXPECT_GT(probes.in_matter(), 10);
 }

@@ -12,7 +12,7 @@
 #include "shared/cross_bilateral.h"
 #include "shared/packing.h"
 #include "shared/random.h"
-#include "shared/relight.h"
+#include "shared/reorient_irradiance.h"
 #include "shared/sampling.h"
 
 LAMBENT_BEGIN
@@ -129,9 +129,9 @@ LAMBENT_FN void call_gather(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   tell(to, sum.light);
   tell(to, sum.ways);
   float light = 0.1f + luminance(a.texel.flux);
-  vec3 means = relighting(sight.to_texel, a.normal_ws, light);
+  vec3 means = reorientation(sight.to_texel, a.normal_ws, light);
   tell(to, means);
-  tell(to, relit_share(means, a.other_normal_ws, light));
+  tell(to, reoriented_fraction(means, a.other_normal_ws, light));
   vec3 offset = 0.1f * (a.texel.flux - vec3(0.5f));
   tell(to, relit_bilateral_weight(offset, a.normal_ws, a.other_normal_ws, 5.0f * a.number));
   tell(to, cross_bilateral_weight(offset, a.normal_ws, a.other_normal_ws, 5.0f * a.number));

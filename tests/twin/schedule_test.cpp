@@ -43,7 +43,7 @@ struct Crowd {
     const bool off = states[probe] == kProbeOff;
     if (off) {
       const bool looked_at = look && waits_too_long(own.served, kUpdate + 1);
-      return looked_at ? worth_bin(0.0f, own.served, kUpdate + 1) : kNoPartBin;
+      return looked_at ? priority_bin(0.0f, own.served, kUpdate + 1) : kNoPartBin;
     }
     const ProbeGrid& grid = store.grid_of(probe);
     float sum = own.known.noise;
@@ -56,9 +56,10 @@ struct Crowd {
     }
     const float noise = probe_noise(own.known.noise, sum / static_cast<float>(count));
     const float samples = standing[probe].samples;
-    float gain = noise_gain(noise, samples, longest_average(settings));
-    if (gain > 0.0f) gain = max(gain, kLeastNoise * kMeanNoise * gain_per_noise(samples));
-    return worth_bin(gain, own.served, kUpdate + 1);
+    float reduction = error_reduction(noise, samples, longest_average(settings));
+    if (reduction > 0.0f)
+      reduction = max(reduction, kMinNoiseOfMean * kMeanNoise * error_reduction_per_noise(samples));
+    return priority_bin(reduction, own.served, kUpdate + 1);
   }
 
   FieldSettings settings;
@@ -84,7 +85,7 @@ class DeviceScheduleTest : public test::OnDevice {
     std::vector<ProbeBlock> blocks;
   };
   static Chosen choose(const Crowd& crowd, int most, bool look) {
-    const DeviceField field(device(), crowd.settings, crowd.store);
+    const FieldResources field(device(), crowd.settings, crowd.store);
     DeviceSchedule schedule(field, most, crowd.settings.rays_per_probe);
     const Buffer standing = vulkan::upload(device(), crowd.standing, "standing");
     const Buffer states = vulkan::upload(device(), crowd.states, "states");
@@ -123,7 +124,7 @@ TEST_F(DeviceScheduleTest, ChoosesWhatAPlainSortChooses) {
     std::stable_sort(order.begin(), order.end(),
                      [&](int a, int b) { return chosen.bins[a] > chosen.bins[b]; });
     const auto wanting = std::count_if(chosen.bins.begin(), chosen.bins.end(),
-                                       [](uint bin) { return bin >= kFirstGainBin; });
+                                       [](uint bin) { return bin >= kFirstReductionBin; });
     const int count = std::min(static_cast<int>((wanting + 7) / 8 * 8), most);
     order.resize(count);
     std::sort(order.begin(), order.end());
@@ -135,7 +136,7 @@ TEST_F(DeviceScheduleTest, SizesTheKernelsThatFollow) {
   const Crowd crowd(many_probes());
   const int most = 400;
   const Chosen chosen = choose(crowd, most, false);
-  const DeviceField field(device(), crowd.settings, crowd.store);
+  const FieldResources field(device(), crowd.settings, crowd.store);
   DeviceProbes same;
   same.probes = chosen.probes;
   same.most_rays = crowd.settings.rays_per_probe;
@@ -167,7 +168,7 @@ TEST_F(DeviceScheduleTest, LetsAllRestWhereAllAreSettled) {
 TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
   const FieldSettings settings = many_probes();
   const Crowd crowd(settings);
-  const DeviceField field(device(), settings, crowd.store);
+  const FieldResources field(device(), settings, crowd.store);
   const std::size_t texels = field.tile_texels();
   DeviceSchedule schedule(field, 696, settings.rays_per_probe);
   DeviceProbes list;
@@ -184,10 +185,12 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
   };
   fill(light);
   fill(before);
-  std::vector<float> shares;
+  std::vector<float> blend_weights;
   for (int k = 0; k < list.count(); ++k) {
     // Some rest, some held nothing
-    shares.push_back(k % 10 == 0 ? 0.0f : k % 10 == 1 ? 1.0f : 0.05f + 0.4f * next_uniform(random));
+    blend_weights.push_back(k % 10 == 0   ? 0.0f
+                            : k % 10 == 1 ? 1.0f
+                                          : 0.05f + 0.4f * next_uniform(random));
   }
   constexpr float kMeanLight = 0.3f;
   ScheduleState state{};
@@ -196,10 +199,11 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
   vulkan::write<vec4>(device(), light, field.light());
   vulkan::write<ProbeService>(device(), crowd.service, schedule.service());
   vulkan::write<ScheduleState>(device(), std::span(&state, 1), schedule.state());
-  const Buffer share_buffer = vulkan::upload(device(), shares, "shares");
+  const Buffer blend_weight_buffer = vulkan::upload(device(), blend_weights, "blend_weights");
   const Buffer before_buffer = vulkan::upload<vec4>(device(), before, "before");
   device().run([&](vulkan::Recorder& to) {
-    schedule.record_book(to, list, {share_buffer.address()}, {before_buffer.address()}, kUpdate);
+    schedule.record_update_variability(to, list, {blend_weight_buffer.address()},
+                                       {before_buffer.address()}, kUpdate);
   });
   const auto booked = vulkan::download<ProbeService>(device(), schedule.service());
   const auto after = vulkan::download<ScheduleState>(device(), schedule.state()).front();
@@ -207,17 +211,18 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
   std::vector<ProbeService> expected = crowd.service;
   float sum = 0.0f, count = 0.0f;
   for (int k = 0; k < list.count(); ++k) {
-    if (shares[k] == 0.0f) continue;
+    if (blend_weights[k] == 0.0f) continue;
     ProbeService& service = expected[list.probes[k]];
     const TileLight now(&light[list.probes[k] * texels], texels), was(&before[k * texels], texels);
     sum += mean_luminance(now);
     count += 1.0f;
-    ProbeRecord record;
+    ProbeStatus record;
     record.noise = service.known.noise;
     record.noise_samples = static_cast<std::uint16_t>(service.known.samples);
-    record.samples = 1.0f / shares[k] - 1.0f;
+    record.samples = 1.0f / blend_weights[k] - 1.0f;
     const float square = relative_square(now, was, kDarkShare * kMeanLight);
-    learn_noise(told_square(square, mean_luminance(was), shares[k], kMeanLight), 1.0f, record);
+    learn_noise(estimate_relative_square(square, mean_luminance(was), blend_weights[k], kMeanLight),
+                1.0f, record);
     service = {{record.noise, record.noise_samples}, kUpdate + 1};
   }
   for (int probe = 0; probe < crowd.store.probes(); ++probe) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "shared/color.h"
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"
@@ -103,13 +103,14 @@ TEST(Cascades, ATurnedVolumeHoldsTheSameLight) {
 TEST(Cascades, CoarseOnesAreTracedLessOften) {
   const Stage& stage = cornell();
   IrradianceField field = settled_cascades(stage, cascades(3), kMiddle, 1);
-  const std::vector<ProbeRecord> first(field.records().begin(), field.records().end());
+  const std::vector<ProbeStatus> first(field.probe_statuses().begin(),
+                                       field.probe_statuses().end());
   for (int i = 0; i < 16; ++i) field.update(stage.world, {0, 0.0, kMiddle});
   for (int level = 0; level < 3; ++level) {
     float samples = 0.0f;
     int live = 0;
     for (int probe = 1000 * level; probe < 1000 * (level + 1); ++probe) {
-      const ProbeRecord& record = field.records()[probe];
+      const ProbeStatus& record = field.probe_statuses()[probe];
       if (record.state != ProbeState::vigilant) continue;
       samples += record.samples - first[probe].samples;
       ++live;

@@ -14,7 +14,7 @@ constexpr ProbeState kAll[] = {
     ProbeState::off,   ProbeState::sleeping,       ProbeState::newly_awake,
     ProbeState::awake, ProbeState::newly_vigilant, ProbeState::vigilant};
 
-constexpr ProbeReach kMatter{true, true}, kSurface{false, true}, kAir{false, false};
+constexpr ClassificationInput kMatter{true, true}, kSurface{false, true}, kAir{false, false};
 
 TEST(ProbeStates, InSolidMatterAreOffFromAnyState) {
   for (const ProbeState before : kAll) {
@@ -71,30 +71,30 @@ TEST(ProbeStates, MayLightWhatIsWithinACellAndTheBias) {
 }
 
 /// What a probe a metre from its neighbours that stands at the origin sees.
-ProbeReach reach_in(const Scene& scene) {
+ClassificationInput reach_in(const Scene& scene) {
   const World world(scene);
-  std::vector<Sight> sights(sight_directions().size());
+  std::vector<FixedRayHit> fixed_hits(fixed_ray_directions().size());
   const Viewpoint origin{vec3(0.0f), mat3(1.0f)};
-  look_around(scene, world.tracer(), {&origin, 1}, {}, sights);
-  return probe_reach(sights, vec3(0.0f), vec3(0.0f), vec3(1.0f));
+  trace_fixed_rays(scene, world.tracer(), {&origin, 1}, {}, fixed_hits);
+  return classification_input(fixed_hits, vec3(0.0f), vec3(0.0f), vec3(1.0f));
 }
 
 TEST(ProbeReaches, TellMatterSurfacesAndAirApart) {
   using test::box_mesh;
   using test::scene_of;
-  EXPECT_TRUE(reach_in(scene_of({box_mesh(vec3(-0.5f), vec3(0.5f))})).in_solid_matter);
-  const ProbeReach near = reach_in(scene_of({box_mesh({0.9f, -1, -1}, {1.5f, 1, 1})}));
-  EXPECT_FALSE(near.in_solid_matter);
+  EXPECT_TRUE(reach_in(scene_of({box_mesh(vec3(-0.5f), vec3(0.5f))})).inside_geometry);
+  const ClassificationInput near = reach_in(scene_of({box_mesh({0.9f, -1, -1}, {1.5f, 1, 1})}));
+  EXPECT_FALSE(near.inside_geometry);
   EXPECT_TRUE(near.lights_surface);
   EXPECT_FALSE(reach_in(scene_of({box_mesh({1.1f, -1, -1}, {1.5f, 1, 1})})).lights_surface);
 }
 
 TEST(ProbeStates, OfAFieldFollowWhatMoves) {
   const ProbeStore store(still_grid({vec3(0.0f), vec3(1.0f), ivec3(4)}), {});
-  std::vector<ProbeReach> reaches(64, kAir);
+  std::vector<ClassificationInput> reaches(64, kAir);
   reaches[0] = kMatter;
   reaches[1] = kSurface;
-  std::vector<ProbeRecord> records(64);
+  std::vector<ProbeStatus> records(64);
   const Bounds thing{vec3(2.9f), vec3(3.1f)};
   classify_probes(store, reaches, {&thing, 1}, records);
   EXPECT_EQ(records[0].state, ProbeState::off);
@@ -112,8 +112,8 @@ TEST(ProbeStates, NearABoxAreThoseOfTheWholeField) {
       still_grid({vec3(-1.0f, 0.0f, 2.0f), vec3(1.0f, 0.5f, 2.0f), ivec3(9, 8, 7)});
   grids[1].axes = mat3(vec3(0.8f, 0.0f, -0.6f), vec3(0.0f, 1.0f, 0.0f), vec3(0.6f, 0.0f, 0.8f));
   const ProbeStore store(grids, {});
-  const std::vector<ProbeReach> reaches(store.probes(), kAir);
-  std::vector<ProbeRecord> all(reaches.size()), near(reaches.size());
+  const std::vector<ClassificationInput> reaches(store.probes(), kAir);
+  std::vector<ProbeStatus> all(reaches.size()), near(reaches.size());
   Bounds before;
   classify_probes(store, reaches, {}, near);
   for (const float x : {0.0f, 1.3f, 7.5f, 30.0f}) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
@@ -45,7 +45,7 @@ struct Edited {
     for (int i = 1; i < kUpdatesOfOpenAir; ++i) {
       const UpdateStatistics later = field.update(world, {.ray_budget = 1});
       EXPECT_EQ(later.probes_traced, 0);
-      first.probes_touched += later.probes_touched;
+      first.probes_changed += later.probes_changed;
     }
     return first;
   }
@@ -109,7 +109,7 @@ TEST(FieldEdit, LightThatGetsBrighterArrivesInOneUpdateWithoutAProbeRay) {
   const UpdateStatistics statistics = edited.follow();
   EXPECT_EQ(statistics.probe_rays, 0u);
   EXPECT_GT(statistics.shadow_rays, 0u);
-  EXPECT_EQ(statistics.probes_touched, 125);
+  EXPECT_EQ(statistics.probes_changed, 125);
   std::vector<double> expected = before;
   for (double& e : expected) e *= 3.0;
   // As exact as the solution, not as the rays
@@ -191,8 +191,8 @@ TEST(FieldEdit, ProbesThatItCannotReachKeepTheirBits) {
   edited.scene.lights[1].intensity *= 2.0f;
   const UpdateStatistics statistics = edited.follow();
   const std::vector<uint> after = words_of(edited.field);
-  EXPECT_GT(statistics.probes_touched, 128 / 4);
-  EXPECT_LT(statistics.probes_touched, 128 * 3 / 4);
+  EXPECT_GT(statistics.probes_changed, 128 / 4);
+  EXPECT_LT(statistics.probes_changed, 128 * 3 / 4);
   const std::size_t words = before.size() / 128;
   int changed = 0;
   for (int probe = 0; probe < 128; ++probe) {
@@ -201,13 +201,13 @@ TEST(FieldEdit, ProbesThatItCannotReachKeepTheirBits) {
                    ? 0
                    : 1;
   }
-  EXPECT_LE(changed, statistics.probes_touched);
+  EXPECT_LE(changed, statistics.probes_changed);
 }
 
 TEST(FieldEdit, AnEditOfNothingIsNoEdit) {
   Edited edited("cube");
   const UpdateStatistics statistics = edited.follow();
-  EXPECT_EQ(statistics.probes_followed, 0);
+  EXPECT_EQ(statistics.probes_invalidated, 0);
   // The 27 in open air, which light no surface, sleep
   EXPECT_EQ(statistics.probes_traced, 98);
 }
@@ -303,8 +303,8 @@ TEST(FieldEdit, ProbesMakeWayForWhatIsBuiltAmongThemOnceItKeepsStill) {
   std::vector<double> held, expected;
   for (int probe = 0; probe < fresh.probes(); ++probe) {
     EXPECT_EQ(edited.field.store().offset_words()[probe], fresh.store().offset_words()[probe]);
-    EXPECT_EQ(edited.field.records()[probe].state, fresh.records()[probe].state);
-    if (fresh.records()[probe].state == ProbeState::off) continue;
+    EXPECT_EQ(edited.field.probe_statuses()[probe].state, fresh.probe_statuses()[probe].state);
+    if (fresh.probe_statuses()[probe].state == ProbeState::off) continue;
     for (int t = 1; t <= 4; ++t) {
       held.push_back(luminance(edited.field.store().irradiance_texel(probe, {t, t})));
       expected.push_back(luminance(fresh.store().irradiance_texel(probe, {t, t})));

@@ -32,7 +32,7 @@ FieldVolume made_volume(IrradianceFormat irradiance, DistanceFormat distance) {
   volume.distance_format = distance;
   const int probes = probe_count(volume.grid);
   for (int i = 0; i < probes; ++i) {
-    ProbeRecord record;
+    ProbeStatus record;
     record.samples = 1.5f * static_cast<float>(i);
     record.noise = 0.25f * static_cast<float>(i);
     record.noise_samples = static_cast<std::uint16_t>(1000 * i);
@@ -85,7 +85,7 @@ TEST(FieldFile, KeepsEveryNumberOfEveryFormatAndVolume) {
     EXPECT_EQ(a.irradiance, b.irradiance);
     EXPECT_EQ(a.distance, b.distance);
     for (std::size_t p = 0; p < a.records.size(); ++p) {
-      const ProbeRecord &x = a.records[p], &y = b.records[p];
+      const ProbeStatus &x = a.records[p], &y = b.records[p];
       EXPECT_EQ(x.samples, y.samples);
       EXPECT_EQ(x.noise, y.noise);
       EXPECT_EQ(x.noise_samples, y.noise_samples);

@@ -94,8 +94,8 @@ TEST(IrradianceField, TellsWhatAnUpdateDid) {
   const UpdateStatistics statistics = field.update(stage.world);
   EXPECT_EQ(statistics.probe_rays, 125u * 32u);
   EXPECT_GT(statistics.shadow_rays, 0u);
-  EXPECT_GT(statistics.relights, 0);
-  EXPECT_LE(statistics.residual, field.settings().relight_tolerance);
+  EXPECT_GT(statistics.solve_iterations, 0);
+  EXPECT_LE(statistics.residual, field.settings().solve_tolerance);
   EXPECT_GT(statistics.change, 0.5);  // all of the light is new
   EXPECT_LT(field.update(stage.world).change, 0.5);
   EXPECT_GT(field.surfel_bytes(), 0u);

@@ -93,7 +93,7 @@ TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
     const Camera camera = first_view(world).camera;
     set_first_light(FirstLight::lamps, world, camera, scene);
     ASSERT_TRUE(world.update().has_value());
-    const SeenView view = look_through(world, camera);
+    const SeenView view = pass_moving_surfaces(world, camera);
     float reached = 0.0f;
     for (const SeenPoint& seen : view.points) {
       bool lit = false;

@@ -170,10 +170,10 @@ TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
   EXPECT_GT(far.batches, 1);
 
   ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
-  ProbeSights near_sights(store.probes()), far_sights(store.probes());
+  CellVisibility near_sights(store.probes()), far_sights(store.probes());
   far.batches = 0;
-  EXPECT_EQ(near_sights.look(stage.world.tracer(), store, all_probes(store)),
-            far_sights.look(far, store, all_probes(store)));
+  EXPECT_EQ(near_sights.update(stage.world.tracer(), store, all_probes(store)),
+            far_sights.update(far, store, all_probes(store)));
   EXPECT_EQ(far.batches, 1);
   for (const int probe : all_probes(store)) {
     EXPECT_EQ(near_sights.of_cell(probe), far_sights.of_cell(probe));

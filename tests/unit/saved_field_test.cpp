@@ -72,8 +72,8 @@ TEST_F(SavedField, IsTheSameToTheBit) {
     const std::vector<FieldQuery> queries = queries_in(field.grids()[0]);
     EXPECT_EQ(test::look_up(loaded.field, queries), test::look_up(field, queries));
     for (int p = 0; p < field.probes(); ++p) {
-      EXPECT_EQ(loaded.field.records()[p].samples, field.records()[p].samples);
-      EXPECT_EQ(loaded.field.records()[p].noise, field.records()[p].noise);
+      EXPECT_EQ(loaded.field.probe_statuses()[p].samples, field.probe_statuses()[p].samples);
+      EXPECT_EQ(loaded.field.probe_statuses()[p].noise, field.probe_statuses()[p].noise);
     }
   }
 }

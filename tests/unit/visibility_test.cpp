@@ -64,20 +64,20 @@ TEST(Visibility, MomentsAreNearlyDarkBehindASealedWall) {
 struct Traced {
   explicit Traced(const Stage& stage)
       : field(test::make_field(stage, settings_of(Visibility::moments), 1)),
-        sights(field.store().probes()) {
+        cell_visibility(field.store().probes()) {
     std::vector<int> probes(field.store().probes());
     std::iota(probes.begin(), probes.end(), 0);
-    rays = sights.look(stage.world.tracer(), field.store(), probes);
+    rays = cell_visibility.update(stage.world.tracer(), field.store(), probes);
   }
   std::vector<CornerWeights> weights(const Stage& stage, Visibility mode,
                                      std::span<const FieldQuery> queries) const {
     std::vector<CornerWeights> result(queries.size());
-    visible_corner_weights(field.store(), 0, {mode, &stage.world.tracer(), &sights}, queries,
-                           result);
+    visible_corner_weights(field.store(), 0, {mode, &stage.world.tracer(), &cell_visibility},
+                           queries, result);
     return result;
   }
   IrradianceField field;
-  ProbeSights sights;
+  CellVisibility cell_visibility;
   std::uint64_t rays = 0;
 };
 
@@ -93,7 +93,7 @@ TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
   const auto hybrid = traced.weights(stage, Visibility::hybrid, queries);
   int open = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (traced.sights.of_cell(moments[i].base) != ~std::uint64_t{0}) continue;
+    if (traced.cell_visibility.of_cell(moments[i].base) != ~std::uint64_t{0}) continue;
     ++open;
     EXPECT_TRUE(same(hybrid[i], moments[i])) << i;
   }
@@ -105,8 +105,8 @@ TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {
   const Traced traced(stage);
   const std::vector<FieldQuery> queries = test::seen_points(stage);
   std::vector<CornerWeights> result(queries.size());
-  visible_corner_weights(traced.field.store(), 0, {Visibility::hybrid, nullptr, &traced.sights},
-                         queries, result);
+  visible_corner_weights(traced.field.store(), 0,
+                         {Visibility::hybrid, nullptr, &traced.cell_visibility}, queries, result);
   const auto moments = traced.weights(stage, Visibility::moments, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_TRUE(same(result[i], moments[i]));
 }
@@ -145,21 +145,21 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
   EXPECT_GT(hidden, 10);
 }
 
-TEST(ProbeSights, KnowWhichProbesOfACellAWallParts) {
+TEST(CellVisibility, KnowWhichProbesOfACellAWallParts) {
   const Scene wall = test::scene_of({test::box_mesh({-9.0f, -9.0f, 0.4f}, {9.0f, 9.0f, 0.6f})});
   const World world(wall);
   const ProbeStore store(still_grid({vec3(0.0f), vec3(1.0f), ivec3(2, 2, 3)}), FieldSettings{});
-  ProbeSights sights(store.probes());
+  CellVisibility cell_visibility(store.probes());
   const int probes[] = {0, 1, 4, 8};
   // Two cells of 28 pairs each; the others' lowest probes are beyond the grid's last cell
-  EXPECT_EQ(sights.look(world.tracer(), store, probes), 56u);
+  EXPECT_EQ(cell_visibility.update(world.tracer(), store, probes), 56u);
   for (int i = 0; i < 8; ++i) {
     for (int k = 0; k < 8; ++k) {
-      const bool seen = (sights.of_cell(0) >> (8 * i + k) & 1u) != 0;
+      const bool seen = (cell_visibility.of_cell(0) >> (8 * i + k) & 1u) != 0;
       EXPECT_EQ(seen, (i < 4) == (k < 4)) << i << " " << k;
     }
   }
-  EXPECT_EQ(sights.of_cell(4), ~std::uint64_t{0});
+  EXPECT_EQ(cell_visibility.of_cell(4), ~std::uint64_t{0});
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ std::vector<ProbeGrid> scrolled_grids() {
   settings.probe_spacing = 0.4f;
   std::vector<ProbeGrid> grids = grids_of(settings);
   for (const vec3& viewer : {vec3(1.0f, 1.0f, 1.0f), vec3(-0.7f, 1.9f, 0.8f)}) {
-    for (ProbeGrid& grid : grids) grid = following(grid, viewer);
+    for (ProbeGrid& grid : grids) grid = scrolled(grid, viewer);
   }
   return grids;
 }
@@ -158,13 +158,13 @@ TEST(Volumes, ThatKnowNothingLeaveItToOthers) {
 TEST(Volumes, ShareFadesWithoutAStep) {
   const ProbeGrid grid = still_grid({vec3(-1.0f), vec3(0.5f), ivec3(5), turned(0.3f)});
   const vec3 middle = grid_position(grid, vec3(2.0f));
-  EXPECT_EQ(volume_share(grid, middle), 1.0f);
-  EXPECT_EQ(volume_share(grid, grid_position(grid, vec3(4.0f, 2.0f, 2.0f))), 1.0f);
-  EXPECT_EQ(volume_share(grid, grid_position(grid, vec3(5.0f, 2.0f, 2.0f))), 0.0f);
+  EXPECT_EQ(volume_blend_weight(grid, middle), 1.0f);
+  EXPECT_EQ(volume_blend_weight(grid, grid_position(grid, vec3(4.0f, 2.0f, 2.0f))), 1.0f);
+  EXPECT_EQ(volume_blend_weight(grid, grid_position(grid, vec3(5.0f, 2.0f, 2.0f))), 0.0f);
   float before = 1.0f;
   for (int i = 0; i <= 100; ++i) {
-    const float share =
-        volume_share(grid, grid_position(grid, vec3(4.0f + 0.01f * static_cast<float>(i), 2, 2)));
+    const float share = volume_blend_weight(
+        grid, grid_position(grid, vec3(4.0f + 0.01f * static_cast<float>(i), 2, 2)));
     EXPECT_LE(share, before);
     EXPECT_GT(share, before - 0.011f);
     before = share;
@@ -180,16 +180,16 @@ TEST_P(ScrollDirection, KeepsProbesWhereTheyAreAndRecyclesOneSlab) {
   settings.probe_spacing = 0.5f;
   // In the very middle of a volume
   const vec3 start(1.0f, 0.75f, 1.0f);
-  ProbeGrid grid = around(plan_volumes(settings, kRoom)->front().grid, start);
+  ProbeGrid grid = centred(plan_volumes(settings, kRoom)->front().grid, start);
   // Once round memory and on
   for (int step = 1; step <= 8; ++step) {
     const vec3 viewer = start + 0.5f * static_cast<float>(step) * vec3(GetParam());
     // Along short axes slabs withdraw before they go
-    ProbeGrid next = following(grid, viewer);
-    constexpr int kMostUpdates = 100;
-    for (int i = 0; i < kMostUpdates && recycled_probes(grid, next).empty(); ++i) {
+    ProbeGrid next = scrolled(grid, viewer);
+    constexpr int kMaxUpdateCount = 100;
+    for (int i = 0; i < kMaxUpdateCount && recycled_probes(grid, next).empty(); ++i) {
       grid = next;
-      next = following(grid, viewer);
+      next = scrolled(grid, viewer);
     }
     const std::vector<int> recycled = recycled_probes(grid, next);
     const ivec3 moved = abs(GetParam());
@@ -209,9 +209,9 @@ TEST_P(ScrollDirection, KeepsProbesWhereTheyAreAndRecyclesOneSlab) {
         EXPECT_LT(away, 1e-4f);
       }
       // Nobody asks a probe that has just come or was about to go
-      const float share = volume_share(next, probe_position(next, coords));
+      const float share = volume_blend_weight(next, probe_position(next, coords));
       EXPECT_TRUE(!new_place || share == 0.0f);
-      const float left = volume_share(grid, probe_position(grid, probe_coords(grid, probe)));
+      const float left = volume_blend_weight(grid, probe_position(grid, probe_coords(grid, probe)));
       EXPECT_TRUE(!new_place || left == 0.0f);
     }
     EXPECT_EQ(all.size(), static_cast<std::size_t>(probe_count(next)));
@@ -226,15 +226,15 @@ INSTANTIATE_TEST_SUITE_P(EveryWay, ScrollDirection,
 TEST(Volumes, DoNotFollowWhoMovesToAndFro) {
   FieldSettings settings;
   settings.cascades = 1;
-  ProbeGrid grid = following(plan_volumes(settings, kRoom)->front().grid, vec3(0.5f));
+  ProbeGrid grid = scrolled(plan_volumes(settings, kRoom)->front().grid, vec3(0.5f));
   for (const float x : {1.1f, -0.1f, 1.2f, 0.0f}) {
-    const ProbeGrid next = following(grid, {x, 0.5f, 0.5f});
+    const ProbeGrid next = scrolled(grid, {x, 0.5f, 0.5f});
     EXPECT_TRUE(recycled_probes(grid, next).empty());
     grid = next;
   }
-  EXPECT_FALSE(recycled_probes(grid, following(grid, vec3(3.0f, 0.5f, 0.5f))).empty());
+  EXPECT_FALSE(recycled_probes(grid, scrolled(grid, vec3(3.0f, 0.5f, 0.5f))).empty());
   // Who is carried away sees nothing of what was there
-  EXPECT_EQ(recycled_probes(grid, following(grid, vec3(500.0f))).size(), 32u * 4u * 32u);
+  EXPECT_EQ(recycled_probes(grid, scrolled(grid, vec3(500.0f))).size(), 32u * 4u * 32u);
 }
 
 std::string refusal(const FieldSettings& settings) {

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup of the field for shaders of engines: indirect irradiance at a point [W/m^2], from
+// The lookup of the field for shaders of engines:
 //   vec3 field_irradiance(FieldRecord field, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws)
-// The record is plain data: it comes in push constants or in any buffer, of scalar layout. Settings
-// of the field that are not its defaults are defined before this file is included.
+// returns the indirect irradiance at a point [W/m^2]. The record is plain data, and comes in push
+// constants or in any buffer of scalar layout. A shader defines the settings of the field that
+// differ from the defaults before it includes this file.
 #ifndef LAMBENT_SHADERS_FIELD_LOOKUP_GLSL
 #define LAMBENT_SHADERS_FIELD_LOOKUP_GLSL
 
 #include "field/lookup/field_record.h"
 
-// As FieldSettings has them
+// The defaults of FieldSettings
 #ifndef LAMBENT_IRRADIANCE_TEXELS
 #define LAMBENT_IRRADIANCE_TEXELS 4
 #endif
@@ -22,14 +23,15 @@
 #define LAMBENT_DISTANCE_FORMAT kRg16f
 #endif
 
-// In place of our kernels' specialisation constants, whose numbers are the engine's own here
+// These constants replace our kernels' specialisation constants, whose ids belong to the engine
+// here
 #define LAMBENT_FIELD_PROBES_SHADERS_TILES_GLSL
 const int kIrradianceTexels = LAMBENT_IRRADIANCE_TEXELS;
 const int kDistanceTexels = LAMBENT_DISTANCE_TEXELS;
 const uint kIrradianceFormat = LAMBENT_IRRADIANCE_FORMAT;
 const uint kDistanceFormat = LAMBENT_DISTANCE_FORMAT;
 
-// The field that is looked up, in the place of our kernels' arguments
+// The field that is looked up takes the place of our kernels' arguments
 FieldRecord lambent_field;
 #define args lambent_field
 #include "field/probes/shaders/store.glsl"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for HLSL, to be included in a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
-// A port of src/field/lookup/lookup.inl.h and of what it includes, where every constant has its reason.
+// A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
+// reason.
 // The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
 
 #ifndef LAMBENT_IRRADIANCE_TEXELS  // of a tile's edge, without gutter
@@ -116,7 +117,7 @@ float probe_weight(float cos_probe, float2 moments, float dist) {
 }
 
 // A volume's irradiance times its share of the answer, and that share: 0 where it knows nothing.
-float4 volume_irradiance(ProbeGrid grid, float3 coords, float share, float3 position_ws,
+float4 volume_irradiance(ProbeGrid grid, float3 coords, float volume_weight, float3 position_ws,
                          float3 normal_ws, float3 to_viewer_ws) {
   float3 spacing = vec3_of(grid.spacing);
   float3x3 axes = rows_of(grid.axes);
@@ -144,7 +145,7 @@ float4 volume_irradiance(ProbeGrid grid, float3 coords, float share, float3 posi
                    probe_weight(cos_probe, moments_of(probe, from_probe / dist, unit), dist);
     sum += weight * float4(irradiance_of(probe, normal_ws), 1.0);
   }
-  return sum.w > 0.0 ? float4(sum.xyz / sum.w, 1.0) * share : 0.0;
+  return sum.w > 0.0 ? float4(sum.xyz / sum.w, 1.0) * volume_weight : 0.0;
 }
 
 float3 field_irradiance(float3 position_ws, float3 normal_ws, float3 to_viewer_ws) {
@@ -157,11 +158,11 @@ float3 field_irradiance(float3 position_ws, float3 normal_ws, float3 to_viewer_w
         mul(rows_of(grid.axes), position_ws - vec3_of(grid.origin_ws)) / vec3_of(grid.spacing);
     float3 half_box = vec3_of(grid.fade_half);
     float3 inside = half_box - abs(coords - vec3_of(grid.fade_centre));
-    float share = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
-    if (v + 1 == volumes) share = 1.0;  // the last volume answers for the rest
-    if (share <= 0.0) continue;
-    answer += volume_irradiance(grid, coords, share * (1.0 - answer.w), position_ws, normal_ws,
-                                to_viewer_ws);
+    float volume_weight = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
+    if (v + 1 == volumes) volume_weight = 1.0;  // the last volume answers for the rest
+    if (volume_weight <= 0.0) continue;
+    answer += volume_irradiance(grid, coords, volume_weight * (1.0 - answer.w), position_ws,
+                                normal_ws, to_viewer_ws);
   }
   return answer.w > 0.0 ? answer.xyz / answer.w : 0.0;
 }

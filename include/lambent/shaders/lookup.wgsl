@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for WebGPU, to be put before a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
-// A port of src/field/lookup/lookup.inl.h and of what it includes, where every constant has its reason.
+// A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
+// reason.
 // The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
 
 override irradiance_texels: i32 = 4;  // of a tile's edge, without gutter
@@ -103,7 +104,7 @@ fn probe_weight(cos_probe: f32, moments: vec2f, dist: f32) -> f32 {
 }
 
 // A volume's irradiance times its share of the answer, and that share: 0 where it knows nothing.
-fn volume_irradiance(grid: ProbeGrid, coords: vec3f, share: f32, position_ws: vec3f,
+fn volume_irradiance(grid: ProbeGrid, coords: vec3f, volume_weight: f32, position_ws: vec3f,
                      normal_ws: vec3f, to_viewer_ws: vec3f) -> vec4f {
   let spacing = vec3_of(grid.spacing);
   let axes = axes_of(grid);
@@ -132,7 +133,7 @@ fn volume_irradiance(grid: ProbeGrid, coords: vec3f, share: f32, position_ws: ve
     sum += weight * vec4f(irradiance_of(probe, normal_ws), 1.0);
   }
   if sum.w <= 0.0 { return vec4f(0.0); }
-  return vec4f(sum.xyz / sum.w, 1.0) * share;
+  return vec4f(sum.xyz / sum.w, 1.0) * volume_weight;
 }
 
 fn field_irradiance(position_ws: vec3f, normal_ws: vec3f, to_viewer_ws: vec3f) -> vec3f {
@@ -143,11 +144,11 @@ fn field_irradiance(position_ws: vec3f, normal_ws: vec3f, to_viewer_ws: vec3f) -
     let coords = ((position_ws - vec3_of(grid.origin_ws)) * axes_of(grid)) / vec3_of(grid.spacing);
     let half_box = vec3_of(grid.fade_half);
     let inside = half_box - abs(coords - vec3_of(grid.fade_centre));
-    var share = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
-    if v + 1u == volumes { share = 1.0; }  // the last volume answers for the rest
-    if share <= 0.0 { continue; }
-    answer += volume_irradiance(grid, coords, share * (1.0 - answer.w), position_ws, normal_ws,
-                                to_viewer_ws);
+    var volume_weight = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
+    if v + 1u == volumes { volume_weight = 1.0; }  // the last volume answers for the rest
+    if volume_weight <= 0.0 { continue; }
+    answer += volume_irradiance(grid, coords, volume_weight * (1.0 - answer.w), position_ws,
+                                normal_ws, to_viewer_ws);
   }
   if answer.w <= 0.0 { return vec3f(0.0); }
   return answer.xyz / answer.w;

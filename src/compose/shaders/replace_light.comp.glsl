@@ -13,6 +13,6 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   vec3 light = args.irradiance.at[i] + args.added.at[i];
-  if (args.takes_out != 0u) light -= args.taken_out.at[i];
+  if (args.subtracts != 0u) light -= args.subtracted_field.at[i];
   args.irradiance.at[i] = max(light, vec3(0.0f));
 }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "field/file/scene_identity.h"
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
 #include "field/probes/volumes.h"
 #include "lambent/error.h"
@@ -27,7 +27,7 @@ struct FieldVolume {
   int distance_texels = 14;
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
   DistanceFormat distance_format = DistanceFormat::rg16f;
-  std::vector<ProbeRecord> records;  ///< Without their revisions, which mean nothing in a file.
+  std::vector<ProbeStatus> records;  ///< Without their revisions, which mean nothing in a file.
   std::vector<uint> offsets;         ///< As encode_probe_offset makes them.
   std::vector<uint> irradiance;      ///< The words of ProbeStore.
   std::vector<uint> distance;        ///< Likewise.

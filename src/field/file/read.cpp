@@ -140,7 +140,7 @@ class Reader {
     const std::uint32_t follows = in_.u32(), level = in_.u32();
     if (follows > 1 || level > kMaxCascades) return bad(place_, "has a role that no volume has");
     volume.role = {follows == 1, static_cast<int>(level)};
-    if (follows == 1 && !can_follow(volume.grid)) {
+    if (follows == 1 && !can_scroll(volume.grid)) {
       return bad(place_, "cannot follow the viewer from where, or as, it stands");
     }
     header.irradiance_words = tile_words(header.probes, volume.irradiance_texels,
@@ -215,7 +215,7 @@ class Reader {
     return volume;
   }
 
-  bool read_record(std::uint32_t updates, uint& offset, ProbeRecord& record) {
+  bool read_record(std::uint32_t updates, uint& offset, ProbeStatus& record) {
     offset = in_.u32();
     const std::uint32_t state = in_.u32();
     record.samples = in_.f32();

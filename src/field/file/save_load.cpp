@@ -41,11 +41,11 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     const FieldVolume& volume = file.volumes[v];
     const int first = store.grid(v).first;
     store.restore(first, volume.offsets, volume.irradiance, volume.distance);
-    std::copy(volume.records.begin(), volume.records.end(), records.begin() + first);
+    std::copy(volume.records.begin(), volume.records.end(), statuses.begin() + first);
   }
   updates = static_cast<int>(file.updates);
   placed_revision = world.revision();
-  agenda.changed_all();
+  scheduler.mark_all_changed();
   const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(tile_texels());
   double sum = 0.0;
@@ -56,19 +56,19 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
       tile[t] = vec4(store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
     }
     sum += mean_luminance(TileLight(tile, texels));
-    records[probe].revision = world.revision();
+    statuses[probe].revision = world.revision();
     // An exact number of bounces is carried through all probes at once
-    if (settings.max_bounces >= 0) records[probe].state = ProbeState::newly_vigilant;
-    never_served = never_served || (is_live(records[probe]) && records[probe].served == 0);
+    if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;
+    never_served = never_served || (is_live(statuses[probe]) && statuses[probe].served == 0);
   }
   mean_light = static_cast<float>(sum / store.probes());
-  starting = updates == 0 || never_served;
+  warming_up = updates == 0 || never_served;
   // What the first update finds of the scene, where that has been
   if (updates == 0) return;
-  std::vector<int> all(records.size());
+  std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);
-  find_reaches(world, all);
-  look_across_cells(world, all);
+  update_classification_inputs(world, all);
+  update_cell_visibility(world, all);
 }
 
 /// A volume as a file holds it: probes in the order of the grid, wherever they are in memory.
@@ -87,9 +87,9 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
   const std::size_t distance_tile = store.distance_words().size() / store.probes();
   for (int i = 0; i < probe_count(stored); ++i) {
     const int probe = probe_index(stored, probe_coords(result.grid, i));
-    ProbeRecord& record = result.records.emplace_back(records[probe]);
+    ProbeStatus& status = result.records.emplace_back(statuses[probe]);
     // What waits to follow an edit has averaged another light than the world's
-    if (record.revision != world.revision()) record.samples = 0.0f;
+    if (status.revision != world.revision()) status.samples = 0.0f;
     result.offsets.push_back(store.offset_words()[probe]);
     const auto irradiance =
         store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
@@ -137,7 +137,7 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
   if (!same_light) {
     // What it holds is where to start from, but no average of what is to be found
     for (FieldVolume& volume : file->volumes) {
-      for (ProbeRecord& record : volume.records) record.samples = 0.0f;
+      for (ProbeStatus& status : volume.records) status.samples = 0.0f;
     }
   }
   field->state_->restore(*file, world);

@@ -40,7 +40,7 @@ void write_volume(const FieldVolume& volume, ByteWriter& out) {
   out.u32(static_cast<std::uint32_t>(volume.role.level));
 
   for (std::size_t probe = 0; probe < volume.records.size(); ++probe) {
-    const ProbeRecord& record = volume.records[probe];
+    const ProbeStatus& record = volume.records[probe];
     out.u32(volume.offsets[probe]);
     out.u32(static_cast<std::uint32_t>(record.state));
     out.f32(record.samples);

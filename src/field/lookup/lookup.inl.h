@@ -39,7 +39,7 @@ LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, v
 /// Irradiance at a point with a normal, seen from `to_viewer_ws`, as the probes of one volume have
 /// it, times the volume's share of what is left to answer; and that share. Averages linear light,
 /// so that the result is linear in what the probes hold.
-LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float share, vec3 position_ws, vec3 normal_ws,
+LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float volume_weight, vec3 position_ws, vec3 normal_ws,
                               vec3 to_viewer_ws) {
   float spacing_min = smallest_spacing(grid);
   vec3 biased_ws = biased_position(position_ws, normal_ws, to_viewer_ws, spacing_min);
@@ -56,7 +56,7 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float share, vec3 position_ws, vec
     weight_sum += weight;
   }
   // Where the volume knows nothing, coarser ones answer for it
-  return weight_sum > 0.0f ? vec4(sum * (share / weight_sum), share) : vec4(0.0f);
+  return weight_sum > 0.0f ? vec4(sum * (volume_weight / weight_sum), volume_weight) : vec4(0.0f);
 }
 
 /// The same over all volumes: each answers for its share of what those before it left, the last one
@@ -66,9 +66,10 @@ LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws,
   vec4 answer = vec4(0.0f);
   for (int volume = 0; volume < volumes && answer.w < 1.0f; ++volume) {
     ProbeGrid grid = fetch_grid(volume);
-    float share = volume + 1 == volumes ? 1.0f : volume_share(grid, position_ws);
-    if (share <= 0.0f) continue;
-    answer += lookup_volume(grid, share * (1.0f - answer.w), position_ws, normal_ws, to_viewer_ws);
+    float volume_weight = volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
+    if (volume_weight <= 0.0f) continue;
+    answer += lookup_volume(grid, volume_weight * (1.0f - answer.w), position_ws, normal_ws,
+                            to_viewer_ws);
   }
   // Where it is the last that knows nothing, those before answer for all
   return answer.w > 0.0f ? vec3(answer) / answer.w : vec3(0.0f);

@@ -10,21 +10,21 @@
 #include "field/lookup/lookup.h"
 #include "field/probes/irradiance_encoding.h"
 
-// Loops over `k` run over the eight corners of a cell; the compiler turns each into vector
-// instructions, so they hold no branches and no calls that are not inlined.
+// Loops over `k` run over the eight corners of a cell. The compiler turns each of them into vector
+// instructions, so that they must contain neither branches nor calls that are not inlined.
 
 namespace lambent {
 namespace {
 
 constexpr int kCorners = kCellCorners;
 
-// Keep divisions by what may be 0 finite: at a probe's own place [m^2 and m], and where distances
-// have no variance [distance_unit^2]; far below what the results resolve.
+// These keep divisions finite: at a probe's own place [m^2 and m], and where distances have no
+// variance [distance_unit^2]. They are far below the resolution of the results.
 const float kMinLengthSquared = kMinProbeDistance * kMinProbeDistance;
 constexpr float kTiniestLength = 1e-12f;
 constexpr float kTiniestSquare = 1e-20f;
 
-/// What a batch of lookups in one volume shares.
+/// Everything that the lookups of a batch in one volume have in common.
 struct Tables {
   Tables(const ProbeStore& store, int volume)
       : grid(store.grid(volume)),
@@ -37,8 +37,8 @@ struct Tables {
         distance_texels(store.distance_texels()) {}
 
   ProbeGrid grid;
-  std::uint32_t first_table;     // of the volume's cells in the store's corner table
-  const CornerOffsets* offsets;  // of its cells, by cell_wrap
+  std::uint32_t first_table;     // the volume's first entry in the store's corner table
+  const CornerOffsets* offsets;  // the volume's entries, by cell_wrap
   float distances_per_metre;     // units of the stored distances in a metre
   float spacing_min;
   const uint* offset_words;
@@ -65,19 +65,20 @@ LAMBENT_FORCE_INLINE void decode_moments(const uint* words, int texel, float& me
   }
 }
 
-/// A lookup between its two halves: what is known of the eight corners before their moments are
-/// read.
+/// The state of a lookup between its two halves: what is known of the eight corners before their
+/// moments are read.
 struct CornerFetch {
   int base;
   int run_over;         // cell_wrap
-  int texel[kCorners];  // first of the four in the store, in texels
+  int texel[kCorners];  // index of the first of the four texels in the store
   float fraction_x[kCorners], fraction_y[kCorners];
   float dist[kCorners];  // from the probe to the biased point [distance_unit]
   float trilinear[kCorners];
   float wrap[kCorners];  // weight by the probe's side of the surface
 };
 
-/// First half: where to look, for each corner.
+/// First half of a lookup: computes which texels to read for each corner, and the weights that need
+/// no texels.
 template <std::ptrdiff_t words_per_texel>
 LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& query,
                                          CornerFetch& __restrict fetch) {
@@ -114,7 +115,7 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
     const float cosine = along / std::sqrt(std::max(kMinLengthSquared, length_squared));
     fetch.wrap[k] = wrap_weight(cosine);
 
-    // Find the texel, and the share of its neighbours, of the direction from the probe
+    // Compute the texels and bilinear weights for the direction from the probe
     const float x = biased.x - px, y = biased.y - py, z = biased.z - pz;
     fetch.dist[k] = std::sqrt(x * x + y * y + z * z) * t.distances_per_metre;
     const float l1 = std::fabs(x) + std::fabs(y) + std::fabs(z);
@@ -132,14 +133,15 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
     fetch.texel[k] = (base + offsets.probe[k]) * (width * width) + cy * width + cx;
   }
 
-  // The store is larger than the nearer caches: have its lines under way before they are read
+  // Prefetch the texels: the store is larger than the nearer caches
   for (int k = 0; k < kCorners; ++k) {
     __builtin_prefetch(t.distance_words + words_per_texel * fetch.texel[k]);
     __builtin_prefetch(t.distance_words + words_per_texel * (fetch.texel[k] + width));
   }
 }
 
-/// Second half: interpolate the moments and bound the visibility ...
+/// Second half of a lookup: interpolates the moments and computes the visibility of each corner.
+/// `known` is 0 for probes inside geometry, else 1.
 template <DistanceFormat format>
 LAMBENT_FORCE_INLINE void see_corners(const Tables& t, const CornerFetch& fetch,
                                       float* __restrict visibility, float* __restrict known) {
@@ -162,7 +164,7 @@ LAMBENT_FORCE_INLINE void see_corners(const Tables& t, const CornerFetch& fetch,
   }
 }
 
-/// ... and weigh the corners.
+/// Computes the normalised weights of the corners.
 template <DistanceFormat format>
 LAMBENT_FORCE_INLINE void weigh_corners(const Tables& t, const CornerFetch& fetch,
                                         CornerWeights& __restrict result) {
@@ -202,8 +204,8 @@ LAMBENT_FORCE_INLINE void finish_corners(const Tables& t, const CornerFetch& fet
   }
 }
 
-/// Both halves for a few queries at a time, so that the reads of one overlap with the work of
-/// others.
+/// Runs each half for several queries in turn, so that the reads of one query overlap with the work
+/// on others.
 template <DistanceFormat format, class Result>
 LAMBENT_FORCE_INLINE void weigh_all(const Tables& t, const FieldQuery* queries, Result* result,
                                     std::size_t count) {
@@ -259,7 +261,7 @@ LAMBENT_FORCE_INLINE void decode_irradiance(const uint* word, float& r, float& g
   }
 }
 
-/// What the reading of irradiance shares.
+/// Everything that reads of irradiance have in common.
 struct IrradianceTables {
   explicit IrradianceTables(const ProbeStore& store)
       : offsets(store.corner_table().data()),
@@ -271,8 +273,8 @@ struct IrradianceTables {
   int texels;
 };
 
-/// Weighted irradiance of a cell's probes along the surface normal: all eight are read at the same
-/// place of their tile.
+/// Adds the weighted irradiance of a cell's probes along the surface normal. All eight probes are
+/// read at the same place of their tiles.
 template <IrradianceFormat format>
 LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const FieldQuery* queries,
                                             std::span<const CornerWeights> weights,
@@ -284,8 +286,8 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const TileFetch fetch = tile_fetch(queries[query[i]].normal_ws, t.texels);
     const vec2 f = fetch.fraction;
-    const float shares[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y), (1.0f - f.x) * f.y,
-                             f.x * f.y};
+    const float tap_weights[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y),
+                                  (1.0f - f.x) * f.y, f.x * f.y};
     const uint* first = t.words + static_cast<std::ptrdiff_t>(tile_words) * weights[i].base +
                         kWords * (fetch.corner.y * width + fetch.corner.x);
     const int steps[4] = {0, kWords, kWords * width, kWords * (width + 1)};
@@ -296,13 +298,13 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
     // Read the four texels of each corner's tile
     float red[kCorners] = {}, green[kCorners] = {}, blue[kCorners] = {};
     for (int tap = 0; tap < 4; ++tap) {
-      const float share = shares[tap];
+      const float tap_weight = tap_weights[tap];
       for (int k = 0; k < kCorners; ++k) {
         float r, g, b;
         decode_irradiance<format>(first + steps[tap] + tile_offset[k], r, g, b);
-        red[k] += share * r;
-        green[k] += share * g;
-        blue[k] += share * b;
+        red[k] += tap_weight * r;
+        green[k] += tap_weight * g;
+        blue[k] += tap_weight * b;
       }
     }
 

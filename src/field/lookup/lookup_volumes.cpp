@@ -10,7 +10,8 @@
 namespace lambent {
 namespace {
 
-// Small batches keep the weights between the two kernels in the first-level cache.
+// Queries per batch: few enough that the weights stay in the first-level cache between the two
+// kernels.
 constexpr std::size_t kBatch = 256;
 
 bool knows_nothing(const CornerWeights& corners) {
@@ -18,7 +19,8 @@ bool knows_nothing(const CornerWeights& corners) {
                      [](float weight) { return weight == 0.0f; });
 }
 
-/// Many volumes: asks each for the queries that it has a share in.
+/// The weights in a field of several volumes: looks up each volume for the queries in which it has
+/// a weight.
 std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
                            std::span<const FieldQuery> queries, QueryWeights& result) {
   result.corners.clear();
@@ -26,35 +28,36 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
   std::vector<float> left(queries.size(), 1.0f);
   std::vector<FieldQuery> asking;
   std::vector<std::uint32_t> which;
-  std::vector<float> shares;
+  std::vector<float> volume_weights;
   std::vector<CornerWeights> corners;
   std::uint64_t traced = 0;
   for (int volume = 0; volume < store.volumes(); ++volume) {
     const bool last = volume == store.volumes() - 1;
     asking.clear();
     which.clear();
-    shares.clear();
+    volume_weights.clear();
     for (std::size_t i = 0; i < queries.size(); ++i) {
       if (left[i] <= kNothingLeft) continue;
-      const float share = last ? 1.0f : volume_share(store.grid(volume), queries[i].position_ws);
-      if (share <= 0.0f) continue;
+      const float volume_weight =
+          last ? 1.0f : volume_blend_weight(store.grid(volume), queries[i].position_ws);
+      if (volume_weight <= 0.0f) continue;
       asking.push_back(queries[i]);
       which.push_back(static_cast<std::uint32_t>(i));
-      shares.push_back(share);
+      volume_weights.push_back(volume_weight);
     }
     corners.resize(asking.size());
     traced += visible_corner_weights(store, volume, by, asking, corners);
     for (std::size_t k = 0; k < asking.size(); ++k) {
-      // Where the volume knows nothing, coarser ones answer for it
+      // Where no probe of this volume is visible, the next volumes take its weight
       if (knows_nothing(corners[k])) continue;
-      const float share = left[which[k]] * shares[k];
-      left[which[k]] -= share;
-      for (float& weight : corners[k].weight) weight *= share;
+      const float volume_weight = left[which[k]] * volume_weights[k];
+      left[which[k]] -= volume_weight;
+      for (float& weight : corners[k].weight) weight *= volume_weight;
       result.corners.push_back(corners[k]);
       result.query.push_back(which[k]);
     }
   }
-  // Where it is the last that knows nothing, those before answer for all
+  // Where no probe of the last volume is visible, scale up the weights of the volumes before it
   for (std::size_t k = 0; k < result.corners.size(); ++k) {
     const float unanswered = left[result.query[k]];
     if (unanswered <= kNothingLeft) continue;

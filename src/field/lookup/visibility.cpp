@@ -20,38 +20,39 @@ Ray to_ray(const RayRecord& ray) {
 }
 
 std::uint64_t sight(int corner, int other) {
-  return std::uint64_t{1} << sight_bit(corner, other);
+  return std::uint64_t{1} << visibility_bit(corner, other);
 }
 
-/// A ray that decides whether a corner counts.
+/// Names the query and the corner that a visibility ray tests.
 struct Question {
   std::size_t query;
   int corner;
 };
 
-/// Rays of a batch of lookups, gathered to be traced together.
+/// Collects the visibility rays of a batch of lookups, to trace them together.
 class CornerRays {
  public:
   CornerRays(const ProbeStore& store, int volume)
       : store_(store), spacing_min_(smallest_spacing(store.grid(volume))) {}
 
-  /// Asks whether the corner is seen from the point where its distances are asked, which is off the
-  /// surface: a ray along it meets no rounding error.
+  /// Adds a ray from the biased position of a query to a corner. The biased position is off the
+  /// surface, so that rounding cannot make the ray hit the surface itself.
   void ask(const FieldQuery& query, int base, std::uint32_t table, std::size_t index, int corner) {
     const vec3 start =
         biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
     const int probe = base + store_.corner_table()[table].probe[corner];
-    rays_.push_back(to_ray(sight_ray(start, store_.probe_position_ws(probe))));
-    questions_.push_back({index, corner});
+    rays_.push_back(to_ray(visibility_ray(start, store_.probe_position_ws(probe))));
+    tests_.push_back({index, corner});
   }
 
-  /// Calls hidden(question) for every corner that is not seen.
+  /// Traces the rays and calls hidden(test) for every corner that is occluded. Returns their
+  /// number.
   template <class Hidden>
   std::uint64_t answer(const RayTracer& tracer, Hidden hidden) {
     occluded_.resize(rays_.size());
     tracer.occlusions(rays_, occluded_);
     for (std::size_t r = 0; r < rays_.size(); ++r) {
-      if (occluded_[r] != 0) hidden(questions_[r]);
+      if (occluded_[r] != 0) hidden(tests_[r]);
     }
     return rays_.size();
   }
@@ -60,11 +61,11 @@ class CornerRays {
   const ProbeStore& store_;
   float spacing_min_;
   std::vector<Ray> rays_;
-  std::vector<Question> questions_;
+  std::vector<Question> tests_;
   std::vector<std::uint8_t> occluded_;
 };
 
-/// A ray to each corner that could count.
+/// Exact visibility: traces a ray to each corner that could count.
 std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer& tracer,
                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   CornerRays rays(store, volume);
@@ -81,7 +82,7 @@ std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer
   const std::uint64_t traced =
       rays.answer(tracer, [&](const Question& q) { seen[q.query].weight[q.corner] = 0.0f; });
 
-  // Where no probe is seen, distances decide
+  // Where no probe is visible, use the weights by distances
   corner_weights(store, volume, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     if (scale_weights(seen[i], 1.0f) != 0) result[i] = seen[i];
@@ -89,20 +90,21 @@ std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer
   return traced;
 }
 
-/// Distances, checked where the probe that matters most does not see another that matters.
+/// Hybrid visibility: weights by distances, tested with rays where the heaviest corner of a cell
+/// does not see another corner that counts.
 std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                              std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   corner_weights(store, volume, queries, result);
   CornerRays rays(store, volume);
   std::vector<std::size_t> checked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const std::uint64_t cell = by.sights->of_cell(result[i].base);
+    const std::uint64_t cell = by.cell_visibility->of_cell(result[i].base);
     if (cell == kAllSeen) continue;
-    const auto seen = static_cast<uint>(cell >> sight_bit(heaviest_corner(result[i]), 0));
-    const CornerDoubts doubts = doubtful_corners(result[i], seen, 1.0f);
+    const auto seen = static_cast<uint>(cell >> visibility_bit(heaviest_corner(result[i]), 0));
+    const VisibilityMask mask = visibility_mask(result[i], seen, 1.0f);
     for (int k = 0; k < kCorners; ++k) {
-      if (((doubts.hidden >> k) & 1u) != 0) result[i].weight[k] = 0.0f;
-      if (((doubts.asked >> k) & 1u) != 0) {
+      if (((mask.hidden >> k) & 1u) != 0) result[i].weight[k] = 0.0f;
+      if (((mask.tested >> k) & 1u) != 0) {
         rays.ask(queries[i], result[i].base, result[i].table, i, k);
       }
     }
@@ -111,17 +113,17 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
   const std::uint64_t traced = rays.answer(*by.tracer, [&](const Question& question) {
     result[question.query].weight[question.corner] = 0.0f;
   });
-  // The most important corner always remains
+  // The heaviest corner always keeps its weight, so that a sum remains
   for (const std::size_t i : checked) scale_weights(result[i], 1.0f);
   return traced;
 }
 
 }  // namespace
 
-ProbeSights::ProbeSights(int probes) : cells_(probes, kAllSeen) {}
+CellVisibility::CellVisibility(int probes) : cells_(probes, kAllSeen) {}
 
-std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store,
-                                std::span<const int> probes) {
+std::uint64_t CellVisibility::update(const RayTracer& tracer, const ProbeStore& store,
+                                     std::span<const int> probes) {
   std::atomic<std::uint64_t> traced = 0;
   const std::size_t batch = batch_of(tracer, kCellPairs, kCellsPerTask);
   parallel_chunks(probes.size(), batch, [&](std::size_t begin, std::size_t end) {
@@ -131,7 +133,7 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
     for (const int base : probes.subspan(begin, end - begin)) {
       const int volume = store.volume_of(base);
       const ProbeGrid& grid = store.grid(volume);
-      // The last probes of a row are no cell's lowest
+      // The last probe of a row is not the lowest corner of any cell
       const ivec3 coords = probe_coords(grid, base);
       if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
       const CornerOffsets& offsets = store.corner_table()[static_cast<std::size_t>(
@@ -141,7 +143,7 @@ std::uint64_t ProbeSights::look(const RayTracer& tracer, const ProbeStore& store
         const vec3 start = store.probe_position_ws(base + offsets.probe[i]);
         for (int k = i + 1; k < kCorners; ++k) {
           const vec3 other = store.probe_position_ws(base + offsets.probe[k]);
-          rays.push_back(to_ray(sight_ray(start, other)));
+          rays.push_back(to_ray(visibility_ray(start, other)));
           pairs.push_back(sight(i, k) | sight(k, i));
           cells.push_back(base);
         }
@@ -181,7 +183,7 @@ std::uint64_t visible_corner_weights(const ProbeStore& store, int volume, const 
     return exact_weights(store, volume, *by.tracer, queries, result);
   }
   if (by.tracer != nullptr && by.mode == Visibility::hybrid) {
-    assert(by.sights != nullptr);
+    assert(by.cell_visibility != nullptr);
     return hybrid_weights(store, volume, by, queries, result);
   }
   corner_weights(store, volume, queries, result);

@@ -14,13 +14,14 @@ namespace lambent {
 
 /// Which probes of each cell see each other, found by rays. Where the probes that matter to a point
 /// do, no wall runs between them, and their distances can be trusted.
-class ProbeSights {
+class CellVisibility {
  public:
   /// Every probe sees every other.
-  explicit ProbeSights(int probes);
+  explicit CellVisibility(int probes);
 
   /// Looks again in the cells whose lowest probes these are. Returns the rays traced.
-  std::uint64_t look(const RayTracer& tracer, const ProbeStore& store, std::span<const int> probes);
+  std::uint64_t update(const RayTracer& tracer, const ProbeStore& store,
+                       std::span<const int> probes);
 
   /// Bit 8 i + k: corners i and k of the cell see each other. `base` is the cell's lowest probe.
   std::uint64_t of_cell(int base) const { return cells_[base]; }
@@ -35,8 +36,8 @@ std::vector<int> cells_around(const ProbeStore& store, std::span<const int> prob
 /// What lookups find visibility with.
 struct VisibilityRays {
   Visibility mode = Visibility::moments;
-  const RayTracer* tracer = nullptr;    ///< Null: by distances alone.
-  const ProbeSights* sights = nullptr;  ///< Of the probes; hybrid needs it.
+  const RayTracer* tracer = nullptr;                ///< Null: by distances alone.
+  const CellVisibility* cell_visibility = nullptr;  ///< Of the probes; hybrid needs it.
 };
 
 /// Weights for each query in one volume. Single-threaded. Returns the rays traced.

@@ -14,10 +14,10 @@ const int kCellPairs = kCellCorners * (kCellCorners - 1) / 2;
 
 // Where a probe's distances let so small a share through, and the probe that matters most does not
 // see it, it is hidden; a larger share is worth a ray.
-const float kWorthARay = 0.05f;
+const float kMinTestedWeight = 0.05f;
 
 /// A ray that meets something where the one point does not see the other.
-LAMBENT_FN RayRecord sight_ray(vec3 from_ws, vec3 to_ws) {
+LAMBENT_FN RayRecord visibility_ray(vec3 from_ws, vec3 to_ws) {
   vec3 way = to_ws - from_ws;
   float distance = max(length(way), kMinProbeDistance);
   RayRecord ray = {from_ws, 0.0f, way / distance, distance, kRayOfProbe};
@@ -25,7 +25,7 @@ LAMBENT_FN RayRecord sight_ray(vec3 from_ws, vec3 to_ws) {
 }
 
 /// In a cell's sights, the bit that says whether one corner sees another.
-LAMBENT_FN int sight_bit(int corner, int other) {
+LAMBENT_FN int visibility_bit(int corner, int other) {
   return kCellCorners * corner + other;
 }
 
@@ -45,35 +45,35 @@ LAMBENT_FN float sum_of_weights(CornerWeights corners) {
 }
 
 /// Scales weights to a sum of `share`. 0 where there are none.
-LAMBENT_FN int scale_weights(LAMBENT_INOUT(CornerWeights) corners, float share) {
+LAMBENT_FN int scale_weights(LAMBENT_INOUT(CornerWeights) corners, float total) {
   float sum = sum_of_weights(corners);
   if (!(sum > 0.0f)) return 0;
   for (int k = 0; k < kCellCorners; ++k) {
-    corners.weight[k] = corners.weight[k] / sum * share;
+    corners.weight[k] = corners.weight[k] / sum * total;
   }
   return 1;
 }
 
 /// Corners by their bits: those that count for nothing, and those worth a ray.
-struct CornerDoubts {
+struct VisibilityMask {
   uint hidden;
-  uint asked;
+  uint tested;
 };
 
 /// Hybrid visibility. `weights` are by distances, with a sum of `share`; bit k of `seen`: the
 /// corner that counts most sees corner k.
-LAMBENT_FN CornerDoubts doubtful_corners(CornerWeights corners, uint seen, float share) {
-  CornerDoubts doubts = {0u, 0u};
+LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uint seen, float total) {
+  VisibilityMask mask = {0u, 0u};
   for (int k = 0; k < kCellCorners; ++k) {
     uint bit = 1u << uint(k);
     if ((seen & bit) != 0u || corners.weight[k] <= 0.0f) continue;
-    if (corners.weight[k] < kWorthARay * share) {
-      doubts.hidden |= bit;
+    if (corners.weight[k] < kMinTestedWeight * total) {
+      mask.hidden |= bit;
     } else {
-      doubts.asked |= bit;
+      mask.tested |= bit;
     }
   }
-  return doubts;
+  return mask;
 }
 
 /// Exact visibility: what a corner weighs if it is seen; 0: it need not be asked for. `wrap` is 0

@@ -11,9 +11,9 @@
 namespace lambent {
 namespace {
 
-// Surfaces this share of a cell beyond the eight cells count, too: points on them are clamped into
-// the grid or have a neighbour's rounding.
-constexpr float kReachSlack = 1e-3f;
+// Surfaces up to this fraction of a cell beyond the eight cells count, too: points on them are
+// clamped into the grid, or rounding puts them into a neighbouring cell.
+constexpr float kCellSlack = 1e-3f;
 
 bool is_vigilant(ProbeState state) {
   return state == ProbeState::vigilant || state == ProbeState::newly_vigilant;
@@ -25,21 +25,22 @@ bool is_awake(ProbeState state) {
 
 }  // namespace
 
-ProbeReach probe_reach(std::span<const Sight> sights, const vec3& position, const vec3& home,
-                       const vec3& spacing) {
-  ProbeReach reach;
-  reach.in_solid_matter = in_solid_matter(sights);
-  for (const Sight& sight : sights) {
-    if (missed(sight)) continue;
-    const vec3 cells = abs((position + sight.distance * sight.direction - home) / spacing);
-    if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kReachSlack) reach.lights_surface = true;
+ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits,
+                                         const vec3& position, const vec3& home,
+                                         const vec3& spacing) {
+  ClassificationInput input;
+  input.inside_geometry = inside_geometry(fixed_hits);
+  for (const FixedRayHit& hit : fixed_hits) {
+    if (missed(hit)) continue;
+    const vec3 cells = abs((position + hit.distance * hit.direction - home) / spacing);
+    if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kCellSlack) input.lights_surface = true;
   }
-  return reach;
+  return input;
 }
 
-ProbeState next_state(ProbeState before, const ProbeReach& reach, bool near_moving) {
-  if (reach.in_solid_matter) return ProbeState::off;
-  if (reach.lights_surface) {
+ProbeState next_state(ProbeState before, const ClassificationInput& input, bool near_moving) {
+  if (input.inside_geometry) return ProbeState::off;
+  if (input.lights_surface) {
     return is_vigilant(before) ? before : ProbeState::newly_vigilant;
   }
   if (near_moving) return is_awake(before) ? before : ProbeState::newly_awake;
@@ -54,27 +55,28 @@ ProbeState state_once_traced(ProbeState state) {
 
 namespace {
 
-/// Where probes belong that may light something in a box: around a place in a grid, in cells.
+/// The grid coordinates of the probes that may light something in a box: those no farther from
+/// `middle` than `reach` along each axis [cells].
 struct LitCells {
   vec3 middle, reach;
 
   LitCells(const Bounds& box, const ProbeGrid& grid) {
     const vec3 half = 0.5f * (box.max - box.min);
     middle = grid_coords(grid, box.min + half);
-    // A box along the grid's axes around the box
+    // Enclose the box in one along the grid's axes
     const mat3 turn(abs(grid.axes[0]), abs(grid.axes[1]), abs(grid.axes[2]));
     const float bias = kBiasScale * kBias * smallest_spacing(grid);
     reach = (half * turn + bias) / grid.spacing + 1.0f;
   }
 };
 
-void classify_probe(const ProbeStore& store, const ProbeReach& reach,
-                    std::span<const Bounds> moving, int probe, ProbeRecord& record) {
+void classify_probe(const ProbeStore& store, const ClassificationInput& input,
+                    std::span<const Bounds> moving, int probe, ProbeStatus& status) {
   const ProbeGrid& grid = store.grid_of(probe);
   const vec3 home = store.probe_home_ws(probe);
   const bool near_moving = std::any_of(moving.begin(), moving.end(),
                                        [&](const Bounds& b) { return may_light(b, home, grid); });
-  record.state = next_state(record.state, reach, near_moving);
+  status.state = next_state(status.state, input, near_moving);
 }
 
 }  // namespace
@@ -85,22 +87,23 @@ bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid)
   return glm::all(glm::lessThanEqual(abs(grid_coords(grid, home_ws) - cells.middle), cells.reach));
 }
 
-void classify_probes(const ProbeStore& store, std::span<const ProbeReach> reaches,
-                     std::span<const Bounds> moving, std::span<ProbeRecord> records) {
-  assert(reaches.size() == records.size());
+void classify_probes(const ProbeStore& store,
+                     std::span<const ClassificationInput> classification_inputs,
+                     std::span<const Bounds> moving, std::span<ProbeStatus> statuses) {
+  assert(classification_inputs.size() == statuses.size());
   for (int probe = 0; probe < store.probes(); ++probe) {
-    classify_probe(store, reaches[probe], moving, probe, records[probe]);
+    classify_probe(store, classification_inputs[probe], moving, probe, statuses[probe]);
   }
 }
 
 std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store,
-                                      std::span<const ProbeReach> reaches,
+                                      std::span<const ClassificationInput> classification_inputs,
                                       std::span<const Bounds> moving,
-                                      std::span<ProbeRecord> records) {
+                                      std::span<ProbeStatus> statuses) {
   std::vector<int> changed;
   if (box.empty()) return changed;
   for (const ProbeGrid& grid : store.grids()) {
-    // A probe more on each side, for rounding; the probe's own test decides
+    // Visit one probe more on each side, for rounding; may_light() decides about each
     const LitCells cells(box, grid);
     const vec3 reach = cells.reach + 1.0f, last(grid.count - 1);
     const ivec3 low(clamp(cells.middle - reach, vec3(0.0f), last));
@@ -109,9 +112,9 @@ std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store
       for (int y = low.y; y <= high.y; ++y) {
         for (int x = low.x; x <= high.x; ++x) {
           const int probe = probe_index(grid, {x, y, z});
-          const ProbeState before = records[probe].state;
-          classify_probe(store, reaches[probe], moving, probe, records[probe]);
-          if (records[probe].state != before) changed.push_back(probe);
+          const ProbeState before = statuses[probe].state;
+          classify_probe(store, classification_inputs[probe], moving, probe, statuses[probe]);
+          if (statuses[probe].state != before) changed.push_back(probe);
         }
       }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Majercik et al., "Scaling Probe-Based Real-Time Dynamic Global Illumination for
-// Production", JCGT 10(2), 2021, sec. 4. There probes leave matter and keep away from surfaces;
-// here they also come near them.
+// Production", JCGT 10(2), 2021, sec. 4. There, probes leave geometry and keep a distance from
+// surfaces. Here, they also move towards surfaces, to stand just in front of them.
 #include "field/placement/relocate.h"
 
 #include <algorithm>
@@ -16,12 +16,12 @@
 namespace lambent {
 namespace {
 
-// Enough that a wall half a cell away is met by several rays that face it.
-constexpr int kSights = 128;
+// The number of fixed rays: several of them hit a wall half a cell away at a steep angle.
+constexpr int kFixedRays = 128;
 constexpr std::size_t kProbesPerTask = 16;
 
-// Rays pass so many moving surfaces before they count as lost in them, and go on this share of the
-// way behind each.
+// A ray passes through at most this many moving surfaces, and continues this fraction of its length
+// behind each.
 constexpr int kMaxMovingSurfaces = 8;
 constexpr float kPastSurface = 1e-5f;
 
@@ -29,9 +29,10 @@ bool is_moving(const Hit& hit, std::span<const std::uint8_t> moving) {
   return !hit.missed() && hit.instance < moving.size() && moving[hit.instance] != 0;
 }
 
-/// Sends rays that met what moves on behind it, time and again.
-void look_through(const RayTracer& tracer, std::span<const std::uint8_t> moving,
-                  std::span<Ray> rays, std::span<Hit> hits) {
+/// Continues rays that hit moving instances behind these, until they hit something static or
+/// nothing.
+void pass_moving_surfaces(const RayTracer& tracer, std::span<const std::uint8_t> moving,
+                          std::span<Ray> rays, std::span<Hit> hits) {
   std::vector<std::size_t> stopped;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (is_moving(hits[i], moving)) stopped.push_back(i);
@@ -51,12 +52,12 @@ void look_through(const RayTracer& tracer, std::span<const std::uint8_t> moving,
   }
 }
 
-/// What a probe sees, as relocate.inl.h asks for it.
+/// The fixed-ray hits of a probe, as relocate.inl.h reads them.
 class Surroundings {
  public:
-  explicit Surroundings(std::span<const Sight> sights) : sights_(sights) {
-    for (const Sight& sight : sights) {
-      if (passes_below(sight)) planes_.push_back(plane_below(sight));
+  explicit Surroundings(std::span<const FixedRayHit> fixed_hits) : fixed_hits_(fixed_hits) {
+    for (const FixedRayHit& hit : fixed_hits) {
+      if (passes_below(hit)) planes_.push_back(plane_below(hit));
     }
     std::stable_sort(planes_.begin(), planes_.end(),
                      [](const PlaneBelow& a, const PlaneBelow& b) { return a.height < b.height; });
@@ -65,11 +66,11 @@ class Surroundings {
 #include "field/placement/relocate.inl.h"
 
  private:
-  int sight_count() const {
-    return static_cast<int>(sights_.size());
+  int hit_count() const {
+    return static_cast<int>(fixed_hits_.size());
   }
-  const Sight& sight_at(int index) const {
-    return sights_[index];
+  const FixedRayHit& hit_at(int index) const {
+    return fixed_hits_[index];
   }
   int plane_count() const {
     return static_cast<int>(planes_.size());
@@ -78,65 +79,65 @@ class Surroundings {
     return planes_[rank];
   }
 
-  std::span<const Sight> sights_;
+  std::span<const FixedRayHit> fixed_hits_;
   std::vector<PlaneBelow> planes_;
 };
 
-/// The walk of a probe.
-class Walk {
+/// The relocation of one probe.
+class Relocation {
  public:
-  Walk(int probe, const ProbeStore& store)
-      : probe_(probe), walk_(begin_walk(store.probe_offset(probe))) {}
+  Relocation(int probe, const ProbeStore& store)
+      : probe_(probe), relocation_(begin_relocation(store.probe_offset(probe))) {}
 
   int probe() const { return probe_; }
-  bool at_rest() const { return walk_.at_rest != 0; }
+  bool converged() const { return relocation_.converged != 0; }
 
-  /// One step, by what the probe sees from where it stands.
-  void step(std::span<const Sight> sights, ProbeStore& store) {
+  /// Takes one step, by the hits of the fixed rays from where the probe stands.
+  void step(std::span<const FixedRayHit> fixed_hits, ProbeStore& store) {
     const ProbeGrid& grid = store.grid_of(probe_);
-    // Along the axes of the grid, seen from where the probe belongs
+    // Work along the axes of the grid, relative to the probe's place on it
     const vec3 offset = store.probe_offset(probe_), position = offset * grid.spacing;
-    const vec3 better = better_position(sights, position, vec3(0.0f), grid.spacing);
-    const float unrest = probe_unrest(position, better, kSurfaceMargin * smallest_spacing(grid),
-                                      in_solid_matter(sights) ? 1u : 0u);
+    const vec3 better = better_position(fixed_hits, position, vec3(0.0f), grid.spacing);
+    const float cost = placement_cost(position, better, kSurfaceMargin * smallest_spacing(grid),
+                                      inside_geometry(fixed_hits) ? 1u : 0u);
     const vec3 there = better == position ? offset : better / grid.spacing;
-    store.set_probe_offset(probe_, step_walk(walk_, offset, there, unrest));
+    store.set_probe_offset(probe_, relocation_step(relocation_, offset, there, cost));
   }
 
  private:
   int probe_;
-  ProbeWalk walk_;
+  RelocationState relocation_;
 };
 
-/// Walks with some probes at once, so that their rays go in large batches.
+/// Relocates some probes together, so that their rays are traced in large batches.
 void settle(const Scene& scene, const RayTracer& tracer, std::span<const int> probes,
             std::span<const std::uint8_t> moving, ProbeStore& store) {
-  const std::size_t directions = sight_directions().size();
-  std::vector<Walk> walks;
-  for (const int probe : probes) walks.emplace_back(probe, store);
+  const std::size_t directions = fixed_ray_directions().size();
+  std::vector<Relocation> relocations;
+  for (const int probe : probes) relocations.emplace_back(probe, store);
   std::vector<Viewpoint> viewpoints;
-  std::vector<Sight> sights;
-  while (!walks.empty()) {
+  std::vector<FixedRayHit> fixed_hits;
+  while (!relocations.empty()) {
     viewpoints.clear();
-    for (const Walk& walk : walks) {
+    for (const Relocation& relocation : relocations) {
       viewpoints.push_back(
-          {store.probe_position_ws(walk.probe()), store.grid_of(walk.probe()).axes});
+          {store.probe_position_ws(relocation.probe()), store.grid_of(relocation.probe()).axes});
     }
-    sights.resize(walks.size() * directions);
-    look_around(scene, tracer, viewpoints, moving, sights);
-    parallel_chunks(walks.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    fixed_hits.resize(relocations.size() * directions);
+    trace_fixed_rays(scene, tracer, viewpoints, moving, fixed_hits);
+    parallel_chunks(relocations.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t w = begin; w < end; ++w) {
-        walks[w].step({&sights[w * directions], directions}, store);
+        relocations[w].step({&fixed_hits[w * directions], directions}, store);
       }
     });
-    std::erase_if(walks, [](const Walk& walk) { return walk.at_rest(); });
+    std::erase_if(relocations, [](const Relocation& relocation) { return relocation.converged(); });
   }
 }
 
 }  // namespace
 
-std::span<const vec3> sight_directions() {
-  static const std::vector<vec3> directions = probe_ray_directions(kSights, 0u, 0u);
+std::span<const vec3> fixed_ray_directions() {
+  static const std::vector<vec3> directions = probe_ray_directions(kFixedRays, 0u, 0u);
   return directions;
 }
 
@@ -147,44 +148,47 @@ std::vector<std::uint8_t> moving_instances(const Scene& scene) {
 }
 
 std::size_t viewpoints_of_batch(const RayTracer& tracer) {
-  return batch_of(tracer, kSights, kProbesPerTask);
+  return batch_of(tracer, kFixedRays, kProbesPerTask);
 }
 
-void look_around(const Scene& scene, const RayTracer& tracer, std::span<const Viewpoint> viewpoints,
-                 std::span<const std::uint8_t> moving, std::span<Sight> sights) {
-  const std::span<const vec3> directions = sight_directions();
-  assert(sights.size() == viewpoints.size() * directions.size());
-  std::vector<Ray> rays(sights.size());
-  std::vector<Hit> hits(sights.size());
+void trace_fixed_rays(const Scene& scene, const RayTracer& tracer,
+                      std::span<const Viewpoint> viewpoints, std::span<const std::uint8_t> moving,
+                      std::span<FixedRayHit> fixed_hits) {
+  const std::span<const vec3> directions = fixed_ray_directions();
+  assert(fixed_hits.size() == viewpoints.size() * directions.size());
+  std::vector<Ray> rays(fixed_hits.size());
+  std::vector<Hit> hits(fixed_hits.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     rays[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,
                directions[i % directions.size()], kInfiniteDistance, kRayOfProbe};
   }
   tracer.closest_hits(rays, hits);
-  look_through(tracer, moving, rays, hits);
-  parallel_chunks(rays.size(), kProbesPerTask * kSights, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const mat3& axes = viewpoints[i / directions.size()].axes;
-      const vec3& direction = rays[i].direction;
-      sights[i] = {direction * axes, kInfiniteDistance, -direction * axes, 0u};
-      if (hits[i].missed() || is_moving(hits[i], moving)) continue;
-      const Surface surface = surface_at(scene, rays[i], hits[i]);
-      sights[i].distance = hits[i].distance;
-      sights[i].normal = surface.geometric_normal_ws * axes;
-      sights[i].back_face = !surface.front_face && !surface.double_sided ? 1u : 0u;
-    }
-  });
+  pass_moving_surfaces(tracer, moving, rays, hits);
+  parallel_chunks(
+      rays.size(), kProbesPerTask * kFixedRays, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const mat3& axes = viewpoints[i / directions.size()].axes;
+          const vec3& direction = rays[i].direction;
+          fixed_hits[i] = {direction * axes, kInfiniteDistance, -direction * axes, 0u};
+          if (hits[i].missed() || is_moving(hits[i], moving)) continue;
+          const Surface surface = surface_at(scene, rays[i], hits[i]);
+          fixed_hits[i].distance = hits[i].distance;
+          fixed_hits[i].normal = surface.geometric_normal_ws * axes;
+          fixed_hits[i].back_face = !surface.front_face && !surface.double_sided ? 1u : 0u;
+        }
+      });
 }
 
-bool in_solid_matter(std::span<const Sight> sights) {
-  const auto back_faces = std::count_if(sights.begin(), sights.end(),
-                                        [](const Sight& sight) { return sight.back_face != 0; });
-  return stands_in_matter(static_cast<int>(back_faces), static_cast<int>(sights.size())) != 0;
+bool inside_geometry(std::span<const FixedRayHit> fixed_hits) {
+  const auto back_faces = std::count_if(fixed_hits.begin(), fixed_hits.end(),
+                                        [](const FixedRayHit& hit) { return hit.back_face != 0; });
+  return is_inside_geometry(static_cast<int>(back_faces), static_cast<int>(fixed_hits.size())) != 0;
 }
 
-vec3 better_position(std::span<const Sight> sights, const vec3& from, const vec3& home,
+vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
                      const vec3& spacing) {
-  return Surroundings(sights).better_place(from, home, spacing, in_solid_matter(sights) ? 1u : 0u);
+  return Surroundings(fixed_hits)
+      .better_place(from, home, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
 }
 
 std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,

@@ -16,7 +16,7 @@ namespace lambent {
 
 /// World-space directions a probe looks in: the same for all probes at all times, so that probes
 /// come to rest.
-std::span<const vec3> sight_directions();
+std::span<const vec3> fixed_ray_directions();
 
 /// One flag an instance: it moves.
 std::vector<std::uint8_t> moving_instances(const Scene& scene);
@@ -30,18 +30,19 @@ struct Viewpoint {
 /// Looks around from some points. `moving` holds one flag an instance: the ray looks through those
 /// that move; instances beyond its end keep still. `sights` has one entry a direction, point after
 /// point. One batch of rays, but for those that meet what moves.
-void look_around(const Scene& scene, const RayTracer& tracer, std::span<const Viewpoint> viewpoints,
-                 std::span<const std::uint8_t> moving, std::span<Sight> sights);
+void trace_fixed_rays(const Scene& scene, const RayTracer& tracer,
+                      std::span<const Viewpoint> viewpoints, std::span<const std::uint8_t> moving,
+                      std::span<FixedRayHit> fixed_hits);
 
 /// How many probes to look around from at once: on processors few, so that all cores have some.
 std::size_t viewpoints_of_batch(const RayTracer& tracer);
 
 /// True where so many sights met back faces that the point must be in solid matter.
-bool in_solid_matter(std::span<const Sight> sights);
+bool inside_geometry(std::span<const FixedRayHit> fixed_hits);
 
 /// Where a probe that belongs at `home` and sees this from `from` had better stand; `from` itself
 /// where it may stay. At most kMaxProbeOffset of a cell from home. All in the sights' frame.
-vec3 better_position(std::span<const Sight> sights, const vec3& from, const vec3& home,
+vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
                      const vec3& spacing);
 
 /// Moves some probes until they stand well, then leaves them. Returns those that moved, in the

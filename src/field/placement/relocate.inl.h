@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a probe had better stand, by what it sees. The includer provides
-//   int sight_count();               // sights, ...
-//   Sight sight_at(int index);
+//   int hit_count();               // sights, ...
+//   FixedRayHit hit_at(int index);
 //   int plane_count();               // ... and those that pass below the probe, the nearest first
 //   PlaneBelow plane_at(int rank);
 // All is in the frame of the probe's grid.
 
 /// To just outside the solid matter, as near to home as rays have found a way.
-LAMBENT_FN vec3 way_out(vec3 position, vec3 home, vec3 spacing, float margin) {
+LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 home, vec3 spacing, float margin) {
   vec3 best = position;
   float nearest = infinity();
-  for (int i = 0; i < sight_count(); ++i) {
-    Sight sight = sight_at(i);
-    if (sight.back_face == 0u) continue;
-    vec3 outside = position + sight.distance * sight.direction - margin * sight.normal;
+  for (int i = 0; i < hit_count(); ++i) {
+    FixedRayHit hit = hit_at(i);
+    if (hit.back_face == 0u) continue;
+    vec3 outside = position + hit.distance * hit.direction - margin * hit.normal;
     float away = length(outside - home);
     if (away >= nearest || !within_reach(outside, home, spacing)) continue;
     nearest = away;
@@ -34,10 +34,10 @@ LAMBENT_FN float room_above(PlaneBelow below) {
 
 /// Where a probe that belongs at `home` and sees this from `from` had better stand; `from` itself
 /// where it may stay. At most kMaxProbeOffset of a cell from home.
-LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint in_solid_matter) {
+LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geometry) {
   float smallest = min(spacing.x, min(spacing.y, spacing.z));
   float margin = kSurfaceMargin * smallest;
-  if (in_solid_matter != 0u) return way_out(from, home, spacing, margin);
+  if (inside_geometry != 0u) return nearest_exit(from, home, spacing, margin);
 
   // Step to just in front of the nearest surface, then along it to the next one that faces another
   // way, and along both to a third

@@ -10,7 +10,7 @@
 LAMBENT_BEGIN
 
 // Steps of one walk. Most probes stand well after two, those in corners after four.
-const int kMaxWalkSteps = 8;
+const int kMaxRelocationSteps = 8;
 
 // Probes stand in front of surfaces by this share of the smallest spacing. Nearer, their distances
 // towards grazing directions are too coarse to tell the near side of a wall from the far one
@@ -33,18 +33,18 @@ const float kMaxCornerCosine = 0.5f;
 const float kMinSteepness = 0.5f;
 
 // Being in solid matter that can be left is worse than any place outside [margins].
-const float kMatterUnrest = 100.0f;
+const float kInsideGeometryCost = 100.0f;
 
 /// What one ray from a probe met of the scene that keeps still, in the frame of the probe's grid.
-struct Sight {
+struct FixedRayHit {
   vec3 direction;  ///< Of the ray, unit.
   float distance;  ///< [m]; infinite: nothing.
   vec3 normal;     ///< Of the triangle, unit, towards the probe.
   uint back_face;  ///< 1: met the back of a single-sided surface.
 };
 
-LAMBENT_FN bool missed(Sight sight) {
-  return sight.distance == infinity();
+LAMBENT_FN bool missed(FixedRayHit hit) {
+  return hit.distance == infinity();
 }
 
 /// A surface that passes under a probe.
@@ -53,13 +53,13 @@ struct PlaneBelow {
   float height;  ///< Of the probe over it [m].
 };
 
-LAMBENT_FN bool passes_below(Sight sight) {
-  float cosine = -dot(sight.direction, sight.normal);
-  return sight.back_face == 0u && !missed(sight) && cosine >= kMinFacingCosine;
+LAMBENT_FN bool passes_below(FixedRayHit hit) {
+  float cosine = -dot(hit.direction, hit.normal);
+  return hit.back_face == 0u && !missed(hit) && cosine >= kMinFacingCosine;
 }
 
-LAMBENT_FN PlaneBelow plane_below(Sight sight) {
-  PlaneBelow plane = {sight.normal, sight.distance * -dot(sight.direction, sight.normal)};
+LAMBENT_FN PlaneBelow plane_below(FixedRayHit hit) {
+  PlaneBelow plane = {hit.normal, hit.distance * -dot(hit.direction, hit.normal)};
   return plane;
 }
 
@@ -70,9 +70,9 @@ LAMBENT_FN bool within_reach(vec3 position, vec3 home, vec3 spacing) {
 }
 
 /// How much a probe wants to leave for a better position [margins].
-LAMBENT_FN float probe_unrest(vec3 position, vec3 better, float margin, uint in_solid_matter) {
-  float unrest = length(better - position) / margin;
-  return better != position && in_solid_matter != 0u ? unrest + kMatterUnrest : unrest;
+LAMBENT_FN float placement_cost(vec3 position, vec3 better, float margin, uint inside_geometry) {
+  float cost = length(better - position) / margin;
+  return better != position && inside_geometry != 0u ? cost + kInsideGeometryCost : cost;
 }
 
 /// A probe's way from where it stands towards better places, after which it is left at the one it
@@ -80,43 +80,44 @@ LAMBENT_FN float probe_unrest(vec3 position, vec3 better, float margin, uint in_
 /// first: walking again would change nothing. As each walk that moves it leaves it with less
 /// unrest, it comes to rest even among clutter, where every step leads to another. Offsets are in
 /// cells.
-struct ProbeWalk {
+struct RelocationState {
   vec3 first;
   vec3 best;
-  float least;   ///< The unrest there.
-  int steps;     ///< Taken so far.
-  uint at_rest;  ///< 1: it is over.
+  float least;     ///< The unrest there.
+  int steps;       ///< Taken so far.
+  uint converged;  ///< 1: it is over.
 };
 
-LAMBENT_FN ProbeWalk begin_walk(vec3 offset) {
-  ProbeWalk walk = {offset, offset, infinity(), 0, 0u};
-  return walk;
+LAMBENT_FN RelocationState begin_relocation(vec3 offset) {
+  RelocationState relocation = {offset, offset, infinity(), 0, 0u};
+  return relocation;
 }
 
 /// Ends a walk at the best place so far, or begins another from there. Returns that place.
-LAMBENT_FN vec3 end_walk(LAMBENT_INOUT(ProbeWalk) walk) {
-  vec3 best = walk.best;
-  if (walk.best == walk.first) {
-    walk.at_rest = 1u;
+LAMBENT_FN vec3 end_relocation(LAMBENT_INOUT(RelocationState) relocation) {
+  vec3 best = relocation.best;
+  if (relocation.best == relocation.first) {
+    relocation.converged = 1u;
   } else {
-    walk = begin_walk(best);
+    relocation = begin_relocation(best);
   }
   return best;
 }
 
 /// One step: from `offset`, which the probe wants to leave this much for `better`; the same where
 /// it does not. Returns where to stand next.
-LAMBENT_FN vec3 step_walk(LAMBENT_INOUT(ProbeWalk) walk, vec3 offset, vec3 better, float unrest) {
-  if (walk.steps == 0 || unrest <= walk.least) {
-    walk.best = offset;
+LAMBENT_FN vec3 relocation_step(LAMBENT_INOUT(RelocationState) relocation, vec3 offset, vec3 better,
+                                float cost) {
+  if (relocation.steps == 0 || cost <= relocation.least) {
+    relocation.best = offset;
     // Away from the first place only for something clearly better
-    walk.least = walk.steps == 0 ? unrest - kMarginTolerance : unrest;
+    relocation.least = relocation.steps == 0 ? cost - kMarginTolerance : cost;
   }
   if (better != offset) {
-    ++walk.steps;
-    if (walk.steps <= kMaxWalkSteps) return better;
+    ++relocation.steps;
+    if (relocation.steps <= kMaxRelocationSteps) return better;
   }
-  return end_walk(walk);
+  return end_relocation(relocation);
 }
 
 LAMBENT_END

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Volumes that follow the viewer: probes of the slab left behind move on to the slab that comes
-// into view, and take over the light that coarser volumes hold there.
+// Scrolling of volumes that follow the viewer: the probes of the slab that is left behind are
+// recycled for the slab that comes into range, and start from the light that the coarser volumes
+// hold there.
 #include <algorithm>
 #include <vector>
 
@@ -19,9 +20,10 @@ constexpr std::size_t kProbesPerTask = 16;
 
 }  // namespace
 
-/// What a probe at a place would hold, from what the field holds there.
-void IrradianceField::State::inherit(std::span<const int> probes, std::span<const vec3> places_ws,
-                                     std::span<vec4> tiles) const {
+/// Looks the field up at the places of some probes, along the direction of every texel.
+void IrradianceField::State::interpolate_tiles(std::span<const int> probes,
+                                               std::span<const vec3> places_ws,
+                                               std::span<vec4> tiles) const {
   const int edge = settings.irradiance_texels;
   const std::size_t texels = tiles.size() / max<std::size_t>(probes.size(), 1);
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -45,16 +47,16 @@ void IrradianceField::State::inherit(std::span<const int> probes, std::span<cons
   });
 }
 
-int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer_ws,
-                                          UpdateStatistics& statistics) {
-  // Find the probes that will belong elsewhere, and what the field holds there
+int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewer_ws,
+                                           UpdateStatistics& statistics) {
+  // Find the probes that are recycled, and the light at their new places
   std::vector<int> recycled;
   std::vector<vec3> places;
   std::vector<ProbeGrid> next(store.grids().begin(), store.grids().end());
   for (int volume = 0; volume < store.volumes(); ++volume) {
     if (!roles[volume].follows_viewer) continue;
     const ProbeGrid& grid = store.grid(volume);
-    next[volume] = updates == 0 ? around(grid, viewer_ws) : following(grid, viewer_ws);
+    next[volume] = updates == 0 ? centred(grid, viewer_ws) : scrolled(grid, viewer_ws);
     const std::vector<int> probes = recycled_probes(store.grid(volume), next[volume]);
     for (const int probe : probes) {
       places.push_back(probe_position(next[volume], probe_coords(next[volume], probe)));
@@ -63,7 +65,7 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   }
   const auto texels = static_cast<std::size_t>(tile_texels());
   WorkingIrradiance tiles(recycled.size() * texels);
-  if (updates > 0) inherit(recycled, places, tiles);
+  if (updates > 0) interpolate_tiles(recycled, places, tiles);
 
   for (int volume = 0; volume < store.volumes(); ++volume) {
     if (!roles[volume].follows_viewer) continue;
@@ -72,25 +74,25 @@ int IrradianceField::State::follow_viewer(const World& world, const vec3& viewer
   }
   if (updates == 0 || recycled.empty()) return 0;
 
-  // Place them, with their first distances and the light that was there
+  // Move the recycled probes, with their first distances and the interpolated light
   fetch_light();
   for (std::size_t k = 0; k < recycled.size(); ++k) {
     const int probe = recycled[k];
     store.set_probe_offset(probe, vec3(0.0f));
-    forget_place(probe);
+    reset_probe(probe);
     for (std::size_t t = 0; t < texels; ++t) {
       const vec4 held = max(tiles[k * texels + t], vec4(0.0f));
       light[probe * texels + t] = held;
-      if (!edits.before.empty()) edits.before[probe * texels + t] = held;
+      if (!pending_edits.before.empty()) pending_edits.before[probe * texels + t] = held;
     }
   }
   if (settings.relocation) {
     relocate_probes(world.scene(), world.tracer(), recycled, moving_instances(world.scene()),
                     store);
   }
-  settle_in(world, recycled, statistics);
-  for (const int probe : recycled) take_over(probe, world);
-  if (device) device->write_light(light, told);
+  initialize_relocated(world, recycled, statistics);
+  for (const int probe : recycled) inherit_history(probe, world);
+  if (device) device->write_light(light, last_irradiance_estimate);
   store_light(recycled);
   return static_cast<int>(recycled.size());
 }

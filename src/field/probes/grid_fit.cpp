@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the probes of a field stand.
+// The grid of probes that is fitted to a scene.
 #include <algorithm>
 #include <cmath>
 
@@ -10,20 +10,21 @@
 namespace lambent {
 namespace {
 
-// The outermost probes stand this share of a cell inside the bounds, so that the bounding surfaces
-// are lit by probes just in front of them and not by ones half a cell away (docs/math.md, "Probes
-// belong at surfaces").
+// The outermost probes stand this fraction of a cell inside the bounds, so that the bounding
+// surfaces are lit by probes just in front of them, and not by probes half a cell away
+// (docs/math.md, "Probes belong at surfaces").
 constexpr float kBoundaryMargin = 0.07f;
 
 constexpr int kMinProbesPerAxis = 2;
 // The coarsest grid, of one cell.
 constexpr int kMinProbes = kMinProbesPerAxis * kMinProbesPerAxis * kMinProbesPerAxis;
-// Extents are this share of a cell longer than whole cells before they get another one: room for
-// rounding in the quotient.
+// An extent gets another cell only if it exceeds whole cells by this fraction of one, which leaves
+// room for rounding in the quotient.
 constexpr float kCellRounding = 1e-4f;
-// More cells along an axis than any budget allows, and few enough to count in an int.
+// This many cells along an axis are more than any budget allows, and still fit into an int.
 constexpr float kUncountableCells = 1e6f;
-// Flat scenes still get a volume: no side is thinner than this share of the longest.
+// No side of the volume is thinner than this fraction of the longest, so that flat scenes get one,
+// too.
 constexpr float kMinThickness = 1e-2f;
 // A scene without extent gets a cell of this size [m].
 constexpr float kSmallestScene = 1e-3f;
@@ -32,7 +33,7 @@ tl::unexpected<Error> bad_setting(const char* setting, std::string cause) {
   return fail("", setting, std::move(cause));
 }
 
-/// Probes along each axis for a spacing, at least.
+/// The least number of probes along each axis for a spacing.
 glm::ivec3 count_for_spacing(const glm::vec3& extent, float spacing) {
   const glm::vec3 cells = glm::ceil(extent / spacing - kCellRounding);
   return glm::max(glm::ivec3(cells) + 1, glm::ivec3(kMinProbesPerAxis));

@@ -38,8 +38,8 @@ LAMBENT_FN uint encode_r11g11b10f(vec3 irradiance, vec3 u) {
 
 /// The random numbers with which a texel is stored; `index` is its own among all. Coarser dither
 /// would pull R11G11B10F, whose steps are wide, off by some per mille.
-LAMBENT_FN vec3 irradiance_dither(uint index, uint salt) {
-  uvec3 bits = hash_pcg3d(uvec3(index, salt, 0u));
+LAMBENT_FN vec3 irradiance_dither(uint index, uint dither_seed) {
+  uvec3 bits = hash_pcg3d(uvec3(index, dither_seed, 0u));
   return vec3(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
 }
 

@@ -10,16 +10,16 @@ LAMBENT_BEGIN
 
 /// Moments a share of the way from old ones to new ones; `now` in metres, of which each is `scale`
 /// units of the store.
-LAMBENT_FN vec2 blended_moments(vec2 old, vec2 now, float share, float scale) {
-  return vec2(old.x + share * (scale * now.x - old.x),
-              old.y + share * (scale * scale * now.y - old.y));
+LAMBENT_FN vec2 blended_moments(vec2 old, vec2 now, float blend_weight, float scale) {
+  return vec2(old.x + blend_weight * (scale * now.x - old.x),
+              old.y + blend_weight * (scale * scale * now.y - old.y));
 }
 
 /// The same between words of two halves. `seed` is the dither's.
-LAMBENT_FN uint blended_halves(uint word, vec2 now, float share, float scale, uint seed) {
+LAMBENT_FN uint blended_halves(uint word, vec2 now, float blend_weight, float scale, uint seed) {
   vec2 old =
       vec2(decode_small_float(word & 0x7FFFu, 10), decode_small_float((word >> 16u) & 0x7FFFu, 10));
-  vec2 moments = blended_moments(old, now, share, scale);
+  vec2 moments = blended_moments(old, now, blend_weight, scale);
   uint bits = hash_pcg(seed);
   float u = float(bits & 0xFFFFu) * (1.0f / 65536.0f);
   float v = float(bits >> 16u) * (1.0f / 65536.0f);

@@ -112,10 +112,10 @@ LAMBENT_FN int cell_wrap(ProbeGrid grid, ivec3 base) {
 
 /// What a volume has to say about a point, 0 to 1: 1 well inside the box in which it counts, fading
 /// to 0 at its faces; where it is thin, all the way from the middle.
-LAMBENT_FN float volume_share(ProbeGrid grid, vec3 position_ws) {
+LAMBENT_FN float volume_blend_weight(ProbeGrid grid, vec3 position_ws) {
   vec3 inside = grid.fade_half - abs(grid_coords(grid, position_ws) - grid.fade_centre);
-  vec3 share = inside / min(grid.fade_half, grid.fade_cells);
-  return clamp(min(share.x, min(share.y, share.z)), 0.0f, 1.0f);
+  vec3 weight = inside / min(grid.fade_half, grid.fade_cells);
+  return clamp(min(weight.x, min(weight.y, weight.z)), 0.0f, 1.0f);
 }
 
 const int kCellCorners = 8;

@@ -12,7 +12,7 @@
 namespace lambent {
 namespace {
 
-// Keeps the random numbers of the store's dither apart from those of other passes.
+// Distinguishes the random numbers of the store's dither from those of other passes.
 constexpr uint kStoreSalt = 0x53544F52u;
 
 std::size_t tile_texels(int texels) {
@@ -24,8 +24,7 @@ std::size_t texel_index(int probe, const ivec2& with_gutter, int texels) {
          static_cast<std::size_t>(with_gutter.y) * (texels + 2) + with_gutter.x;
 }
 
-/// Copies what lies across the octahedron's fold into the gutter of a tile whose interior is
-/// filled.
+/// Fills the gutter of a tile with the texels that lie across the octahedron's fold.
 void fill_gutter(uint* tile, int texels, int words) {
   const int width = texels + 2;
   for (int i = 0; i < gutter_texels(texels); ++i) {
@@ -36,29 +35,30 @@ void fill_gutter(uint* tile, int texels, int words) {
   }
 }
 
-/// Moves a row of moments a share of the way to `now` (pairs of mean and mean square, in metres; a
-/// metre is `scale` units of the store). Each texel's dither is a hash of `first_index` and its
-/// place in the row.
-LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count, float share,
-                                         float scale, uint first_index) {
+/// Blends a row of stored moments with new ones. `now` holds pairs of mean and mean square [m,
+/// m^2]; a metre is `scale` units of the store. Each texel's dither is a hash of `first_index` plus
+/// its place in the row.
+LAMBENT_SIMD_CLONES void blend_row_rg16f(uint* words, const float* now, int count,
+                                         float blend_weight, float scale, uint first_index) {
   for (int i = 0; i < count; ++i) {
-    words[i] = blended_halves(words[i], vec2(now[2 * i], now[2 * i + 1]), share, scale,
+    words[i] = blended_halves(words[i], vec2(now[2 * i], now[2 * i + 1]), blend_weight, scale,
                               first_index + static_cast<uint>(i));
   }
 }
 
-LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int count, float share,
-                                         float scale, uint /*first_index*/) {
+LAMBENT_SIMD_CLONES void blend_row_rg32f(uint* words, const float* now, int count,
+                                         float blend_weight, float scale, uint /*first_index*/) {
   for (int i = 0; i < count; ++i) {
     const vec2 old(uintBitsToFloat(words[2 * i]), uintBitsToFloat(words[2 * i + 1]));
-    const vec2 moments = blended_moments(old, vec2(now[2 * i], now[2 * i + 1]), share, scale);
+    const vec2 moments =
+        blended_moments(old, vec2(now[2 * i], now[2 * i + 1]), blend_weight, scale);
     words[2 * i] = floatBitsToUint(moments.x);
     words[2 * i + 1] = floatBitsToUint(moments.y);
   }
 }
 
-/// Index of each corner of a cell relative to its lowest probe, where the cell runs over the end of
-/// memory in the directions `wrap`.
+/// Index of each corner of a cell relative to the cell's lowest probe, where the cell wraps around
+/// the end of memory in the directions `wrap` (cell_wrap).
 CornerOffsets corner_offsets(const ivec3& count, int wrap) {
   const ivec3 row = ivec3(1, count.x, count.x * count.y);
   const ivec3 back = cell_corner(wrap) * count;
@@ -81,7 +81,7 @@ Value bilinear(const vec3& direction, int texels, Texel texel) {
 
 }  // namespace
 
-uint store_salt(uint update, uint seed) {
+uint store_dither_seed(uint update, uint seed) {
   return hash_pcg3d(uvec3(update, seed, kStoreSalt)).x;
 }
 
@@ -168,7 +168,7 @@ vec2 ProbeStore::moments(int probe, const vec3& direction) const {
                         [&](ivec2 texel) { return moments_texel(probe, texel); });
 }
 
-void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uint salt) {
+void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uint dither_seed) {
   const int n = irradiance_texels_;
   assert(interior.size() == static_cast<std::size_t>(n) * n);
   const int words = words_per_irradiance_texel();
@@ -180,14 +180,15 @@ void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uin
       for (int c = 0; c < 3; ++c) word[c] = floatBitsToUint(value[c]);
       continue;
     }
-    const vec3 u = irradiance_dither(static_cast<uint>(index), salt);
+    const vec3 u = irradiance_dither(static_cast<uint>(index), dither_seed);
     *word = irradiance_format_ == IrradianceFormat::rgb9e5 ? encode_rgb9e5(value, u)
                                                            : encode_r11g11b10f(value, u);
   }
   fill_gutter(&irradiance_[texel_index(probe, {0, 0}, n) * words], n, words);
 }
 
-void ProbeStore::blend_moments(int probe, std::span<const vec2> interior, float share, uint salt) {
+void ProbeStore::blend_moments(int probe, std::span<const vec2> interior, float blend_weight,
+                               uint dither_seed) {
   const int n = distance_texels_;
   assert(interior.size() == static_cast<std::size_t>(n) * n);
   const int words = words_per_distance_texel();
@@ -197,8 +198,8 @@ void ProbeStore::blend_moments(int probe, std::span<const vec2> interior, float 
     const std::size_t first = tile + static_cast<std::size_t>(row + 1) * (n + 2) + 1;
     const auto blend =
         distance_format_ == DistanceFormat::rg16f ? blend_row_rg16f : blend_row_rg32f;
-    blend(&distance_[first * words], &interior[static_cast<std::size_t>(row) * n].x, n, share,
-          scale, static_cast<uint>(first) + salt);
+    blend(&distance_[first * words], &interior[static_cast<std::size_t>(row) * n].x, n,
+          blend_weight, scale, static_cast<uint>(first) + dither_seed);
   }
   fill_gutter(&distance_[tile * words], n, words);
 }

@@ -15,7 +15,7 @@
 namespace lambent {
 
 /// Of the dither of an update's stores.
-uint store_salt(uint update, uint seed);
+uint store_dither_seed(uint update, uint seed);
 
 /// Tiles of the probes of all volumes, probe after probe; a tile is (texels + 2)^2 texels, row
 /// after row, gutter included.
@@ -76,9 +76,10 @@ class ProbeStore {
 
   /// Encodes a probe's interior texels, row after row, and fills the gutter. `salt` (say, a hash of
   /// update and seed) makes the dither of this call its own.
-  void store_irradiance(int probe, std::span<const vec3> interior, uint salt);
+  void store_irradiance(int probe, std::span<const vec3> interior, uint dither_seed);
   /// Moves a probe's moments a share of the way to new ones, 0 to 1, likewise.
-  void blend_moments(int probe, std::span<const vec2> interior, float share, uint salt);
+  void blend_moments(int probe, std::span<const vec2> interior, float blend_weight,
+                     uint dither_seed);
 
   /// The encoded words, for kernels; `words_per_*_texel` of them a texel. Distances are in units of
   /// distance_unit of the volume.

@@ -11,14 +11,16 @@ namespace {
 
 constexpr int kHarmonics = 9;  // degrees 0 to 2
 
-// Where a tile has too few texels to tell harmonics apart, the constant explains them first: its
-// share counts for so much less in what the pseudo-inverse keeps small.
+// Where a tile has too few texels to distinguish all harmonics, the constant one takes precedence:
+// it is scaled by this factor, so that the pseudo-inverse, which minimises coefficients, prefers
+// it.
 constexpr double kConstantFirst = 1e4;
 
-// Directions of the quadrature over the sphere: many for each of the at most 256 texels.
+// Directions of the quadrature over the sphere: at least 64 for each of at most 256 texels.
 constexpr int kQuadratureDirections = 16384;
 
-/// Real spherical harmonics up to degree 2, each up to a factor, which the fit does not depend on.
+/// Real spherical harmonics up to degree 2 without their constant factors, which the fit does not
+/// depend on.
 Eigen::Matrix<double, kHarmonics, 1> harmonics(const vec3& n) {
   const double x = n.x, y = n.y, z = n.z;
   Eigen::Matrix<double, kHarmonics, 1> values;
@@ -53,7 +55,8 @@ std::vector<float> tile_fit_matrix(int edge) {
     }
   }
 
-  // Compute what the harmonics are at the centres, and the values that read best
+  // Compute the harmonics at the texels' centres, and the stored values that interpolate to them
+  // best
   Eigen::MatrixXd centres(texels, kHarmonics);
   for (int t = 0; t < texels; ++t) {
     centres.row(t) = harmonics(tile_direction({t % edge, t / edge}, edge)).transpose();

@@ -17,33 +17,35 @@ namespace {
 const ivec3 kCascadeProbes(32, 4, 32);
 constexpr float kFinestSpacing = 1.0f;  // [m]
 
-// Cells that the viewer may be off a volume's middle before that follows: more than half of one, so
-// that who moves to and fro does not drag it along.
+// A volume scrolls when the viewer is more than this many cells off its middle: more than half a
+// cell, so that small movements to and fro do not scroll it each time.
 constexpr float kScrollSlack = 0.75f;
-// Who is so far off was carried away: the volume follows at once.
+// A viewer this far off [cells] was teleported, and the volume is moved at once.
 constexpr float kCarriedAway = 2.0f;
-// Along axes of fewer probes the slack would leave too little that counts.
+// Along axes with fewer probes, kScrollSlack would leave too small a box in which the volume
+// counts.
 constexpr int kLongAxis = 8;
-// Cells that the sides of the box in which a volume counts move in an update, where they do not
-// move with the viewer: half a second at 60 Hz for one.
+// How far the sides of the box in which a volume counts move per update [cells], where they do not
+// move with the viewer: a cell takes half a second at 60 Hz.
 constexpr float kFadeRate = 1.0f / 32.0f;
-// How much faster they move for each cell that the viewer is too far off.
+// The sides move faster by this factor for each cell that the viewer is beyond kScrollSlack.
 constexpr float kHaste = 8.0f;
 
-// Places of probes are counted in cells from the world's origin; floats count no farther [cells].
+// The farthest place of a probe from the world's origin [cells]: floats count cells up to there.
 constexpr float kFarthestCell = 4194304.0f;
-// With fewer probes along an axis nothing is left to count once the slack is taken off.
+// With fewer probes along an axis, nothing is left of the box in which a cascade counts.
 constexpr int kMinCascadeProbes = 4;
 
-// Probes of a volume for which neither count nor spacing is given.
+// The most probes of a volume for which neither count nor spacing is given.
 constexpr int kVolumeBudget = 512;
 
-// Cells across which volumes hand over to the next one, from one beyond their probes ...
+// Volumes fade into the next one across this many cells, beginning one cell beyond their probes.
 constexpr float kFadeCells = 1.0f;
-// ... and as a share of a long axis, so that who walks sees nothing of it.
+// Cascades fade across at least this fraction of their probes along an axis, so that a walking
+// viewer does not notice.
 constexpr float kFadeShare = 0.125f;
 
-// Columns of a rotation are unit and orthogonal to within this.
+// The largest error of a column of a matrix that still counts as a rotation.
 constexpr float kRotationSlack = 1e-3f;
 
 tl::unexpected<Error> bad_volume(const ProbeVolume& volume, std::string cause) {
@@ -103,7 +105,7 @@ Expected<void> check_cascades(const FieldSettings& settings) {
   return {};
 }
 
-/// Where a volume counts along one axis [cells from probe 0].
+/// The range along one axis in which a volume counts [cells from probe 0].
 struct Range {
   float low, high;
 };
@@ -113,18 +115,20 @@ float approach(float value, float target, float rate) {
   return std::abs(way) <= rate ? target : value + std::copysign(rate, way);
 }
 
-/// How far a volume moves on along one axis [cells], and where it counts then.
+/// How many cells a volume scrolls along one axis, and the range in which it counts afterwards.
 struct Step {
   int cells;
   Range counts;
 };
 
-/// The next step of a volume of `count` probes, of which the viewer is `off` its middle [cells].
+/// The next step of a volume with `count` probes along an axis, where the viewer is `off` its
+/// middle [cells].
 ///
-/// Along a long axis the range is centred on the viewer and ends before the slabs that come and go.
-/// Along a short one that would leave too little: it reaches a cell beyond the probes, as that of a
-/// volume that keeps still, and withdraws only when the volume is about to move on.
-Step follow_along(float off, const Range& counts, int count) {
+/// Along a long axis, the range is centred on the viewer and excludes the slabs that are recycled.
+/// Along a short axis that would leave too little. There the range extends a cell beyond the
+/// probes, as that of a volume that stays, and excludes a slab only when the volume is about to
+/// scroll.
+Step scroll_along(float off, const Range& counts, int count) {
   const float last = static_cast<float>(count - 1);
   const int cells = static_cast<int>(std::round(off));
   if (count >= kLongAxis) {
@@ -135,12 +139,12 @@ Step follow_along(float off, const Range& counts, int count) {
   const Range whole = {-kFadeCells, last + kFadeCells};
   if (std::abs(off) > kCarriedAway) return {cells, whole};
 
-  // Neither the slab that will go nor the place to which it will come may count
+  // Neither the slab that is about to be recycled nor its new place may count
   const int wants = std::abs(off) <= kScrollSlack ? 0 : off > 0.0f ? 1 : -1;
   const Range target = wants == 0  ? whole
                        : wants > 0 ? Range{1.0f, last}
                                    : Range{0.0f, last - 1.0f};
-  // The farther off the viewer is, the more haste
+  // Move faster, the farther off the viewer is
   const float late = max(std::abs(off) - kScrollSlack, 0.0f);
   const float rate = kFadeRate * (1.0f + kHaste * late);
   const Range next = {approach(counts.low, target.low, rate),
@@ -154,7 +158,7 @@ Volume plan_cascade(const FieldSettings& settings, int level, const vec3& middle
   FieldGrid grid;
   grid.count = settings.probe_count != ivec3(0) ? settings.probe_count : kCascadeProbes;
   grid.spacing = vec3(std::ldexp(finest_spacing(settings), level));
-  return {around(still_grid(grid), middle), {true, level}};
+  return {centred(still_grid(grid), middle), {true, level}};
 }
 
 }  // namespace
@@ -183,7 +187,7 @@ FieldGrid field_grid(const ProbeGrid& grid) {
   return {grid.origin_ws, grid.spacing, grid.count, grid.axes};
 }
 
-bool can_follow(const ProbeGrid& grid) {
+bool can_scroll(const ProbeGrid& grid) {
   const vec3 place = grid.origin_ws / grid.spacing;
   return grid.axes == mat3(1.0f) &&
          glm::all(glm::greaterThanEqual(grid.count, ivec3(kMinCascadeProbes))) &&
@@ -191,17 +195,17 @@ bool can_follow(const ProbeGrid& grid) {
          glm::round(place) * grid.spacing == grid.origin_ws;
 }
 
-ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws) {
-  // From far away it comes at once
+ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws) {
+  // Scroll from so far away that the volume moves at once
   ProbeGrid away = grid;
   const vec3 viewer = clamp(viewer_ws / grid.spacing, vec3(-kFarthestCell), vec3(kFarthestCell));
   away.origin_ws = (floor(viewer) - 2.0f * vec3(grid.count)) * grid.spacing;
-  return following(away, viewer_ws);
+  return scrolled(away, viewer_ws);
 }
 
-ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
+ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws) {
   ProbeGrid next = grid;
-  // Of probe 0, counted in cells from the world's origin
+  // The place of probe 0 in cells from the world's origin
   ivec3 place = ivec3(glm::round(grid.origin_ws / grid.spacing));
   for (int axis = 0; axis < 3; ++axis) {
     const int count = grid.count[axis];
@@ -210,7 +214,7 @@ ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws) {
         viewer - static_cast<float>(place[axis]) - 0.5f * static_cast<float>(count - 1);
     const Range counts = {grid.fade_centre[axis] - grid.fade_half[axis],
                           grid.fade_centre[axis] + grid.fade_half[axis]};
-    const Step step = follow_along(off, counts, count);
+    const Step step = scroll_along(off, counts, count);
     next.fade_centre[axis] = 0.5f * (step.counts.low + step.counts.high);
     next.fade_half[axis] = 0.5f * (step.counts.high - step.counts.low);
     next.fade_cells[axis] = max(kFadeCells, kFadeShare * static_cast<float>(count));
@@ -242,7 +246,7 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
   if (!scene_bounds.empty() && (!is_in_reach(scene_bounds.min) || !is_in_reach(scene_bounds.max))) {
     return fail("", "scene bounds", "must be within 1e9 m of the origin");
   }
-  // Authored volumes by priority, finest first
+  // Sort authored volumes by priority, and those of equal priority with the finest first
   struct Asked {
     int priority;
     Volume volume;
@@ -260,7 +264,7 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
   std::vector<Volume> volumes;
   for (const Asked& one : asked) volumes.push_back(one.volume);
 
-  // Then what answers for everywhere
+  // Add the volume or the cascades that cover everything
   if (const Expected<void> fine = check_cascades(settings); !fine) {
     return tl::unexpected(fine.error());
   }

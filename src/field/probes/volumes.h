@@ -58,15 +58,15 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
 Expected<void> check_settings(const FieldSettings& settings);
 
 /// Whether a volume is one that can follow: straight, of enough probes, and in place.
-bool can_follow(const ProbeGrid& grid);
+bool can_scroll(const ProbeGrid& grid);
 
 /// A volume that follows the viewer, put around one.
-ProbeGrid around(const ProbeGrid& grid, const vec3& viewer_ws);
+ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The same volume an update later, once it has followed the viewer: in whole cells, and not before
 /// the viewer is most of a cell off its middle. Who walks does not see it move: the box in which it
 /// counts changes smoothly, and holds neither slabs about to go nor slabs that have just come.
-ProbeGrid following(const ProbeGrid& grid, const vec3& viewer_ws);
+ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// Probes of `next` that belong where `before`, the same volume earlier, had none.
 std::vector<int> recycled_probes(const ProbeGrid& before, const ProbeGrid& next);

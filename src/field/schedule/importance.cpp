@@ -9,11 +9,13 @@
 namespace lambent {
 namespace {
 
-// Bounces that importance is sent back through; light of later ones hangs on all probes alike.
+// Bounces through which importance is scattered back. Light of later bounces depends on all probes
+// about equally.
 constexpr int kBounces = 2;
 
-// Probes of a smaller share of the largest importance send none back: too little to matter.
-constexpr float kLeastSent = 1e-3f;
+// Probes below this fraction of the largest importance do not scatter theirs: it is too little to
+// matter.
+constexpr float kMinScattered = 1e-3f;
 
 void add_weights(const ProbeStore& store, const CornerWeights& corners, float importance,
                  std::vector<float>& sum) {
@@ -23,19 +25,20 @@ void add_weights(const ProbeStore& store, const CornerWeights& corners, float im
   }
 }
 
-/// What surfels that a probe sees take of it: what it receives of light they reflect.
-void send_back(const ProbeStore& store, const ProbeTrace& trace, float importance,
-               std::vector<float>& sum) {
-  const float share = sent_share(static_cast<int>(trace.surfels.size()));
-  for (std::size_t i = 0; i < trace.surfels.size(); i += kSurfelsSentFor) {
+/// Adds to each probe what the surfels that a probe sees pass on of its importance: in proportion
+/// to the light that they reflect towards it.
+void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float importance,
+                        std::vector<float>& sum) {
+  const float share = scatter_fraction(static_cast<int>(trace.surfels.size()));
+  for (std::size_t i = 0; i < trace.surfels.size(); i += kSurfelsPerScatter) {
     const Surfel& surfel = trace.surfels[i];
     if (!surfel.reflects() || surfel.kind != SurfelKind::surface) continue;
-    const float albedo = sent_albedo(surfel.albedo_over_pi);
+    const float albedo = scatter_albedo(surfel.albedo_over_pi);
     add_weights(store, trace.lookups[i].corners, importance * share * albedo, sum);
   }
   for (const FurtherLookup& further : trace.further) {
-    if (further.ray % kSurfelsSentFor != 0) continue;
-    const float albedo = sent_albedo(trace.surfels[further.ray].albedo_over_pi);
+    if (further.ray % kSurfelsPerScatter != 0) continue;
+    const float albedo = scatter_albedo(trace.surfels[further.ray].albedo_over_pi);
     add_weights(store, further.lookup.corners, importance * share * albedo, sum);
   }
 }
@@ -44,29 +47,29 @@ void send_back(const ProbeStore& store, const ProbeTrace& trace, float importanc
 
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces) {
-  // One after the other, so that sums have the same bits on any number of threads
+  // Work on one probe after the other, so that sums have the same bits on any number of threads
   return probe_importance(store, points, [&](std::span<const float> received, float least) {
     std::vector<float> sent(store.probes(), 0.0f);
     for (int probe = 0; probe < store.probes(); ++probe) {
       if (received[probe] <= least || traces[probe].rays == nullptr) continue;
-      send_back(store, traces[probe], received[probe], sent);
+      scatter_importance(store, traces[probe], received[probe], sent);
     }
     return sent;
   });
 }
 
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
-                                    const SendBack& send) {
-  // What the points read
+                                    const ImportanceScatter& send) {
+  // Compute the importance of the probes that the points read
   std::vector<float> received(store.probes(), 0.0f);
   QueryWeights weights;
   find_weights(store, {}, points, weights);
   for (const CornerWeights& corners : weights.corners) add_weights(store, corners, 1.0f, received);
 
-  // What those read in turn
+  // Scatter it to the probes whose light those receive
   std::vector<float> total = received;
   for (int bounce = 0; bounce < kBounces; ++bounce) {
-    const float least = kLeastSent * *std::max_element(received.begin(), received.end());
+    const float least = kMinScattered * *std::max_element(received.begin(), received.end());
     std::vector<float> sent = send(received, least);
     for (int probe = 0; probe < store.probes(); ++probe) total[probe] += sent[probe];
     received = std::move(sent);

@@ -23,10 +23,11 @@ std::vector<float> probe_importance(const ProbeStore& store, std::span<const Fie
 
 /// What surfels that probes see take of the probes' importance, where that is more than `least`:
 /// what they receive of light that those reflect. One number a probe in and out.
-using SendBack = std::function<std::vector<float>(std::span<const float> received, float least)>;
+using ImportanceScatter =
+    std::function<std::vector<float>(std::span<const float> received, float least)>;
 
 /// The same by another way of sending importance back.
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
-                                    const SendBack& send_back);
+                                    const ImportanceScatter& scatter_importance);
 
 }  // namespace lambent

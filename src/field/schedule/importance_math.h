@@ -9,15 +9,15 @@
 LAMBENT_BEGIN
 
 // One in so many of a probe's surfels stands for those around it.
-const uint kSurfelsSentFor = 4u;
+const uint kSurfelsPerScatter = 4u;
 
 /// Share of a probe's importance that goes to each surfel that stands for others.
-LAMBENT_FN float sent_share(int surfels) {
-  return float(kSurfelsSentFor) / float(surfels);
+LAMBENT_FN float scatter_fraction(int surfels) {
+  return float(kSurfelsPerScatter) / float(surfels);
 }
 
 /// What a surfel makes of it.
-LAMBENT_FN float sent_albedo(vec3 albedo_over_pi) {
+LAMBENT_FN float scatter_albedo(vec3 albedo_over_pi) {
   return kPi * luminance(albedo_over_pi);
 }
 

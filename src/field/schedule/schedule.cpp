@@ -8,21 +8,22 @@
 namespace lambent {
 namespace {
 
-// From a class on to where the next one is as near, as a factor: the root of their ratio.
+// Numbers of rays up to this factor above a class belong to it: the square root of the classes'
+// ratio.
 constexpr float kBetweenClasses = 1.41421356f;
 
-// Share of the new cost in what a ray is held to cost.
+// Weight of the newest measurement in the moving average of the cost of a ray.
 constexpr double kCostShare = 0.2;
-// Assumed of a ray before any was timed [ms]: a slow processor's.
+// The cost of a ray before any was timed [ms]: that of a slow processor.
 constexpr double kFirstGuessMs = 1e-3;
 
 }  // namespace
 
-bool is_live(const ProbeRecord& record) {
-  if (record.state == ProbeState::off) return false;
-  // Points in open air may be asked about: a sleeping probe is traced once, and again where it has
-  // lost its light
-  return record.state != ProbeState::sleeping || record.served == 0 || record.samples == 0.0f;
+bool is_live(const ProbeStatus& status) {
+  if (status.state == ProbeState::off) return false;
+  // Fog and lookups in open air need the light of sleeping probes: these are traced once, and again
+  // where their history was reset
+  return status.state != ProbeState::sleeping || status.served == 0 || status.samples == 0.0f;
 }
 
 int ray_class_for(float rays) {
@@ -44,17 +45,17 @@ std::uint64_t RayCost::rays_within(double ms) const {
 }
 
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
-                      std::span<const ProbeRecord> records, const FieldSettings& settings,
+                      std::span<const ProbeStatus> statuses, const FieldSettings& settings,
                       std::uint32_t update) {
   Schedule schedule;
   for (int volume = 0; volume < store.volumes(); ++volume) {
     const std::uint32_t period = settings.max_bounces >= 0 ? 1u : 1u << roles[volume].level;
     const int first = store.grid(volume).first;
     for (int probe = first; probe < first + probe_count(store.grid(volume)); ++probe) {
-      if (!is_live(records[probe])) continue;
-      // Not all of a volume's probes in the same update
+      if (!is_live(statuses[probe])) continue;
+      // Spread the probes of a coarse volume over its updates
       const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
-      if (turn || records[probe].served == 0) schedule.probes.push_back(probe);
+      if (turn || statuses[probe].served == 0) schedule.probes.push_back(probe);
     }
   }
   schedule.rays.assign(schedule.probes.size(), settings.rays_per_probe);
@@ -78,12 +79,12 @@ std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSetti
   return groups;
 }
 
-void learn_noise(float relative_square, float weight, ProbeRecord& record) {
-  const KnownNoise known = {record.noise, record.noise_samples};
-  const KnownNoise learned = learned_noise(known, relative_square, weight, record.samples);
-  record.noise = learned.noise;
-  record.noise_samples = static_cast<std::uint16_t>(learned.samples);
-  record.samples += weight;
+void learn_noise(float relative_square, float weight, ProbeStatus& status) {
+  const KnownNoise known = {status.noise, status.noise_samples};
+  const KnownNoise learned = learned_noise(known, relative_square, weight, status.samples);
+  status.noise = learned.noise;
+  status.noise_samples = static_cast<std::uint16_t>(learned.samples);
+  status.samples += weight;
 }
 
 }  // namespace lambent

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-#include "field/probes/probe_record.h"
+#include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
 #include "field/probes/volumes.h"
 #include "field/schedule/schedule_math.h"
@@ -36,7 +36,7 @@ inline float longest_average(const FieldSettings& settings) {
 }
 
 /// Whether a probe takes part in updates.
-bool is_live(const ProbeRecord& record);
+bool is_live(const ProbeStatus& status);
 
 /// Learns what a ray costs.
 class RayCost {
@@ -59,23 +59,23 @@ struct Schedule {
 /// settings' rays. Where bounces are counted it is every volume's turn: their exact number is
 /// carried through all probes at once.
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
-                      std::span<const ProbeRecord> records, const FieldSettings& settings,
+                      std::span<const ProbeStatus> statuses, const FieldSettings& settings,
                       std::uint32_t update);
 
 /// What the scheduler keeps in mind of each probe, so that an update looks at those that changed
 /// and those that are urgent, however many rest: blocks of probes know the largest gain and the age
 /// among them. Whoever changes a record tells.
-class ProbeAgenda {
+class ProbeScheduler {
  public:
   /// Roles are one a volume.
-  ProbeAgenda(int probes, std::span<const VolumeRole> roles, const FieldSettings& settings);
+  ProbeScheduler(int probes, std::span<const VolumeRole> roles, const FieldSettings& settings);
 
   /// A probe's record changed, or all did.
-  void changed(int probe);
-  void changed_all() { all_changed_ = true; }
+  void mark_changed(int probe);
+  void mark_all_changed() { all_changed_ = true; }
 
   /// Takes note of the changes. Records are one a probe.
-  void note(const ProbeStore& store, std::span<const ProbeRecord> records);
+  void refresh(const ProbeStore& store, std::span<const ProbeStatus> statuses);
 
   /// How many probes are in each state, as last noted.
   const ProbeCounts& states() const { return states_; }
@@ -85,7 +85,7 @@ class ProbeAgenda {
 
   /// The most urgent probes within a budget of rays, as last noted. `update` counts from 1.
   /// `importance` has one number a probe, 0 to 1; empty: by the distance from the viewer.
-  Schedule within(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
+  Schedule choose(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
                   const std::optional<glm::vec3>& viewer_ws,
                   std::span<const float> importance = {}) const;
 
@@ -93,25 +93,26 @@ class ProbeAgenda {
   /// What decides about a probe.
   struct Entry {
     float noise = 0.0f;  ///< Standard deviation of what an update tells, around the probe.
-    float gain = 0.0f;   ///< By how much its error falls with each ray, in proportion; 0: it rests.
-    float thin = 0.0f;   ///< The same per noise.
+    float reduction =
+        0.0f;  ///< By how much its error falls with each ray, in proportion; 0: it rests.
+    float reduction_per_noise = 0.0f;  ///< The same per noise.
     std::uint32_t served = 0;  ///< Update that served it last; 0: none; the largest: not live.
     ProbeState state = ProbeState::off;
   };
   /// What decides about a block of probes that follow one another.
   struct Block {
-    float gain = 0.0f;         ///< The largest.
-    float thin = 0.0f;         ///< Likewise.
-    std::uint32_t served = 0;  ///< The smallest.
-    float noise_sum = 0.0f;    ///< Of the probes that do not rest, ...
-    int unsettled = 0;         ///< ... so many.
+    float reduction = 0.0f;            ///< The largest.
+    float reduction_per_noise = 0.0f;  ///< Likewise.
+    std::uint32_t served = 0;          ///< The smallest.
+    float noise_sum = 0.0f;            ///< Of the probes that do not rest, ...
+    int unsettled = 0;                 ///< ... so many.
   };
 
-  float worth_of(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
-                 std::span<const float> importance) const;
-  void note_record(std::span<const ProbeRecord> records, int probe);
-  void note_noise(const ProbeStore& store, std::span<const ProbeRecord> records, int probe);
-  void note_block(std::size_t block);
+  float view_weight(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
+                    std::span<const float> importance) const;
+  void refresh_status(std::span<const ProbeStatus> statuses, int probe);
+  void refresh_noise(const ProbeStore& store, std::span<const ProbeStatus> statuses, int probe);
+  void refresh_block(std::size_t block);
   float mean_noise() const;
   int rays_of(const Entry& entry, float mean_noise) const;
 
@@ -133,6 +134,6 @@ std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSetti
 /// Learns a probe's noise from how far the light that its rays told is from what it held: the mean
 /// square of their difference over the square of their mean, where `weight` updates' worth of rays
 /// told it and the probe had averaged `record.samples` before. Then counts the new rays in.
-void learn_noise(float relative_square, float weight, ProbeRecord& record);
+void learn_noise(float relative_square, float weight, ProbeStatus& status);
 
 }  // namespace lambent

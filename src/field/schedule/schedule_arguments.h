@@ -17,26 +17,27 @@ LAMBENT_BEGIN
 // Bins: probes that take no part; that rest; by gain, so many an octave; by age; never served.
 const int kNoPartBin = 0;
 const int kRestBin = 1;
-const int kFirstGainBin = 2;
-const int kGainBins = 96;  // from 2^-14 on, a settled probe's of the longest memory, up to 2^10
+const int kFirstReductionBin = 2;
+const int kReductionBins =
+    96;  // from 2^-14 on, a settled probe's of the longest memory, up to 2^10
 const int kFirstOldBin = 98;
 const int kOldBins = 16;
 const int kNeverBin = 114;
-const int kWorthBins = 115;
+const int kPriorityBins = 115;
 
 // What is left of a gain's bits: its exponent and two bits more.
-const uint kGainShift = 21u;
-const int kLeastGainStep = (127 - 14) << 2;
+const uint kReductionShift = 21u;
+const int kMinReductionStep = (127 - 14) << 2;
 
 /// The bin of a probe that takes part. Updates are counted from 1; served by 0: never.
-LAMBENT_FN int worth_bin(float gain, uint served, uint update) {
+LAMBENT_FN int priority_bin(float reduction, uint served, uint update) {
   if (served == 0u) return kNeverBin;
   if (waits_too_long(served, update)) {
     return kFirstOldBin + min(int((update - served) / kMaxProbeAge) - 1, kOldBins - 1);
   }
-  if (gain <= 0.0f) return kRestBin;
-  int octaves = int(floatBitsToUint(gain) >> kGainShift) - kLeastGainStep;
-  return kFirstGainBin + clamp(octaves, 0, kGainBins - 1);
+  if (reduction <= 0.0f) return kRestBin;
+  int octaves = int(floatBitsToUint(reduction) >> kReductionShift) - kMinReductionStep;
+  return kFirstReductionBin + clamp(octaves, 0, kReductionBins - 1);
 }
 
 /// What is known of a probe besides its standing.
@@ -62,17 +63,17 @@ const int kChunkProbes = 256;
 
 /// Probes that follow one another.
 struct ScheduleChunk {
-  uint bins[kWorthBins];  ///< How many are in each bin.
-  float noise_sum;        ///< Of those that do not rest, ...
-  uint unsettled;         ///< ... so many.
-  int higher;             ///< How many are in higher bins than the last that is served, ...
-  int of_last;            ///< ... and in the last.
+  uint bins[kPriorityBins];  ///< How many are in each bin.
+  float noise_sum;           ///< Of those that do not rest, ...
+  uint unsettled;            ///< ... so many.
+  int higher;                ///< How many are in higher bins than the last that is served, ...
+  int of_last;               ///< ... and in the last.
 };
 LAMBENT_DEVICE_ARRAY(ChunkArray, ScheduleChunk, 4)
 LAMBENT_DEVICE_ARRAY(ListSizeArray, ListSize, 4)
 
 /// Bins of all probes, and how many chunks have of each.
-struct ScheduleWorthArguments {
+struct SchedulePriorityArguments {
   GridArray grids;
   ProbeStates probes;
   ServiceArray service;
@@ -106,11 +107,11 @@ struct ScheduleListArguments {
 
 /// Books an update's probes. `changes`: of the list's probes, as compare_light finds them where
 /// none is too dark.
-struct ScheduleBookArguments {
+struct UpdateVariabilityArguments {
   ScheduleStateArray state;
   ServiceArray service;
   IntArray list;
-  FloatArray shares;
+  FloatArray blend_weights;
   Vec3Array changes;
   int count;
   uint chosen;  ///< 1: the list is as long as the device decided.
@@ -122,7 +123,7 @@ struct ScheduleBookArguments {
 struct ScheduleMeansArguments {
   ScheduleStateArray state;
   ChunkArray chunks;
-  FloatArray shares;
+  FloatArray blend_weights;
   Vec3Array changes;
   int chunk_count;
   int count;

@@ -18,7 +18,7 @@ const float kNoiseMemory = 32.0f;
 // Noise below this is not believed after few updates: a probe that saw nothing bright yet may.
 const float kMinNoise = 1e-4f;
 // So many updates of noise are counted.
-const uint kMostNoiseSamples = 0xFFFFu;
+const uint kMaxNoiseSamples = 0xFFFFu;
 
 // Noise of probes darker than this share of all is judged as if they were as bright: an eye that
 // has adapted to the scene sees no more of it.
@@ -30,7 +30,7 @@ const float kSettledError = 0.01f;
 
 // No probe's noise is held to be less than this share of the mean when their turn is decided: light
 // would come out too dark where few rays met what is bright.
-const float kLeastNoise = 0.5f;
+const float kMinNoiseOfMean = 0.5f;
 
 // Keeps the gain of probes that lost their light finite: samples of the least number of rays.
 const float kFewestSamples = 0.1f;
@@ -49,9 +49,9 @@ LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, flo
   if (averaged <= 0.0f) return known;
   // A difference of two means has the sum of their variances
   float one = relative_square / (1.0f / weight + 1.0f / averaged);
-  known.samples = min(known.samples + 1u, kMostNoiseSamples);
-  float share = max(1.0f / float(known.samples), 1.0f / kNoiseMemory);
-  known.noise = max(known.noise + share * (one - known.noise), kMinNoise);
+  known.samples = min(known.samples + 1u, kMaxNoiseSamples);
+  float rate = max(1.0f / float(known.samples), 1.0f / kNoiseMemory);
+  known.noise = max(known.noise + rate * (one - known.noise), kMinNoise);
   return known;
 }
 
@@ -59,15 +59,16 @@ LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, flo
 /// `share` of it was blended in. Noise is held to matter in proportion to the root of what it is
 /// noise of (Rose, "The Sensitivity Performance of the Human Eye on an Absolute Scale", J. Opt.
 /// Soc. Am. 38(2), 1948). `before`: luminance that was held; `mean_light`: of all probes.
-LAMBENT_FN float told_square(float relative_square, float before, float share, float mean_light) {
+LAMBENT_FN float estimate_relative_square(float relative_square, float before, float blend_weight,
+                                          float mean_light) {
   float brightness = mean_light > 0.0f ? max(before, kDarkShare * mean_light) / mean_light : 1.0f;
-  return relative_square * brightness / (share * share);
+  return relative_square * brightness / (blend_weight * blend_weight);
 }
 
 /// The mean light of `live` probes, of which `count` are found to have this one now.
 LAMBENT_FN float learned_light(float mean_light, float now, float count, float live) {
-  float share = mean_light > 0.0f ? min(count / max(live, 1.0f), 1.0f) : 1.0f;
-  return mean_light + share * (now - mean_light);
+  float rate = mean_light > 0.0f ? min(count / max(live, 1.0f), 1.0f) : 1.0f;
+  return mean_light + rate * (now - mean_light);
 }
 
 /// The noise that a probe is scheduled by, a standard deviation. It is not held to be less than the
@@ -80,14 +81,14 @@ LAMBENT_FN float probe_noise(float own, float mean_around) {
 /// By how much a probe's error falls with each further sample, in proportion: a square error of
 /// noise^2 / samples falls by noise^2 / samples^2. 0: it rests. `longest`: updates that an average
 /// remembers.
-LAMBENT_FN float noise_gain(float noise, float samples, float longest) {
+LAMBENT_FN float error_reduction(float noise, float samples, float longest) {
   float counted = max(samples, kFewestSamples);
   if (samples >= longest || noise < kSettledError * sqrt(counted)) return 0.0f;
   return noise / counted;
 }
 
 /// The same per noise.
-LAMBENT_FN float gain_per_noise(float samples) {
+LAMBENT_FN float error_reduction_per_noise(float samples) {
   return 1.0f / max(samples, kFewestSamples);
 }
 

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kTexelsPerTask = 16384;
 
 constexpr std::size_t kDepth = kAndersonDepth;
-// As kAndersonRidge, to more digits.
+// kAndersonRidge in double precision.
 constexpr double kRidge = 1e-10;
 
 }  // namespace
@@ -63,9 +63,9 @@ void AndersonMemory::extrapolate(const WorkingIrradiance& residual, WorkingIrrad
   const double largest = gram.diagonal().maxCoeff();
   if (largest <= 0.0) return;
   gram.diagonal().array() += kRidge * largest;
-  const Eigen::VectorXd share = gram.ldlt().solve(projection);
+  const Eigen::VectorXd coefficients = gram.ldlt().solve(projection);
   for (Eigen::Index i = 0; i < steps; ++i) {
-    add_scaled(next, -static_cast<float>(share(i)), image_changes_[i], next);
+    add_scaled(next, -static_cast<float>(coefficients(i)), image_changes_[i], next);
   }
 }
 

@@ -21,10 +21,11 @@ const float kMinContraction = 0.1f;
 
 /// Estimated relative error of the light that a share of a solution is blended into: a contraction
 /// by q leaves q / (1 - q) of the last step to go. Squares are of the residual and of the image.
-LAMBENT_FN float remaining_error(float contraction, float share, float residual_square,
+LAMBENT_FN float remaining_error(float contraction, float blend_weight, float residual_square,
                                  float image_square) {
   float remaining = contraction / (1.0f - contraction);
-  return image_square > 0.0f ? share * remaining * sqrt(residual_square / image_square) : 0.0f;
+  return image_square > 0.0f ? blend_weight * remaining * sqrt(residual_square / image_square)
+                             : 0.0f;
 }
 
 /// The inner products of the last steps' residual changes, row after row, and of each with the
@@ -37,7 +38,7 @@ struct StepProducts {
 /// By how much each of the last steps is to be taken back: solves gram * shares = projection by
 /// Gaussian elimination. As the gram matrix is symmetric and, with the ridge, positive definite, it
 /// needs no pivots.
-LAMBENT_FN vec3 step_shares(StepProducts products, int steps) {
+LAMBENT_FN vec3 step_coefficients(StepProducts products, int steps) {
   float largest = 0.0f;
   for (int i = 0; i < steps; ++i) largest = max(largest, products.gram[4 * i].high);
   if (largest <= 0.0f) return vec3(0.0f);
@@ -54,7 +55,7 @@ LAMBENT_FN vec3 step_shares(StepProducts products, int steps) {
           wide_add(products.projection[j], wide_multiply(factor, products.projection[i]));
     }
   }
-  vec3 shares = vec3(0.0f);
+  vec3 coefficients = vec3(0.0f);
   for (int i = steps - 1; i >= 0; --i) {
     for (int j = i + 1; j < steps; ++j) {
       products.projection[i] =
@@ -62,9 +63,9 @@ LAMBENT_FN vec3 step_shares(StepProducts products, int steps) {
                    wide_negate(wide_multiply(products.gram[3 * i + j], products.projection[j])));
     }
     products.projection[i] = wide_divide(products.projection[i], products.gram[4 * i]);
-    shares[i] = products.projection[i].high;
+    coefficients[i] = products.projection[i].high;
   }
-  return shares;
+  return coefficients;
 }
 
 LAMBENT_END

@@ -14,12 +14,12 @@
 namespace lambent {
 namespace {
 
-// Texels that the kernel keeps in registers at a time, as one vector: the compiler splits it into
-// what the processor has.
+// The number of texels that the kernel keeps in registers at a time, as one vector. The compiler
+// splits it into vectors of the processor's width.
 constexpr int kBlock = 16;
 typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));
 
-// Keeps the random numbers of rotations apart from those of other passes.
+// Distinguishes the random numbers of ray rotations from those of other passes.
 constexpr uint kRotationSalt = 0x52415953u;
 
 /// One block of texels: sums[t][c] = sum over rays of values[ray][c] * weights[ray][t].
@@ -85,7 +85,7 @@ BlendMatrix::BlendMatrix(int texels, float cosine_exponent, std::span<const vec3
     const vec3 normal = tile_direction({t % texels, t / texels}, texels);
     for (int i = 0; i < ray_count_; ++i) {
       weights_[static_cast<std::size_t>(i) * padded_texels_ + t] =
-          blend_weight(normal, directions[i], cosine_exponent);
+          ray_weight(normal, directions[i], cosine_exponent);
     }
   }
 }

@@ -11,13 +11,13 @@ LAMBENT_BEGIN
 
 // Smaller weights count for nothing in a float sum, but their products with values are denormal and
 // a hundred times slower to compute.
-const float kMinBlendMatrixWeight = 1e-30f;
+const float kMinRayWeight = 1e-30f;
 
 /// Weight of a ray in a texel along `normal`.
-LAMBENT_FN float blend_weight(vec3 normal, vec3 direction, float cosine_exponent) {
+LAMBENT_FN float ray_weight(vec3 normal, vec3 direction, float cosine_exponent) {
   float cosine = max(0.0f, dot(normal, direction));
   float weight = cosine_exponent == 1.0f ? cosine : pow(cosine, cosine_exponent);
-  return weight < kMinBlendMatrixWeight ? 0.0f : weight;
+  return weight < kMinRayWeight ? 0.0f : weight;
 }
 
 /// Exponent of the cosine with which rays count for a distance texel: sharp enough that what blocks
@@ -29,24 +29,24 @@ const float kDistanceExponent = 100.0f;
 
 /// A probe that sees more back faces than this share of its rays stands in solid matter and is to
 /// light nothing. JCGT 10(2) 2021, sec. 4.
-const float kMaxBackFaceShare = 0.25f;
+const float kBackFaceThreshold = 0.25f;
 
 // A ray that meets the back of a single-sided surface counts as shortened to this share, so that a
 // probe inside something trusts its surroundings little. JCGT 10(2) 2021, sec. 4.
-const float kBackFaceDistanceShare = 0.2f;
+const float kBackFaceDistanceScale = 0.2f;
 
 /// The distance that a ray counts with [m], of one that saw so far (infinite: out of the scene).
 LAMBENT_FN float counted_distance(float seen, uint back_face, float farthest) {
   float cut = min(seen, farthest);
-  return back_face != 0u ? cut * kBackFaceDistanceShare : cut;
+  return back_face != 0u ? cut * kBackFaceDistanceScale : cut;
 }
 
-LAMBENT_FN uint stands_in_matter(int back_faces, int rays) {
-  return float(back_faces) > kMaxBackFaceShare * float(rays) ? 1u : 0u;
+LAMBENT_FN uint is_inside_geometry(int back_faces, int rays) {
+  return float(back_faces) > kBackFaceThreshold * float(rays) ? 1u : 0u;
 }
 
 // Texels whose rays count for less than this share of all are too few to tell anything.
-const float kMinBlendWeight = 1e-4f;
+const float kMinKnownWeight = 1e-4f;
 // Keeps the division by the weights of a texel for which no ray counts finite.
 const float kTiniestWeight = 1e-20f;
 

@@ -28,7 +28,7 @@ DistanceBlend::DistanceBlend(const FieldSettings& settings, std::span<const vec3
 
 void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
                             std::span<vec2> moments) const {
-  // Cut the distances and count the back faces
+  // Clamp the distances and count the back faces
   thread_local std::vector<vec2> values, sums;
   values.resize(seen.size());
   sums.resize(moments.size());
@@ -39,7 +39,7 @@ void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
     const float distance = counted_distance(seen[i].distance, back_face, farthest);
     values[i] = {distance, distance * distance};
   }
-  if (stands_in_matter(back_faces, static_cast<int>(seen.size())) != 0u) {
+  if (is_inside_geometry(back_faces, static_cast<int>(seen.size())) != 0u) {
     std::fill(moments.begin(), moments.end(), vec2(0.0f));
     return;
   }
@@ -48,7 +48,7 @@ void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
 }
 
 void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
-                     std::span<const float> shares, uint salt, ProbeStore& store) {
+                     std::span<const float> blend_weights, uint dither_seed, ProbeStore& store) {
   const auto rays = static_cast<std::size_t>(blend.rays());
   parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<SeenDistance> seen(rays);
@@ -60,7 +60,7 @@ void blend_distances(const Scene& scene, const DistanceBlend& blend, const Trace
       }
       const float farthest = max_probe_distance(store.grid_of(group.probes[k]));
       blend.moments(seen, farthest, moments);
-      store.blend_moments(group.probes[k], moments, shares[k], salt);
+      store.blend_moments(group.probes[k], moments, blend_weights[k], dither_seed);
     }
   });
 }

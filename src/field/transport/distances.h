@@ -38,6 +38,6 @@ class DistanceBlend {
 /// Blends the distances that a group's rays met into the store. `shares` holds one number a probe
 /// of the group: the part of the new values, 0 to 1.
 void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
-                     std::span<const float> shares, uint salt, ProbeStore& store);
+                     std::span<const float> blend_weights, uint dither_seed, ProbeStore& store);
 
 }  // namespace lambent

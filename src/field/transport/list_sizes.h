@@ -21,7 +21,7 @@ const uint kOverRays = 0u;
 const uint kOverTexels = 1u;
 const uint kOverIrradianceGutters = 2u;
 const uint kOverDistanceGutters = 3u;
-const uint kOverClusters = 4u;
+const uint kOverLaneGroups = 4u;
 const uint kOverIrradianceBlocks = 5u;
 const uint kOverDistanceBlocks = 6u;
 const uint kOverLanes = 7u;
@@ -33,8 +33,9 @@ const int kListShapes = 10;
 struct ListState {
   GroupCounts over[kListShapes];  ///< Groups of the kernels that work on it, by shape.
   uint probes;
-  uint texels;         ///< Of their irradiance.
-  uint largest_share;  ///< Bits of the largest share that any of them takes of its new light.
+  uint texels;  ///< Of their irradiance.
+  uint
+      largest_blend_weight;  ///< Bits of the largest share that any of them takes of its new light.
 };
 
 /// Groups across, and how many of the list's probes, or of its blocks, one takes.

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 8;
 
-// Rays that no probe has more of: keeps the random numbers of probes apart.
+// No probe has more rays than this. It gives each ray of each probe an index of its own, for its
+// random numbers.
 constexpr std::size_t kMaxRays = 4096;
 
 }  // namespace
@@ -71,7 +72,7 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGro
 
 ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays) {
   ShadeHitsSettings shading;
-  // Width of the cone that stands for one ray, per metre: that of its share of the sphere.
+  // Compute the width of a ray's cone per metre, from its part of the sphere
   shading.cone_width =
       2.0f * sqrt(4.0f / static_cast<float>(rays.rays())) * exp2(settings.texture_lod_bias);
   shading.max_albedo = settings.max_albedo;
@@ -127,14 +128,14 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
       trace.further.clear();
       most_rays = max(most_rays, static_cast<int>(trace.surfels.size()));
     }
-    // Neighbouring probes' rays of one direction tend to end in the same cell: asked one after the
-    // other, they find its probes in the cache
+    // Rays of neighbouring probes along one direction tend to end in the same cell. Looked up one
+    // after the other, they find its probes in the cache
     for (int ray = 0; ray < most_rays; ++ray) {
       for (std::size_t k = begin; k < end; ++k) {
         ProbeTrace& trace = traces[probes[k]];
         if (ray >= static_cast<int>(trace.surfels.size())) continue;
         const Surfel& surfel = trace.surfels[ray];
-        // What reflects nothing does not ask what lights it
+        // A surfel that reflects nothing needs no lookup
         if (!surfel.reflects()) continue;
         trace.lookups[ray] = {};
         if (!surfel.receives_gi) continue;

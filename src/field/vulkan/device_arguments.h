@@ -11,7 +11,7 @@
 LAMBENT_BEGIN
 
 // Lanes that share what they load, in matrix products and sums: every subgroup holds some.
-const int kClusterLanes = 8;
+const int kLaneGroupSize = 8;
 const int kGroupLanes = 64;
 // Probes and texels that a cluster's matrix product keeps in registers; so many texels are blocks
 // of a matrix's row.
@@ -65,10 +65,10 @@ struct BlendDistancesArguments {
   ProbeBlockArray blocks;
   FloatArray seen;
   UintArray blocked;
-  FloatArray shares;
+  FloatArray blend_weights;
   int block_count;
   int stride;
-  uint salt;
+  uint dither_seed;
 };
 
 /// What probes' surfels tell that rays saw. `seen`: a row of `seen_stride` a probe.
@@ -93,12 +93,12 @@ struct MoveDistancesArguments {
   UintArray blocked;
   int count;
   int stride;
-  uint salt;
+  uint dither_seed;
 };
 
 /// Sends importance back through surfels. `received` and `sent`: of all probes; the latter in whole
 /// numbers, `scale` to one.
-struct SendBackArguments {
+struct ScatterImportanceArguments {
   ProbeList list;
   CornerOffsetsArray corners;
   SurfelArray surfels;
@@ -119,7 +119,7 @@ struct ScatterTilesArguments {
 };
 
 /// Fills a ray set's matrix of weights.
-struct BlendWeightsArguments {
+struct RayWeightsArguments {
   Vec3Array directions;
   FloatArray weights;
   int rays;
@@ -159,50 +159,50 @@ struct FindLookupsArguments {
 
 /// Rays between the corners of cells, by the probes that are their lowest. `rays`: cells x
 /// kCellPairs.
-struct SightRaysArguments {
+struct CellVisibilityRaysArguments {
   StoreArrays store;
   IntArray cells;
   RayArray rays;
   int count;
 };
 
-/// What they found: two words a probe; see sight_bit.
-struct SightBitsArguments {
+/// What they found: two words a probe; see visibility_bit.
+struct CellVisibilityBitsArguments {
   IntArray cells;
   UintArray occluded;
-  UintArray sights;
+  UintArray cell_visibility;
   int count;
 };
 
 // A counter of rays: the size of an indirect dispatch of them, and how many were counted in all.
-const int kRaysAsked = 0;
-const int kRaysEver = 3;
+const int kRaysRequested = 0;
+const int kRaysTotal = 3;
 const int kCounterWords = 4;
 
 /// The rays that a point asks, one after the other; for each of its lookups eight bits, by corners.
-struct CornerQuestions {
+struct CornerTests {
   uint first_ray;
-  uint asked;
+  uint tested;
 };
-LAMBENT_DEVICE_ARRAY(QuestionArray, CornerQuestions, 4)
+LAMBENT_DEVICE_ARRAY(CornerTestArray, CornerTests, 4)
 
 /// Asks rays for corners of lookups that were found by distances. `questions`: rows x stride.
-struct AskCornersArguments {
+struct TestCornersArguments {
   StoreArrays store;
   LookupPoints points;
   LookupArray lookups;
-  UintArray sights;
+  UintArray cell_visibility;
   UintArray counter;
-  QuestionArray questions;
+  CornerTestArray tests;
   RayArray rays;
 };
 
 /// Weighs lookups by the answers.
-struct AnswerCornersArguments {
+struct ApplyCornerTestsArguments {
   StoreArrays store;
   LookupPoints points;
   LookupArray lookups;
-  QuestionArray questions;
+  CornerTestArray tests;
   UintArray occluded;
 };
 
@@ -251,10 +251,10 @@ struct FitArguments {
   ProbeBlockArray blocks;
   Vec4Array at_centres;
   Vec4Array fallback;
-  Vec4Array gain;
+  Vec4Array history_ratio;
   Vec4Array received;
   int block_count;
-  uint has_gain;
+  uint has_history_ratio;
 };
 
 /// Encodes light. `light`: of all probes x texels.
@@ -263,7 +263,7 @@ struct StoreIrradianceArguments {
   IntArray probes;
   Vec4Array light;
   int count;
-  uint salt;
+  uint dither_seed;
 };
 
 /// By how much light changed. `before`: probes x texels; `changes`: of probes.

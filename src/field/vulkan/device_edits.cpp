@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recording what follows edits of the world, and what remembers the light before them.
 #include "field/schedule/importance_math.h"
-#include "field/vulkan/device_field.h"
+#include "field/vulkan/field_resources.h"
 #include "vulkan/device_memory.h"
 
 namespace lambent {
 
-void DeviceField::record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list,
-                                     FloatArray seen, UintArray blocked) const {
+void FieldResources::record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list,
+                                        FloatArray seen, UintArray blocked) const {
   const SeeSurfelsArguments arguments = {store(),
                                          arrays(list),
                                          {surfels_.address()},
@@ -15,25 +15,26 @@ void DeviceField::record_see_surfels(vulkan::Recorder& to, const DeviceProbes& l
                                          blocked,
                                          list.count(),
                                          stride_,
-                                         round_up(list.most_rays, kClusterLanes)};
-  run_over(to, kernels_.see_surfels, arguments, list, kOverClusters);
+                                         round_up(list.most_rays, kLaneGroupSize)};
+  run_over(to, kernels_.see_surfels, arguments, list, kOverLaneGroups);
   to.barrier();
 }
 
-void DeviceField::record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list) {
+void FieldResources::record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list) {
   record_see_surfels(to, list, {seen_.address()}, {blocked_.address()});
 }
 
-void DeviceField::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
+void FieldResources::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
-  const int stride = round_up(list.most_rays, kClusterLanes);
+  const int stride = round_up(list.most_rays, kLaneGroupSize);
   reserve_seen(list);
   reserve<float>(device_, count * stride, "distances seen before", seen_before_);
   reserve<uint>(device_, count, "probes in solid matter before", blocked_before_);
   record_see_surfels(to, list, {seen_before_.address()}, {blocked_before_.address()});
 }
 
-void DeviceField::record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint salt) {
+void FieldResources::record_move_distances(vulkan::Recorder& to, const DeviceProbes& list,
+                                           uint dither_seed) {
   record_seen_surfels(to, list);
   const int edge = settings_.distance_texels;
   const MoveDistancesArguments arguments = {store(),
@@ -43,32 +44,34 @@ void DeviceField::record_move_distances(vulkan::Recorder& to, const DeviceProbes
                                             {seen_.address()},
                                             {blocked_.address()},
                                             list.count(),
-                                            round_up(list.most_rays, kClusterLanes),
-                                            salt};
+                                            round_up(list.most_rays, kLaneGroupSize),
+                                            dither_seed};
   to.run(kernels_.move_distances, arguments, edge * edge, list.count());
   to.barrier();
   record_distance_gutters(to, list);
 }
 
-void DeviceField::record_send_back(vulkan::Recorder& to, const DeviceProbes& list,
-                                   FloatArray received, UintArray sent, float scale) const {
-  const SendBackArguments arguments = {arrays(list),
-                                       {corners_.address()},
-                                       {surfels_.address()},
-                                       {lookup_records_.address()},
-                                       received,
-                                       sent,
-                                       list.count(),
-                                       stride_,
-                                       scale};
-  to.run(kernels_.send_back, arguments, groups_of(list.most_rays, kSurfelsSentFor), list.count());
+void FieldResources::record_scatter_importance(vulkan::Recorder& to, const DeviceProbes& list,
+                                               FloatArray received, UintArray sent,
+                                               float scale) const {
+  const ScatterImportanceArguments arguments = {arrays(list),
+                                                {corners_.address()},
+                                                {surfels_.address()},
+                                                {lookup_records_.address()},
+                                                received,
+                                                sent,
+                                                list.count(),
+                                                stride_,
+                                                scale};
+  to.run(kernels_.scatter_importance, arguments, groups_of(list.most_rays, kSurfelsPerScatter),
+         list.count());
   to.barrier();
 }
 
-void DeviceField::record_told(vulkan::Recorder& to, const DeviceProbes& list,
-                              Vec4Array solution) const {
+void FieldResources::record_last_estimates(vulkan::Recorder& to, const DeviceProbes& list,
+                                           Vec4Array solution) const {
   const ScatterTilesArguments arguments = {
-      list.index_array(), solution, {told_.address()}, list.count()};
+      list.index_array(), solution, {last_irradiance_estimate_.address()}, list.count()};
   to.run(kernels_.scatter_tiles, arguments, tile_texels(), list.count());
   to.barrier();
 }

@@ -6,11 +6,11 @@
 #include <mutex>
 #include <string>
 
-#include "shaders/answer_corners_comp.h"
-#include "shaders/ask_corners_comp.h"
+#include "shaders/apply_corner_tests_comp.h"
 #include "shaders/blend_distances_comp.h"
-#include "shaders/blend_in_comp.h"
-#include "shaders/blend_weights_comp.h"
+#include "shaders/blend_solution_comp.h"
+#include "shaders/cell_visibility_bits_comp.h"
+#include "shaders/cell_visibility_rays_comp.h"
 #include "shaders/compare_light_comp.h"
 #include "shaders/find_lookups_comp.h"
 #include "shaders/fit_comp.h"
@@ -20,17 +20,17 @@
 #include "shaders/make_surfels_comp.h"
 #include "shaders/move_distances_comp.h"
 #include "shaders/probe_rays_comp.h"
+#include "shaders/ray_weights_comp.h"
 #include "shaders/read_lookups_comp.h"
 #include "shaders/receive_comp.h"
+#include "shaders/scatter_importance_comp.h"
 #include "shaders/scatter_tiles_comp.h"
 #include "shaders/see_distances_comp.h"
 #include "shaders/see_surfels_comp.h"
-#include "shaders/send_back_comp.h"
-#include "shaders/sight_bits_comp.h"
-#include "shaders/sight_rays_comp.h"
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
+#include "shaders/test_corners_comp.h"
 #include "vulkan/device.h"
 
 namespace lambent {
@@ -77,9 +77,10 @@ const FieldKernels& FieldKernels::of(const vulkan::Device& device, const FieldSe
   return device.kept<KernelShelf<FieldKernels>>().get(settings, volumes, lookups);
 }
 
-const SightKernels& SightKernels::of(const vulkan::Device& device, const FieldSettings& settings,
-                                     int volumes, int lookups) {
-  return device.kept<KernelShelf<SightKernels>>().get(settings, volumes, lookups);
+const VisibilityKernels& VisibilityKernels::of(const vulkan::Device& device,
+                                               const FieldSettings& settings, int volumes,
+                                               int lookups) {
+  return device.kept<KernelShelf<VisibilityKernels>>().get(settings, volumes, lookups);
 }
 
 FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
@@ -88,7 +89,7 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   const auto make = [&](vulkan::Spirv spirv, const char* name) {
     return vulkan::Kernel(device, spirv, name, constants);
   };
-  blend_weights = make(shaders::blend_weights_comp(), "blend_weights");
+  ray_weights = make(shaders::ray_weights_comp(), "ray_weights");
   probe_rays = make(shaders::probe_rays_comp(), "probe_rays");
   make_surfels = make(shaders::make_surfels_comp(), "make_surfels");
   see_distances = make(shaders::see_distances_comp(), "see_distances");
@@ -98,7 +99,7 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   gather = make(shaders::gather_comp(), "gather");
   receive = make(shaders::receive_comp(), "receive");
   fit = make(shaders::fit_comp(), "fit");
-  blend_in = make(shaders::blend_in_comp(), "blend_in");
+  blend_solution = make(shaders::blend_solution_comp(), "blend_solution");
   solve_sums = make(shaders::solve_sums_comp(), "solve_sums");
   solve_step = make(shaders::solve_step_comp(), "solve_step");
   store_irradiance = make(shaders::store_irradiance_comp(), "store_irradiance");
@@ -106,20 +107,20 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   lookup = make(shaders::lookup_comp(), "lookup");
   scatter_tiles = make(shaders::scatter_tiles_comp(), "scatter_tiles");
   see_surfels = make(shaders::see_surfels_comp(), "see_surfels");
-  send_back = make(shaders::send_back_comp(), "send_back");
+  scatter_importance = make(shaders::scatter_importance_comp(), "scatter_importance");
   move_distances = make(shaders::move_distances_comp(), "move_distances");
 }
 
-SightKernels::SightKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
-                           int lookups) {
+VisibilityKernels::VisibilityKernels(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups) {
   const std::array constants = tile_constants(settings, volumes, lookups);
   const auto make = [&](vulkan::Spirv spirv, const char* name) {
     return vulkan::Kernel(device, spirv, name, constants);
   };
-  sight_rays = make(shaders::sight_rays_comp(), "sight_rays");
-  sight_bits = make(shaders::sight_bits_comp(), "sight_bits");
-  ask_corners = make(shaders::ask_corners_comp(), "ask_corners");
-  answer_corners = make(shaders::answer_corners_comp(), "answer_corners");
+  cell_visibility_rays = make(shaders::cell_visibility_rays_comp(), "cell_visibility_rays");
+  cell_visibility_bits = make(shaders::cell_visibility_bits_comp(), "cell_visibility_bits");
+  test_corners = make(shaders::test_corners_comp(), "test_corners");
+  apply_corner_tests = make(shaders::apply_corner_tests_comp(), "apply_corner_tests");
   read_lookups = make(shaders::read_lookups_comp(), "read_lookups");
 }
 

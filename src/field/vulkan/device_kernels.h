@@ -25,21 +25,22 @@ struct FieldKernels {
   FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                int lookups);
 
-  vulkan::Kernel blend_weights, probe_rays, make_surfels, see_distances, blend_distances, gutters;
-  vulkan::Kernel find_lookups, gather, receive, fit, blend_in, solve_sums, solve_step;
+  vulkan::Kernel ray_weights, probe_rays, make_surfels, see_distances, blend_distances, gutters;
+  vulkan::Kernel find_lookups, gather, receive, fit, blend_solution, solve_sums, solve_step;
   vulkan::Kernel store_irradiance, compare_light, lookup, scatter_tiles;
-  vulkan::Kernel see_surfels, move_distances, send_back;
+  vulkan::Kernel see_surfels, move_distances, scatter_importance;
 };
 
 /// Those of visibility by rays, which few fields need.
-struct SightKernels {
-  static const SightKernels& of(const vulkan::Device& device, const FieldSettings& settings,
-                                int volumes, int lookups);
+struct VisibilityKernels {
+  static const VisibilityKernels& of(const vulkan::Device& device, const FieldSettings& settings,
+                                     int volumes, int lookups);
 
-  SightKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
-               int lookups);
+  VisibilityKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+                    int lookups);
 
-  vulkan::Kernel sight_rays, sight_bits, ask_corners, answer_corners, read_lookups;
+  vulkan::Kernel cell_visibility_rays, cell_visibility_bits, test_corners, apply_corner_tests,
+      read_lookups;
 };
 
 }  // namespace lambent

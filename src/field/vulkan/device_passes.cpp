@@ -2,7 +2,7 @@
 // Recording the passes of a field.
 #include <cassert>
 
-#include "field/vulkan/device_field.h"
+#include "field/vulkan/field_resources.h"
 #include "vulkan/device_memory.h"
 
 namespace lambent {
@@ -26,19 +26,19 @@ IntArray indices_from(const DeviceProbes& list, int first) {
 
 }  // namespace
 
-ProbeList DeviceField::arrays(const DeviceProbes& list, int first) const {
+ProbeList FieldResources::arrays(const DeviceProbes& list, int first) const {
   const RaySetArray own = {sets_.address()};
   return {indices_from(list, first),
           from<IntArray>(list.ray_sets, static_cast<std::size_t>(first), sizeof(int)),
           list.sets.address != 0 ? list.sets : own};
 }
 
-StoreArrays DeviceField::store() const {
+StoreArrays FieldResources::store() const {
   return {{grids_.address()}, {offsets_.address()}, {irradiance_.address()}, {distance_.address()}};
 }
 
-void DeviceField::record_rays(vulkan::Recorder& to, const DeviceProbes& list,
-                              const DeviceGroup& group, RayArray rays) const {
+void FieldResources::record_rays(vulkan::Recorder& to, const DeviceProbes& list,
+                                 const DeviceGroup& group, RayArray rays) const {
   const RaySlot& slot = slots_[slot_of_[list.probes[group.first]]];
   const ProbeRaysArguments arguments = {
       store(),   indices_from(list, group.first), {slot.directions.address()}, rays, group.count,
@@ -47,9 +47,9 @@ void DeviceField::record_rays(vulkan::Recorder& to, const DeviceProbes& list,
   to.barrier();
 }
 
-void DeviceField::record_surfels(vulkan::Recorder& to, const DeviceProbes& list,
-                                 const DeviceGroup& group, LitPointArray points,
-                                 ShadedHitArray shaded, Vec3Array irradiance) const {
+void FieldResources::record_surfels(vulkan::Recorder& to, const DeviceProbes& list,
+                                    const DeviceGroup& group, LitPointArray points,
+                                    ShadedHitArray shaded, Vec3Array irradiance) const {
   const MakeSurfelsArguments arguments = {indices_from(list, group.first),
                                           points,
                                           shaded,
@@ -62,15 +62,16 @@ void DeviceField::record_surfels(vulkan::Recorder& to, const DeviceProbes& list,
   to.barrier();
 }
 
-void DeviceField::reserve_seen(const DeviceProbes& list) {
+void FieldResources::reserve_seen(const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
-  reserve<float>(device_, count * round_up(list.most_rays, kClusterLanes), "seen distances", seen_);
+  reserve<float>(device_, count * round_up(list.most_rays, kLaneGroupSize), "seen distances",
+                 seen_);
   reserve<uint>(device_, count, "probes in solid matter", blocked_);
 }
 
-void DeviceField::record_seen_distances(vulkan::Recorder& to, const DeviceProbes& list,
-                                        const DeviceGroup& group, HitArray hits) {
-  const int seen_stride = round_up(list.most_rays, kClusterLanes);
+void FieldResources::record_seen_distances(vulkan::Recorder& to, const DeviceProbes& list,
+                                           const DeviceGroup& group, HitArray hits) {
+  const int seen_stride = round_up(list.most_rays, kLaneGroupSize);
   const auto first = static_cast<std::size_t>(group.first);
   const SeeDistancesArguments arguments = {
       {grids_.address()},
@@ -83,27 +84,27 @@ void DeviceField::record_seen_distances(vulkan::Recorder& to, const DeviceProbes
       group.rays,
       stride_,
       seen_stride};
-  to.run(kernels_.see_distances, arguments, group.count * kClusterLanes);
+  to.run(kernels_.see_distances, arguments, group.count * kLaneGroupSize);
   to.barrier();
 }
 
-void DeviceField::record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list,
-                                         FloatArray shares, uint salt) {
+void FieldResources::record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list,
+                                            FloatArray blend_weights, uint dither_seed) {
   const BlendDistancesArguments arguments = {store(),
                                              arrays(list),
                                              list.block_array(),
                                              {seen_.address()},
                                              {blocked_.address()},
-                                             shares,
+                                             blend_weights,
                                              list.block_count,
-                                             round_up(list.most_rays, kClusterLanes),
-                                             salt};
+                                             round_up(list.most_rays, kLaneGroupSize),
+                                             dither_seed};
   run_over(to, kernels_.blend_distances, arguments, list, kOverDistanceBlocks);
   to.barrier();
   record_distance_gutters(to, list);
 }
 
-void DeviceField::record_distance_gutters(vulkan::Recorder& to, const DeviceProbes& list) const {
+void FieldResources::record_distance_gutters(vulkan::Recorder& to, const DeviceProbes& list) const {
   const GuttersArguments arguments = {{distance_.address()},
                                       list.index_array(),
                                       list.count(),
@@ -113,8 +114,8 @@ void DeviceField::record_distance_gutters(vulkan::Recorder& to, const DeviceProb
   to.barrier();
 }
 
-void DeviceField::record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
-                                 const DeviceTracer* tracer) const {
+void FieldResources::record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
+                                    const DeviceTracer* tracer) const {
   const auto points = [&](int first, int rows) {
     return LookupPoints{arrays(list, first),
                         {surfels_.address()},
@@ -122,45 +123,46 @@ void DeviceField::record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
                         rows,
                         stride_,
                         0,
-                        sights_ && sights_->exact() ? 1u : 0u};
+                        cell_visibility_ && cell_visibility_->exact() ? 1u : 0u};
   };
   const LookupArray lookups{lookup_records_.address()};
   const FindLookupsArguments arguments = {store(), points(0, list.count()), lookups};
   run_over(to, kernels_.find_lookups, arguments, list, kOverRays);
   to.barrier();
-  if (!sights_ || tracer == nullptr) return;
-  const int rows = sights_->points() / stride_;
+  if (!cell_visibility_ || tracer == nullptr) return;
+  const int rows = cell_visibility_->points() / stride_;
   for (int first = 0; first < list.count(); first += rows) {
     const int some = std::min(rows, list.count() - first);
-    sights_->record_weighing(to, *tracer, store(), points(first, some), lookups, list.most_rays);
+    cell_visibility_->record_corner_tests(to, *tracer, store(), points(first, some), lookups,
+                                          list.most_rays);
   }
 }
 
-void DeviceField::reserve_transport(const DeviceProbes& list) {
+void FieldResources::reserve_transport(const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
-  reserve<vec4>(device_, count * round_up(list.most_rays, kClusterLanes), "radiance", radiance_);
+  reserve<vec4>(device_, count * round_up(list.most_rays, kLaneGroupSize), "radiance", radiance_);
   reserve<vec4>(device_, count * tile_texels(), "irradiance at centres", at_centres_);
 }
 
-ListSize DeviceField::list_size(uint shape, int most_rays) const {
+ListSize FieldResources::list_size(uint shape, int most_rays) const {
   const auto squares = [](const vulkan::Kernel& kernel, int across) {
     return ListSize{groups_of(across, static_cast<int>(kernel.group_size(0))), kernel.group_size(1),
                     0u};
   };
   const auto products = [](int edge, int columns) {
-    return ListSize{groups_of(edge * edge, columns), kGroupLanes / kClusterLanes, 1u};
+    return ListSize{groups_of(edge * edge, columns), kGroupLanes / kLaneGroupSize, 1u};
   };
   switch (shape) {
     case kOverRays:
       return squares(kernels_.gather, most_rays);
     case kOverTexels:
-      return squares(kernels_.blend_in, tile_texels());
+      return squares(kernels_.blend_solution, tile_texels());
     case kOverIrradianceGutters:
       return squares(kernels_.gutters, gutter_texels(settings_.irradiance_texels));
     case kOverDistanceGutters:
       return squares(kernels_.gutters, gutter_texels(settings_.distance_texels));
-    case kOverClusters:
-      return {0u, kGroupLanes / kClusterLanes, 0u};
+    case kOverLaneGroups:
+      return {0u, kGroupLanes / kLaneGroupSize, 0u};
     case kOverIrradianceBlocks:
       return products(settings_.irradiance_texels, kIrradianceBlock);
     case kOverDistanceBlocks:
@@ -174,16 +176,16 @@ ListSize DeviceField::list_size(uint shape, int most_rays) const {
   }
 }
 
-GroupCounts DeviceField::groups_over(const DeviceProbes& list, uint shape) const {
+GroupCounts FieldResources::groups_over(const DeviceProbes& list, uint shape) const {
   return list_groups(list_size(shape, list.most_rays), static_cast<uint>(list.count()),
                      static_cast<uint>(list.block_count));
 }
 
 /// Runs a kernel of transport over a list, or over as many groups as a solve says.
 template <class Arguments>
-void DeviceField::run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel,
-                                const Arguments& arguments, const DeviceProbes& list, uint shape,
-                                const TransportGroups& groups, std::size_t offset) const {
+void FieldResources::run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel,
+                                   const Arguments& arguments, const DeviceProbes& list, uint shape,
+                                   const TransportGroups& groups, std::size_t offset) const {
   if (groups.buffer != nullptr) {
     to.run_indirect(kernel, arguments, *groups.buffer, offset);
   } else {
@@ -192,9 +194,9 @@ void DeviceField::run_transport(vulkan::Recorder& to, const vulkan::Kernel& kern
   to.barrier();
 }
 
-void DeviceField::record_transport(vulkan::Recorder& to, const DeviceProbes& list,
-                                   const DeviceTransport& transport,
-                                   const TransportGroups& groups) const {
+void FieldResources::record_transport(vulkan::Recorder& to, const DeviceProbes& list,
+                                      const DeviceTransport& transport,
+                                      const TransportGroups& groups) const {
   const GatherArguments gather = {arrays(list),
                                   {corners_.address()},
                                   {surfels_.address()},
@@ -203,31 +205,33 @@ void DeviceField::record_transport(vulkan::Recorder& to, const DeviceProbes& lis
                                   {radiance_.address()},
                                   list.count(),
                                   stride_,
-                                  round_up(list.most_rays, kClusterLanes),
+                                  round_up(list.most_rays, kLaneGroupSize),
                                   transport.light};
   run_transport(to, kernels_.gather, gather, list, kOverRays, groups, groups.rays);
   record_receive(to, list, transport, groups);
 }
 
-void DeviceField::record_receive(vulkan::Recorder& to, const DeviceProbes& list,
-                                 const DeviceTransport& transport,
-                                 const TransportGroups& groups) const {
-  const ReceiveArguments receive = {arrays(list),          list.block_array(),
-                                    {radiance_.address()}, {at_centres_.address()},
-                                    list.block_count,      round_up(list.most_rays, kClusterLanes)};
-  const FitArguments fit = {{fit_.address()},        list.block_array(),
-                            {at_centres_.address()}, transport.fallback,
-                            transport.gain,          transport.received,
-                            list.block_count,        transport.gain.address != 0 ? 1u : 0u};
+void FieldResources::record_receive(vulkan::Recorder& to, const DeviceProbes& list,
+                                    const DeviceTransport& transport,
+                                    const TransportGroups& groups) const {
+  const ReceiveArguments receive = {
+      arrays(list),          list.block_array(),
+      {radiance_.address()}, {at_centres_.address()},
+      list.block_count,      round_up(list.most_rays, kLaneGroupSize)};
+  const FitArguments fit = {
+      {fit_.address()},        list.block_array(),
+      {at_centres_.address()}, transport.fallback,
+      transport.history_ratio, transport.received,
+      list.block_count,        transport.history_ratio.address != 0 ? 1u : 0u};
   run_transport(to, kernels_.receive, receive, list, kOverIrradianceBlocks, groups, groups.blocks);
   run_transport(to, kernels_.fit, fit, list, kOverIrradianceBlocks, groups, groups.blocks);
 }
 
-void DeviceField::record_store_light(vulkan::Recorder& to, const DeviceProbes& list,
-                                     uint salt) const {
+void FieldResources::record_store_light(vulkan::Recorder& to, const DeviceProbes& list,
+                                        uint dither_seed) const {
   const UintArray words = {irradiance_.address()};
   const StoreIrradianceArguments arguments = {
-      words, list.index_array(), {light_.address()}, list.count(), salt};
+      words, list.index_array(), {light_.address()}, list.count(), dither_seed};
   run_over(to, kernels_.store_irradiance, arguments, list, kOverTexels);
   to.barrier();
   const GuttersArguments gutters = {words, list.index_array(), list.count(),
@@ -236,18 +240,19 @@ void DeviceField::record_store_light(vulkan::Recorder& to, const DeviceProbes& l
   to.barrier();
 }
 
-void DeviceField::record_compare_light(vulkan::Recorder& to, const DeviceProbes& list,
-                                       Vec4Array before, float darkest, Vec3Array changes) const {
+void FieldResources::record_compare_light(vulkan::Recorder& to, const DeviceProbes& list,
+                                          Vec4Array before, float darkest,
+                                          Vec3Array changes) const {
   const CompareLightArguments arguments = {
       list.index_array(), {light_.address()}, before, changes, list.count(), darkest};
   run_over(to, kernels_.compare_light, arguments, list, kOverLanes);
   to.barrier();
 }
 
-void DeviceField::record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
-                                Vec3Array irradiance, const DeviceTracer* tracer) const {
+void FieldResources::record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
+                                   Vec3Array irradiance, const DeviceTracer* tracer) const {
   if (count == 0) return;
-  if (sights_ && tracer != nullptr) {
+  if (cell_visibility_ && tracer != nullptr) {
     record_lookup_by_rays(to, queries, count, irradiance, *tracer);
     return;
   }
@@ -259,10 +264,10 @@ void DeviceField::record_lookup(vulkan::Recorder& to, QueryArray queries, std::u
 }
 
 /// The same where rays tell which probes are seen, some points at a time.
-void DeviceField::record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries,
-                                        std::uint32_t count, Vec3Array irradiance,
-                                        const DeviceTracer& tracer) const {
-  const auto most = static_cast<std::uint32_t>(sights_->points() / kQueryRow * kQueryRow);
+void FieldResources::record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries,
+                                           std::uint32_t count, Vec3Array irradiance,
+                                           const DeviceTracer& tracer) const {
+  const auto most = static_cast<std::uint32_t>(cell_visibility_->points() / kQueryRow * kQueryRow);
   for (std::uint32_t first = 0; first < count; first += most) {
     const auto some = static_cast<int>(std::min(most, count - first));
     const QueryArray asked{queries.address + first * sizeof(QueryRecord)};
@@ -272,25 +277,28 @@ void DeviceField::record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries
                                  static_cast<int>(groups_of(some, kQueryRow)),
                                  kQueryRow,
                                  some,
-                                 sights_->exact() ? 1u : 0u};
-    const FindLookupsArguments found = {store(), points, sights_->lookups()};
+                                 cell_visibility_->exact() ? 1u : 0u};
+    const FindLookupsArguments found = {store(), points, cell_visibility_->lookups()};
     to.run(kernels_.find_lookups, found, kQueryRow, points.rows);
     to.barrier();
-    sights_->record_weighing(to, tracer, store(), points, sights_->lookups(), kQueryRow);
-    sights_->record_reading(
-        to,
-        {store(), asked, sights_->lookups(), {irradiance.address + first * sizeof(vec3)}, some});
+    cell_visibility_->record_corner_tests(to, tracer, store(), points, cell_visibility_->lookups(),
+                                          kQueryRow);
+    cell_visibility_->record_reading(to, {store(),
+                                          asked,
+                                          cell_visibility_->lookups(),
+                                          {irradiance.address + first * sizeof(vec3)},
+                                          some});
   }
 }
 
-void DeviceField::record_look(vulkan::Recorder& to, const DeviceTracer& tracer, IntArray cells,
-                              int count) const {
-  assert(sights_);
-  sights_->record_look(to, tracer, store(), cells, count);
+void FieldResources::record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer,
+                                            IntArray cells, int count) const {
+  assert(cell_visibility_);
+  cell_visibility_->record_cell_visibility(to, tracer, store(), cells, count);
 }
 
-void DeviceField::take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const {
-  if (sights_) sights_->take_ray_count(to, count);
+void FieldResources::take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const {
+  if (cell_visibility_) cell_visibility_->take_ray_count(to, count);
 }
 
 }  // namespace lambent

@@ -6,18 +6,18 @@
 #include <vector>
 
 #include "field/schedule/schedule.h"
-#include "shaders/schedule_book_comp.h"
 #include "shaders/schedule_choose_comp.h"
 #include "shaders/schedule_list_comp.h"
 #include "shaders/schedule_means_comp.h"
-#include "shaders/schedule_worth_comp.h"
+#include "shaders/schedule_priority_comp.h"
+#include "shaders/update_variability_comp.h"
 #include "vulkan/device_memory.h"
 
 namespace lambent {
 
 using vulkan::Buffer, vulkan::Memory;
 
-DeviceSchedule::DeviceSchedule(const DeviceField& field, int most_probes, int rays)
+DeviceSchedule::DeviceSchedule(const FieldResources& field, int most_probes, int rays)
     : field_(field), chunks_(static_cast<int>(groups_of(field.probes(), kChunkProbes))) {
   assert(most_probes > 0 && most_probes % kBlockProbes == 0 && most_probes <= field.probes());
   const vulkan::Device& device = field.device();
@@ -26,16 +26,16 @@ DeviceSchedule::DeviceSchedule(const DeviceField& field, int most_probes, int ra
   const auto make = [&](vulkan::Spirv spirv, const char* name) {
     return vulkan::Kernel(device, spirv, name, constants);
   };
-  worth_ = make(shaders::schedule_worth_comp(), "schedule_worth");
+  priority_ = make(shaders::schedule_priority_comp(), "schedule_priority");
   choose_ = make(shaders::schedule_choose_comp(), "schedule_choose");
   list_them_ = make(shaders::schedule_list_comp(), "schedule_list");
-  book_ = make(shaders::schedule_book_comp(), "schedule_book");
+  update_variability_ = make(shaders::update_variability_comp(), "update_variability");
   means_ = make(shaders::schedule_means_comp(), "schedule_means");
 
   ScheduleState state{};
   state.live = static_cast<uint>(field.probes());
   state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
-  // As ProbeRecord begins
+  // As ProbeStatus begins
   const std::vector<ProbeService> unknown(field.probes(), {{1.0f, 0u}, 0u});
   service_ = vulkan::upload(device, unknown, "service of probes");
   std::vector<ListSize> sizes;
@@ -63,20 +63,20 @@ void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& prob
   const int all = field_.probes();
   const ScheduleStateArray state = {state_.address()};
   const ChunkArray chunks = {chunk_records_.address()};
-  const ScheduleWorthArguments worth = {{field_.grids().address()},
-                                        probes,
-                                        {service_.address()},
-                                        state,
-                                        {bins_.address()},
-                                        chunks,
-                                        all,
-                                        update + 1,
-                                        longest_average(field_.settings()),
-                                        look ? 1u : 0u};
+  const SchedulePriorityArguments priority = {{field_.grids().address()},
+                                              probes,
+                                              {service_.address()},
+                                              state,
+                                              {bins_.address()},
+                                              chunks,
+                                              all,
+                                              update + 1,
+                                              longest_average(field_.settings()),
+                                              look ? 1u : 0u};
   const ScheduleChooseArguments choose = {
       state, chunks, list_.block_array(), {sizes_.address()}, chunks_, list_.count()};
   const ScheduleListArguments list = {state, chunks, {bins_.address()}, list_.index_array(), all};
-  to.run(worth_, worth, all);
+  to.run(priority_, priority, all);
   to.barrier();
   to.run(choose_, choose, kChunkProbes);
   to.barrier();
@@ -84,24 +84,25 @@ void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& prob
   to.barrier();
 }
 
-void DeviceSchedule::record_book(vulkan::Recorder& to, const DeviceProbes& list, FloatArray shares,
-                                 Vec4Array before, std::uint32_t update) const {
+void DeviceSchedule::record_update_variability(vulkan::Recorder& to, const DeviceProbes& list,
+                                               FloatArray blend_weights, Vec4Array before,
+                                               std::uint32_t update) const {
   const uint chosen = list.chosen != nullptr ? 1u : 0u;
   const ScheduleStateArray state = {state_.address()};
   const Vec3Array changes = {changes_.address()};
-  const ScheduleBookArguments book = {state,
-                                      {service_.address()},
-                                      list.index_array(),
-                                      shares,
-                                      changes,
-                                      list.count(),
-                                      chosen,
-                                      update + 1,
-                                      0u};
+  const UpdateVariabilityArguments variability = {state,
+                                                  {service_.address()},
+                                                  list.index_array(),
+                                                  blend_weights,
+                                                  changes,
+                                                  list.count(),
+                                                  chosen,
+                                                  update + 1,
+                                                  0u};
   const ScheduleMeansArguments means = {
-      state, {chunk_records_.address()}, shares, changes, chunks_, list.count(), chosen, 0u};
+      state, {chunk_records_.address()}, blend_weights, changes, chunks_, list.count(), chosen, 0u};
   field_.record_compare_light(to, list, before, /*darkest=*/0.0f, changes);
-  field_.run_over(to, book_, book, list, kOverLanes);
+  field_.run_over(to, update_variability_, variability, list, kOverLanes);
   to.barrier();
   to.run(means_, means, kGroupLanes);
   to.barrier();

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "field/schedule/schedule_arguments.h"
-#include "field/vulkan/device_field.h"
+#include "field/vulkan/field_resources.h"
 
 namespace lambent {
 
@@ -12,7 +12,7 @@ class DeviceSchedule {
  public:
   /// Of at most so many probes an update, whole blocks of them, each with so many rays. For a field
   /// that outlives it.
-  DeviceSchedule(const DeviceField& field, int most_probes, int rays);
+  DeviceSchedule(const FieldResources& field, int most_probes, int rays);
 
   /// Chooses the probes of an update, counted from 0. `look`: those that are off are looked at
   /// where they have waited too long.
@@ -20,8 +20,9 @@ class DeviceSchedule {
                      bool look) const;
   /// Books the probes of a list, chosen or not, whose light the field now holds. `shares` and
   /// `before`: of the list's probes, what share of it is new and what they held before.
-  void record_book(vulkan::Recorder& to, const DeviceProbes& list, FloatArray shares,
-                   Vec4Array before, std::uint32_t update) const;
+  void record_update_variability(vulkan::Recorder& to, const DeviceProbes& list,
+                                 FloatArray blend_weights, Vec4Array before,
+                                 std::uint32_t update) const;
 
   /// The chosen probes, which all are of ray set 0 among these.
   const DeviceProbes& list(RaySetArray sets) {
@@ -35,8 +36,8 @@ class DeviceSchedule {
   const vulkan::Buffer& bins() const { return bins_; }
 
  private:
-  const DeviceField& field_;
-  vulkan::Kernel worth_, choose_, list_them_, book_, means_;
+  const FieldResources& field_;
+  vulkan::Kernel priority_, choose_, list_them_, update_variability_, means_;
   int chunks_;
   DeviceProbes list_;
   vulkan::Buffer state_, service_, bins_, chunk_records_, sizes_, changes_;

@@ -28,7 +28,7 @@ const int kSolveSums = 10;
 struct SolveState {
   int max_iterations;
   float tolerance;
-  float largest_share;
+  float largest_blend_weight;
   float max_albedo;
   int texels;  ///< Of all its probes together.
   // Groups of the kernels of an iteration: 0 once it is done, so that those recorded to come do
@@ -42,9 +42,9 @@ struct SolveState {
   int iterations;
   float error;
   float change;
-  float observed;  ///< The strongest contraction that a step has shown.
-  int steps;       ///< Remembered.
-  vec3 shares;     ///< Of the remembered steps' image changes, to be taken back.
+  float observed;     ///< The strongest contraction that a step has shown.
+  int steps;          ///< Remembered.
+  vec3 coefficients;  ///< Of the remembered steps' image changes, to be taken back.
   StepProducts products;
 };
 LAMBENT_DEVICE_ARRAY(SolveStateArray, SolveState, 4)
@@ -54,7 +54,7 @@ LAMBENT_DEVICE_ARRAY(WideArray, Wide, 4)
 /// kAndersonDepth steps, one after the other.
 struct SolveArrays {
   IntArray probes;
-  FloatArray shares;
+  FloatArray blend_weights;
   Vec4Array field;  ///< Of all probes x texels.
   Vec4Array history;
   Vec4Array solution;
@@ -72,7 +72,7 @@ const uint kNextSolution = 1u;   ///< Extrapolated, and a share of it is put int
 const uint kPlainSolution = 2u;  ///< The image is put into the field as it is.
 const uint kEndSolve = 3u;       ///< A share of the image is put into the field, and none below 0.
 
-struct BlendInArguments {
+struct BlendSolutionArguments {
   SolveArrays arrays;
   int probes;
   uint step;

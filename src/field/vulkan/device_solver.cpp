@@ -15,7 +15,7 @@ TransportGroups groups_in(const vulkan::Buffer& state) {
 
 }  // namespace
 
-DeviceSolver::DeviceSolver(DeviceField& field)
+DeviceSolver::DeviceSolver(FieldResources& field)
     : field_(field),
       state_(field.device(), sizeof(SolveState), vulkan::Memory::device, "solve"),
       sums_(field.device(), sizeof(Wide) * kSumLanes * kSolveSums, vulkan::Memory::device,
@@ -34,17 +34,18 @@ void DeviceSolver::reserve(const DeviceProbes& list) {
   field_.reserve_transport(list);
 }
 
-SolveArrays DeviceSolver::arrays(const DeviceProbes& list, const vulkan::Buffer& shares) const {
-  return {list.index_array(),         {shares.address()},          {field_.light().address()},
+SolveArrays DeviceSolver::arrays(const DeviceProbes& list,
+                                 const vulkan::Buffer& blend_weights) const {
+  return {list.index_array(),         {blend_weights.address()},   {field_.light().address()},
           {history_.address()},       {solution_.address()},       {image_.address()},
           {residual_.address()},      {previous_image_.address()}, {residual_changes_.address()},
           {image_changes_.address()}, {state_.address()}};
 }
 
-void DeviceSolver::blend_in(vulkan::Recorder& to, const DeviceProbes& list,
-                            const SolveArrays& arrays, uint step) const {
-  const BlendInArguments arguments = {arrays, list.count(), step};
-  const vulkan::Kernel& kernel = field_.kernels().blend_in;
+void DeviceSolver::blend_solution(vulkan::Recorder& to, const DeviceProbes& list,
+                                  const SolveArrays& arrays, uint step) const {
+  const BlendSolutionArguments arguments = {arrays, list.count(), step};
+  const vulkan::Kernel& kernel = field_.kernels().blend_solution;
   if (step == kNextSolution) {
     to.run_indirect(kernel, arguments, state_, offsetof(SolveState, over_texels));
   } else {
@@ -65,7 +66,8 @@ void DeviceSolver::take_chosen(vulkan::Recorder& to, const vulkan::Buffer& chose
   take_groups(kOverRays, offsetof(SolveState, over_rays));
   take_groups(kOverIrradianceBlocks, offsetof(SolveState, over_blocks));
   take(sizeof(uint), offsetof(ListState, texels), offsetof(SolveState, texels));
-  take(sizeof(float), offsetof(ListState, largest_share), offsetof(SolveState, largest_share));
+  take(sizeof(float), offsetof(ListState, largest_blend_weight),
+       offsetof(SolveState, largest_blend_weight));
   to.barrier();
 }
 
@@ -80,12 +82,12 @@ void DeviceSolver::record_begin(vulkan::Recorder& to, const DeviceProbes& list,
   to.update(state_, &state, sizeof(state));
   to.barrier();
   if (list.chosen != nullptr) take_chosen(to, *list.chosen);
-  blend_in(to, list, arrays, kBeginSolve);
+  blend_solution(to, list, arrays, kBeginSolve);
 }
 
 void DeviceSolver::record_end(vulkan::Recorder& to, const DeviceProbes& list,
                               const SolveArrays& arrays) const {
-  blend_in(to, list, arrays, kEndSolve);
+  blend_solution(to, list, arrays, kEndSolve);
   const SolveSumsArguments sums = {
       arrays, {sums_.address()}, list.count() * field_.tile_texels(), 1u};
   to.run(field_.kernels().solve_sums, sums, kSumLanes);
@@ -96,13 +98,13 @@ void DeviceSolver::record_end(vulkan::Recorder& to, const DeviceProbes& list,
 }
 
 void DeviceSolver::record(vulkan::Recorder& to, const DeviceProbes& list,
-                          const vulkan::Buffer& shares, float largest_share, Vec4Array gain,
-                          const RelightSettings& settings) {
-  const SolveArrays arrays = this->arrays(list, shares);
+                          const vulkan::Buffer& blend_weights, float largest_blend_weight,
+                          Vec4Array history_ratio, const SolveSettings& settings) {
+  const SolveArrays arrays = this->arrays(list, blend_weights);
   SolveState state{};
   state.max_iterations = settings.max_iterations;
   state.tolerance = settings.tolerance;
-  state.largest_share = largest_share;
+  state.largest_blend_weight = largest_blend_weight;
   state.max_albedo = settings.max_albedo;
   record_begin(to, list, arrays, state);
   const FieldKernels& kernels = field_.kernels();
@@ -111,25 +113,25 @@ void DeviceSolver::record(vulkan::Recorder& to, const DeviceProbes& list,
   const SolveStepArguments step = {{state_.address()}, {sums_.address()}, 0u};
   for (int iteration = 0; iteration < settings.max_iterations; ++iteration) {
     // Send the light round once
-    field_.record_transport(to, list, {arrays.field, arrays.history, gain, arrays.image},
+    field_.record_transport(to, list, {arrays.field, arrays.history, history_ratio, arrays.image},
                             groups_in(state_));
     to.run_indirect(kernels.solve_sums, sums, state_, offsetof(SolveState, over_sums));
     to.barrier();
     to.run_indirect(kernels.solve_step, step, state_, offsetof(SolveState, over_step));
     to.barrier();
-    if (iteration + 1 < settings.max_iterations) blend_in(to, list, arrays, kNextSolution);
+    if (iteration + 1 < settings.max_iterations) blend_solution(to, list, arrays, kNextSolution);
   }
   record_end(to, list, arrays);
 }
 
 void DeviceSolver::record_bounces(vulkan::Recorder& to, const DeviceProbes& list,
-                                  const vulkan::Buffer& shares, int bounces) {
-  const SolveArrays arrays = this->arrays(list, shares);
+                                  const vulkan::Buffer& blend_weights, int bounces) {
+  const SolveArrays arrays = this->arrays(list, blend_weights);
   SolveState state{};
   record_begin(to, list, arrays, state);
   field_.record_transport(to, list, {arrays.field, arrays.history, {}, arrays.image, kGatherSky});
   for (int bounce = 0; bounce < bounces; ++bounce) {
-    blend_in(to, list, arrays, kPlainSolution);
+    blend_solution(to, list, arrays, kPlainSolution);
     field_.record_transport(to, list, {arrays.field, arrays.history, {}, arrays.image});
   }
   record_end(to, list, arrays);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recorded field keeps of its probes on the device, and the arguments of its own kernels.
-// Lists are those of device_arguments.h.
+// What a recorded field keeps per probe on the device, and the arguments of the kernels that only
+// recorded fields run. Lists of probes are those of device_arguments.h.
 #ifndef LAMBENT_FIELD_VULKAN_RECORDED_ARGUMENTS_H
 #define LAMBENT_FIELD_VULKAN_RECORDED_ARGUMENTS_H
 
@@ -11,31 +11,31 @@
 
 LAMBENT_BEGIN
 
-// What a probe is for.
+// States of a probe of a recorded field.
 const uint kProbeOn = 0u;
-const uint kProbeOff = 1u;  ///< In solid matter.
+const uint kProbeOff = 1u;  ///< It stands inside geometry.
 
-/// What is known of a probe besides its tiles; at first all zero.
+/// The history and placement of a probe. All zero at first.
 struct ProbeStanding {
-  float samples;  ///< Updates that its tiles average.
-  uint offset;    ///< Where it is to stand from its next rays on (encode_probe_offset).
-  ProbeWalk walk;
+  float samples;  ///< Number of updates that its tiles average.
+  uint offset;    ///< Offset that applies from its next rays on (encode_probe_offset).
+  RelocationState relocation;
 };
 LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
 
-/// Of all probes, by index.
+/// Arrays with one entry per probe of the field.
 struct ProbeStates {
   StandingArray standing;
   UintArray states;
 };
 
-/// A probe rests that is off, but for updates that look at all.
+/// Whether a probe is left out of an update: it is off, and the update does not trace `all` probes.
 LAMBENT_FN bool probe_rests(uint state, uint all) {
   return state == kProbeOff && all == 0u;
 }
 
-/// Rays of a list's probes: count x rays_per_probe. Those of probes that rest have a mask of 0, and
-/// so have those beyond the probes that the device chose.
+/// Arguments of recorded_rays, which makes count x rays_per_probe rays. Rays of probes that are
+/// left out, and rays beyond the probes that the device chose, get a mask of 0.
 struct RecordedRaysArguments {
   GridArray grids;
   ProbeStates probes;
@@ -51,7 +51,7 @@ struct RecordedRaysArguments {
   uint unused;
 };
 
-/// Nearest hits through an engine's acceleration structure.
+/// Arguments of engine_closest, which finds closest hits in an engine's acceleration structure.
 struct EngineClosestArguments {
   uvec2 structure;  ///< Its address, low word first.
   RayArray rays;
@@ -60,29 +60,31 @@ struct EngineClosestArguments {
   uint unused;
 };
 
-/// Has each probe's average count for this share of what it did.
+/// Arguments of fade_samples, which multiplies every probe's number of samples by a factor.
 struct FadeSamplesArguments {
   StandingArray standing;
   int count;
-  float share;
+  float factor;
 };
 
-/// Counts an update in. `shares`: of the list's probes; 0 for those that rest.
-struct RecordedSharesArguments {
+/// Arguments of recorded_blend_weights, which counts an update's samples. `blend_weights` has one
+/// number per probe of the list, 0 for probes that are left out.
+struct RecordedBlendWeightsArguments {
   ProbeStates probes;
-  UintArray offsets;  ///< Of the store: probes are now where their rays came from.
+  UintArray offsets;  ///< The store's offsets, which become those that the rays started from.
   IntArray list;
-  FloatArray shares;
-  UintArray chosen;         ///< How many probes the list has where the device decided.
-  UintArray largest_share;  ///< A word: becomes the largest one's bits.
+  FloatArray blend_weights;
+  UintArray chosen;                ///< One word: the list's length where the device decided.
+  UintArray largest_blend_weight;  ///< One word: receives the bits of the largest blend weight.
   int count;
-  uint is_chosen;  ///< 1: the device decided.
-  float longest;   ///< Updates that an average remembers.
-  uint all;
-  uint anew;  ///< 1: what was averaged before counts for nothing.
+  uint is_chosen;         ///< 1: the device decided.
+  float longest;          ///< The most updates that an average remembers.
+  uint all;               ///< 1: probes that are off are traced, too.
+  uint discards_history;  ///< 1: earlier samples do not count.
 };
 
-/// Surfels from what an engine tells. `surfels`: of all probes x stride.
+/// Arguments of recorded_surfels, which makes surfels from an engine's ray results. `surfels` has
+/// `stride` entries for every probe of the field.
 struct RecordedSurfelsArguments {
   IntArray list;
   RayArray rays;
@@ -94,13 +96,14 @@ struct RecordedSurfelsArguments {
   float max_albedo;
 };
 
-// Whether probes move: not at all; a step; the first one; or to where they stood best.
+// What an update does to the places of probes: nothing, one step of their relocation, its first
+// step, or its end, which moves them to the best place found.
 const uint kPlaceLeave = 0u;
 const uint kPlaceStep = 1u;
 const uint kPlaceFirstStep = 2u;
 const uint kPlaceEnd = 3u;
 
-/// Says what probes are for and where they are to stand, from what their rays saw.
+/// Arguments of maintain_probes, which sets the states and next places of probes from their rays.
 struct MaintainArguments {
   GridArray grids;
   ProbeStates probes;
@@ -113,8 +116,9 @@ struct MaintainArguments {
   uint all;
 };
 
-// Sights that a probe is placed by at most; of more rays every second, third, ... is taken.
-const int kMostSights = 256;
+// Relocation uses at most this many of a probe's rays. Where there are more, it uses every second,
+// third, and so on.
+const int kMaxPlacementRays = 256;
 
 LAMBENT_END
 #endif

@@ -12,14 +12,14 @@
 namespace lambent::vulkan {
 namespace {
 
-constexpr int kMostFramesInFlight = 16;
-constexpr int kMostPlacingUpdates = 64;
+constexpr int kMaxFramesInFlight = 16;
+constexpr int kMaxPlacingUpdates = 64;
 
 BufferRange range_of(const Buffer& buffer) {
   return {buffer.handle(), buffer.offset(), buffer.bytes(), buffer.address()};
 }
 
-/// Records a pass into an engine's command buffer, between barriers.
+/// Records a pass into an engine's command buffer, with a barrier before and after it.
 template <class Record>
 void record_pass(const Device& device, VkCommandBuffer commands, const char* name, Record record) {
   Recorder to(device, commands);
@@ -38,10 +38,10 @@ Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSetting
   if (s.max_bounces >= 0 && (r.probes_per_update != 0 || r.rays_per_update != 0)) {
     return fail("", "bounces", "can be counted only where all probes are traced at once");
   }
-  if (r.frames_in_flight < 1 || r.frames_in_flight > kMostFramesInFlight) {
+  if (r.frames_in_flight < 1 || r.frames_in_flight > kMaxFramesInFlight) {
     return fail("", "frames in flight", "must be 1 to 16");
   }
-  if (r.probes_per_update < 0 || r.probes_per_update > kMostProbes) {
+  if (r.probes_per_update < 0 || r.probes_per_update > kMaxBatchProbes) {
     return fail("", "probes per update", "must be 0 to 65535");
   }
   if (r.rays_per_update != 0) {
@@ -51,7 +51,7 @@ Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSetting
     }
   }
   const int placing = r.placing_updates;
-  if (placing != 0 && (placing < 2 || placing > kMostPlacingUpdates)) {
+  if (placing != 0 && (placing < 2 || placing > kMaxPlacingUpdates)) {
     return fail("", "placing updates", "must be 2 to 64, or 0");
   }
   return {};
@@ -72,7 +72,7 @@ Expected<RecordedField> RecordedField::make(std::shared_ptr<Device> device,
   for (const Volume& volume : *volumes) grids.push_back(volume.grid);
   const ProbeStore shape(grids, settings);
   const bool all_at_once = recorded.probes_per_update == 0 && recorded.rays_per_update == 0;
-  if (all_at_once && shape.probes() > kMostProbes) {
+  if (all_at_once && shape.probes() > kMaxBatchProbes) {
     return fail(
         "", "probes per update",
         "must be given where there are more than 65535: here " + std::to_string(shape.probes()));
@@ -91,11 +91,11 @@ RecordedField& RecordedField::operator=(RecordedField&&) noexcept = default;
 PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
   State& s = *state_;
   assert(update.history >= 0.0f && update.history <= 1.0f);
-  s.turn = s.plan.next(update);
-  s.memory().write(s.turn, s.settings);
-  return {static_cast<std::uint32_t>(s.turn.count),
+  s.batch = s.plan.next(update);
+  s.memory().write(s.batch, s.settings);
+  return {static_cast<std::uint32_t>(s.batch.count),
           static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
-          s.turn.place != kPlaceLeave, s.turn.on_device};
+          s.batch.place != kPlaceLeave, s.batch.on_device};
 }
 
 void RecordedField::record_rays(VkCommandBuffer commands) const {
@@ -106,22 +106,22 @@ void RecordedField::record_rays(VkCommandBuffer commands) const {
                                            {s.memory().directions.address()},
                                            {s.rays.address()},
                                            s.chosen(offsetof(ListState, probes)),
-                                           s.turn.count,
+                                           s.batch.count,
                                            s.settings.rays_per_probe,
                                            s.ray_mask,
-                                           s.turn.all ? 1u : 0u,
-                                           s.turn.on_device ? 1u : 0u,
+                                           s.batch.all ? 1u : 0u,
+                                           s.batch.on_device ? 1u : 0u,
                                            0u};
   record_pass(*s.device, commands, "rays", [&](Recorder& to) {
-    if (s.turn.history < 1.0f) {
-      const FadeSamplesArguments fade = {{s.standing.address()}, s.field.probes(), s.turn.history};
+    if (s.batch.history < 1.0f) {
+      const FadeSamplesArguments fade = {{s.standing.address()}, s.field.probes(), s.batch.history};
       to.run(s.kernels.fade_samples, fade, s.field.probes());
       to.barrier();
     }
-    if (s.turn.on_device) {
-      s.schedule->record_choose(to, s.probe_states(), s.turn.update, s.turn.all);
+    if (s.batch.on_device) {
+      s.schedule->record_choose(to, s.probe_states(), s.batch.update, s.batch.all);
     }
-    to.run(s.kernels.rays, arguments, s.settings.rays_per_probe, s.turn.count);
+    to.run(s.kernels.rays, arguments, s.settings.rays_per_probe, s.batch.count);
   });
 }
 
@@ -141,7 +141,7 @@ void RecordedField::record_trace(VkCommandBuffer commands,
       count,
       0u};
   record_pass(*s.device, commands, "trace", [&](Recorder& to) {
-    if (s.turn.on_device) {
+    if (s.batch.on_device) {
       to.trace_indirect(s.tracer.closest, arguments, s.schedule->state(),
                         kOverLaunch * sizeof(GroupCounts));
       return;
@@ -150,25 +150,26 @@ void RecordedField::record_trace(VkCommandBuffer commands,
   });
 }
 
-/// From what the engine told to surfels, and what they count for.
+/// Turns the engine's results into surfels and computes the blend weights and the ray weights.
 void RecordedField::State::record_results(Recorder& to) {
   const UpdateMemory& m = memory();
   const DeviceProbes& now = list();
-  const RecordedSharesArguments share = {probe_states(),
-                                         {field.offsets().address()},
-                                         now.index_array(),
-                                         {shares.address()},
-                                         chosen(offsetof(ListState, probes)),
-                                         chosen(offsetof(ListState, largest_share)),
-                                         turn.count,
-                                         turn.on_device ? 1u : 0u,
-                                         longest_average(settings),
-                                         turn.all ? 1u : 0u,
-                                         turn.starts_anew ? 1u : 0u};
+  const RecordedBlendWeightsArguments blend_weight = {
+      probe_states(),
+      {field.offsets().address()},
+      now.index_array(),
+      {blend_weights.address()},
+      chosen(offsetof(ListState, probes)),
+      chosen(offsetof(ListState, largest_blend_weight)),
+      batch.count,
+      batch.on_device ? 1u : 0u,
+      longest_average(settings),
+      batch.all ? 1u : 0u,
+      batch.discards_history ? 1u : 0u};
   const RecordedSurfelsArguments surfel = {
       now.index_array(), {rays.address()},        {results.address()},   field.surfels(),
-      turn.count,        settings.rays_per_probe, field.surfel_stride(), settings.max_albedo};
-  field.run_over(to, kernels.shares, share, now, kOverLanes);
+      batch.count,       settings.rays_per_probe, field.surfel_stride(), settings.max_albedo};
+  field.run_over(to, kernels.blend_weights, blend_weight, now, kOverLanes);
   field.run_over(to, kernels.surfels, surfel, now, kOverRays);
   field.record_weights(to, {m.directions.address()}, settings.rays_per_probe,
                        {irradiance_weights.address()}, {distance_weights.address()});
@@ -177,40 +178,40 @@ void RecordedField::State::record_results(Recorder& to) {
 void RecordedField::record_update(VkCommandBuffer commands) {
   State& s = *state_;
   const DeviceProbes& list = s.list();
-  const uint salt = store_salt(s.turn.update, s.settings.seed);
+  const uint dither_seed = store_dither_seed(s.batch.update, s.settings.seed);
   const auto pass = [&](const char* name, const auto& record) {
     record_pass(*s.device, commands, name, record);
   };
   pass("shade", [&](Recorder& to) { s.record_results(to); });
   pass("blend", [&](Recorder& to) {
     s.field.record_seen_surfels(to, list);
-    s.field.record_blend_distances(to, list, {s.shares.address()}, salt);
+    s.field.record_blend_distances(to, list, {s.blend_weights.address()}, dither_seed);
   });
   pass("shade", [&](Recorder& to) { s.field.record_lookups(to, list); });
-  pass("relight", [&](Recorder& to) {
+  pass("solve", [&](Recorder& to) {
     if (s.settings.max_bounces >= 0) {
-      s.solver.record_bounces(to, list, s.shares, s.settings.max_bounces);
+      s.solver.record_bounces(to, list, s.blend_weights, s.settings.max_bounces);
       return;
     }
-    const RelightSettings settings = {s.settings.max_albedo, s.settings.relight_tolerance,
-                                      s.settings.max_relights};
-    s.solver.record(to, list, s.shares, s.turn.largest_share, {}, settings);
+    const SolveSettings settings = {s.settings.max_albedo, s.settings.solve_tolerance,
+                                    s.settings.max_solve_iterations};
+    s.solver.record(to, list, s.blend_weights, s.batch.largest_blend_weight, {}, settings);
   });
   if (s.schedule) {
     pass("schedule", [&](Recorder& to) {
-      s.schedule->record_book(to, list, {s.shares.address()}, {s.solver.history().address()},
-                              s.turn.update);
+      s.schedule->record_update_variability(to, list, {s.blend_weights.address()},
+                                            {s.solver.history().address()}, s.batch.update);
     });
   }
-  pass("blend", [&](Recorder& to) { s.field.record_store_light(to, list, salt); });
+  pass("blend", [&](Recorder& to) { s.field.record_store_light(to, list, dither_seed); });
 }
 
 void RecordedField::record_maintain(VkCommandBuffer commands) const {
   State& s = *state_;
   const MaintainArguments arguments = {
       {s.field.grids().address()}, s.probe_states(),      s.list().index_array(),
-      {s.rays.address()},          {s.results.address()}, s.turn.count,
-      s.settings.rays_per_probe,   s.turn.place,          s.turn.all ? 1u : 0u};
+      {s.rays.address()},          {s.results.address()}, s.batch.count,
+      s.settings.rays_per_probe,   s.batch.place,         s.batch.all ? 1u : 0u};
   record_pass(*s.device, commands, "maintain", [&](Recorder& to) {
     s.field.run_over(to, s.kernels.maintain, arguments, s.list(), kOverProbes);
   });
@@ -227,7 +228,7 @@ BufferRange RecordedField::results() const {
 }
 BufferRange RecordedField::ray_launch() const {
   const State& s = *state_;
-  if (!s.turn.on_device) return {};
+  if (!s.batch.on_device) return {};
   const Buffer& state = s.schedule->state();
   const VkDeviceSize first = kOverLaunch * sizeof(GroupCounts);
   return {state.handle(), state.offset() + first, sizeof(GroupCounts), state.address() + first};
@@ -236,7 +237,7 @@ BufferRange RecordedField::states() const {
   return range_of(state_->states);
 }
 LookupBuffers RecordedField::lookup_buffers() const {
-  const DeviceField& field = state_->field;
+  const FieldResources& field = state_->field;
   return {range_of(field.grids()), range_of(field.offsets()), range_of(field.irradiance()),
           range_of(field.distance()), range_of(state_->record)};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose turn it is in a recorded field, and what the host knows of its probes without asking the
-// device.
+// The order in which a recorded field updates its probes, and what the host knows about them
+// without reading anything back from the device.
 #pragma once
 
 #include <cstdint>
@@ -14,50 +14,50 @@
 
 namespace lambent::vulkan {
 
-// Probes of an update: as many groups as every device can have in a dispatch.
-inline constexpr int kMostProbes = 65535;
+// The most probes of an update: every device accepts this many groups in a dispatch.
+inline constexpr int kMaxBatchProbes = 65535;
 
-/// An update: probes of indices that follow one another.
-struct Turn {
+/// The probes of one update, whose indices are consecutive, and what is done with them.
+struct ProbeBatch {
   int first = 0, count = 0;
-  std::uint32_t update = 0;    ///< Counted from 0.
-  float history = 1.0f;        ///< What was averaged counts for this share of what it did.
-  bool starts_anew = false;    ///< The list's probes forget what they averaged.
-  bool on_device = false;      ///< The device decides which probes: so many at most.
-  bool all = true;             ///< Probes that are off are looked at, too.
-  std::uint32_t place = 0;     ///< kPlaceLeave, ...
-  float largest_share = 1.0f;  ///< That any probe's new light counts for, at most.
+  std::uint32_t update = 0;           ///< Number of the update, counted from 0.
+  float history = 1.0f;               ///< Factor to the samples of all probes, 0 to 1.
+  bool discards_history = false;      ///< The batch's probes start their averages again.
+  bool on_device = false;             ///< The device chooses the probes, at most `count`.
+  bool all = true;                    ///< Probes that are off are traced, too.
+  std::uint32_t place = 0;            ///< kPlaceLeave, kPlaceStep, kPlaceFirstStep or kPlaceEnd.
+  float largest_blend_weight = 1.0f;  ///< Upper bound of the batch's blend weights.
 };
 
-/// Deals turns: every probe has one in each round, and all updates of a round treat theirs alike.
-/// Under a budget of rays the device decides once the rounds are over in which probes know no light
-/// yet, or are moved.
-class TurnPlan {
+/// Plans batches in rounds: each round updates every probe once, and treats all probes alike. Under
+/// a budget of rays, the device chooses the probes once the rounds are over that warm up the field
+/// or relocate probes.
+class BatchPlan {
  public:
-  TurnPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded, int probes);
+  BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded, int probes);
 
-  Turn next(const UpdatePlan& update);
+  ProbeBatch next(const UpdatePlan& update);
   std::uint32_t updates() const { return updates_; }
-  /// Probes of the largest turn.
+  /// The most probes of a batch.
   int most_probes() const { return most_; }
 
  private:
   std::uint32_t place_in_round() const;
   void begin_round();
-  Turn next_of_device(const UpdatePlan& update);
+  ProbeBatch next_of_device(const UpdatePlan& update);
   bool rounds_are_over() const;
 
   int probes_, most_;
-  bool budget_;  // of rays
+  bool budget_;  // the settings limit the rays of an update
   int placing_rounds_;
-  float longest_;  // updates that an average remembers
+  float longest_;  // the most updates that an average remembers
   int next_ = 0;
   std::uint32_t updates_ = 0;
   int round_ = 0;             // counted from 0
-  int placing_since_ = 0;     // round
-  bool place_again_ = false;  // from the next round on
-  /// Updates that probes whose turn it is have averaged at least, were all of them to be moved when
-  /// they may.
+  int placing_since_ = 0;     // the round in which relocation began last
+  bool place_again_ = false;  // relocation begins again with the next round
+  /// A lower bound on the updates that the next batch's probes have averaged: as if every probe
+  /// moved whenever relocation may move it.
   float least_samples_ = 0.0f;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recorded field is made of.
+// Construction of a recorded field's kernels and memory.
 #include "field/vulkan/recorded_state.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 #include "shaders/engine_closest_rgen.h"
 #include "shaders/fade_samples_comp.h"
 #include "shaders/maintain_probes_comp.h"
+#include "shaders/recorded_blend_weights_comp.h"
 #include "shaders/recorded_rays_comp.h"
-#include "shaders/recorded_shares_comp.h"
 #include "shaders/recorded_surfels_comp.h"
 #include "vulkan/device_memory.h"
 #include "vulkan/recorder.h"
@@ -27,8 +27,8 @@ Buffer device_buffer(const Device& device, std::size_t count, const char* name) 
   return {device, count * sizeof(T), Memory::device, name};
 }
 
-/// A list of as many probes as an update may have, for what makes room for it.
-DeviceProbes largest_list(const TurnPlan& plan, const FieldSettings& settings) {
+/// A list of the largest possible length, by which memory is reserved.
+DeviceProbes largest_list(const BatchPlan& plan, const FieldSettings& settings) {
   DeviceProbes list;
   list.probes.resize(plan.most_probes());
   list.most_rays = settings.rays_per_probe;
@@ -44,7 +44,7 @@ RecordedKernels::RecordedKernels(const Device& device, const FieldSettings& sett
   };
   rays = make(shaders::recorded_rays_comp(), "recorded_rays");
   fade_samples = make(shaders::fade_samples_comp(), "fade_samples");
-  shares = make(shaders::recorded_shares_comp(), "recorded_shares");
+  blend_weights = make(shaders::recorded_blend_weights_comp(), "recorded_blend_weights");
   surfels = make(shaders::recorded_surfels_comp(), "recorded_surfels");
   maintain = make(shaders::maintain_probes_comp(), "maintain_probes");
 }
@@ -58,7 +58,7 @@ EngineTracer::EngineTracer(const Device& device)
                /*any_record=*/true},
               "closest hits of engines") {}
 
-LookupSet::LookupSet(const Device& device, const DeviceField& field) : device_(device) {
+LookupSet::LookupSet(const Device& device, const FieldResources& field) : device_(device) {
   const Functions& f = device.fn();
   const std::array<const Buffer*, 4> buffers = {&field.grids(), &field.offsets(),
                                                 &field.irradiance(), &field.distance()};
@@ -106,12 +106,12 @@ LookupSet::~LookupSet() {
   device_.fn().vkDestroyDescriptorSetLayout(device_.handle(), layout_, nullptr);
 }
 
-UpdateMemory::UpdateMemory(const DeviceField& field, int most_probes, int rays,
+UpdateMemory::UpdateMemory(const FieldResources& field, int most_probes, int rays,
                            FloatArray irradiance_weights, FloatArray distance_weights) {
   const Device& device = field.device();
   const auto probes = static_cast<std::size_t>(most_probes);
   list.indices = Buffer(device, probes * sizeof(int), Memory::upload, "probes");
-  // All are of set 0, as memory begins
+  // All probes use ray set 0, which is what fresh memory holds
   list.ray_sets = Buffer(device, probes * sizeof(int), Memory::upload, "their ray sets");
   list.blocks = Buffer(device, groups_of(most_probes, kBlockProbes) * sizeof(ProbeBlock),
                        Memory::upload, "blocks of probes");
@@ -123,18 +123,18 @@ UpdateMemory::UpdateMemory(const DeviceField& field, int most_probes, int rays,
   list.sets = {set.address()};
 }
 
-void UpdateMemory::write(const Turn& turn, const FieldSettings& settings) {
+void UpdateMemory::write(const ProbeBatch& batch, const FieldSettings& settings) {
   const std::vector<vec3> drawn =
-      probe_ray_directions(settings.rays_per_probe, turn.update, settings.seed);
+      probe_ray_directions(settings.rays_per_probe, batch.update, settings.seed);
   std::copy(drawn.begin(), drawn.end(), directions.as<vec3>().begin());
-  set.as<RaySetRecord>()[0].update = turn.update;
-  list.probes.resize(turn.count);
-  std::iota(list.probes.begin(), list.probes.end(), turn.first);
+  set.as<RaySetRecord>()[0].update = batch.update;
+  list.probes.resize(batch.count);
+  std::iota(list.probes.begin(), list.probes.end(), batch.first);
   std::copy(list.probes.begin(), list.probes.end(), list.indices.as<int>().begin());
-  list.block_count = static_cast<int>(groups_of(turn.count, kBlockProbes));
+  list.block_count = static_cast<int>(groups_of(batch.count, kBlockProbes));
   for (int b = 0; b < list.block_count; ++b) {
     const int first = b * kBlockProbes;
-    list.blocks.as<ProbeBlock>()[b] = {first, std::min(kBlockProbes, turn.count - first), 0};
+    list.blocks.as<ProbeBlock>()[b] = {first, std::min(kBlockProbes, batch.count - first), 0};
   }
 }
 
@@ -157,7 +157,7 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
   rays = device_buffer<RayRecord>(*device, ray_room, "rays of probes");
   hits = device_buffer<HitRecord>(*device, ray_room, "hits of probes' rays");
   results = device_buffer<RayResult>(*device, ray_room, "results of probes' rays");
-  shares = device_buffer<float>(*device, probes, "shares");
+  blend_weights = device_buffer<float>(*device, probes, "blend weights");
   irradiance_weights = Buffer(*device, field.irradiance_weight_bytes(of.rays_per_probe),
                               Memory::device, "weights of rays");
   distance_weights = Buffer(*device, field.distance_weight_bytes(of.rays_per_probe), Memory::device,

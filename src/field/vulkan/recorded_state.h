@@ -1,38 +1,39 @@
 // SPDX-License-Identifier: Apache-2.0
-// All that a recorded field consists of.
+// The private state of RecordedField.
 #pragma once
 
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-#include "field/vulkan/device_field.h"
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
+#include "field/vulkan/field_resources.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 #include "vulkan/device.h"
 
 namespace lambent::vulkan {
 
-/// The kernels of recorded fields alone.
+/// The kernels that only recorded fields run.
 struct RecordedKernels {
   RecordedKernels(const Device& device, const FieldSettings& settings, int volumes);
 
-  Kernel rays, fade_samples, shares, surfels, maintain;
+  Kernel rays, fade_samples, blend_weights, surfels, maintain;
 };
 
-/// The pipeline that traces in engines' structures, which all fields on a device share.
+/// The pipeline that traces rays in engines' acceleration structures. All fields on a device share
+/// it.
 struct EngineTracer {
   explicit EngineTracer(const Device& device);
 
   RayKernel closest;
 };
 
-/// The store as descriptors.
+/// The store's buffers as a descriptor set.
 class LookupSet {
  public:
-  LookupSet(const Device& device, const DeviceField& field);
+  LookupSet(const Device& device, const FieldResources& field);
   ~LookupSet();
   LookupSet(const LookupSet&) = delete;
   LookupSet& operator=(const LookupSet&) = delete;
@@ -47,12 +48,12 @@ class LookupSet {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
-/// What the host writes for an update, and the device reads until that has run.
+/// Memory that the host writes for an update and the device reads until the update has run.
 struct UpdateMemory {
-  UpdateMemory(const DeviceField& field, int most_probes, int rays, FloatArray irradiance_weights,
-               FloatArray distance_weights);
-  /// Fills in the probes and rays of a turn.
-  void write(const Turn& turn, const FieldSettings& settings);
+  UpdateMemory(const FieldResources& field, int most_probes, int rays,
+               FloatArray irradiance_weights, FloatArray distance_weights);
+  /// Writes the probes and ray directions of a batch.
+  void write(const ProbeBatch& batch, const FieldSettings& settings);
 
   DeviceProbes list;
   Buffer directions, set;
@@ -62,15 +63,15 @@ struct RecordedField::State {
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         const ProbeStore& shape);
 
-  UpdateMemory& memory() { return ring[turn.update % ring.size()]; }
+  UpdateMemory& memory() { return ring[batch.update % ring.size()]; }
   const DeviceProbes& list() {
-    return turn.on_device ? schedule->list(memory().list.sets) : memory().list;
+    return batch.on_device ? schedule->list(memory().list.sets) : memory().list;
   }
   std::uint32_t ray_count() const {
-    return static_cast<std::uint32_t>(turn.count * settings.rays_per_probe);
+    return static_cast<std::uint32_t>(batch.count * settings.rays_per_probe);
   }
   ProbeStates probe_states() const { return {{standing.address()}, {states.address()}}; }
-  /// A word of what the device decided; none where it does not.
+  /// Address of a word of the device's decision; null where the host decides.
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
@@ -79,17 +80,18 @@ struct RecordedField::State {
   std::shared_ptr<Device> device;
   FieldSettings settings;
   std::uint32_t ray_mask;
-  TurnPlan plan;
-  DeviceField field;
+  BatchPlan plan;
+  FieldResources field;
   DeviceSolver solver;
   RecordedKernels kernels;
   const EngineTracer& tracer;
   LookupSet lookup_set;
-  std::unique_ptr<DeviceSchedule> schedule;  // null: by turns
-  Turn turn;
-  // All but the first are of an update's probes or rays
-  Buffer standing, states, record;
-  Buffer rays, hits, results, shares, irradiance_weights, distance_weights;
+  std::unique_ptr<DeviceSchedule> schedule;  // null: the host plans all batches
+  ProbeBatch batch;
+  Buffer standing, states;  // one entry per probe of the field
+  Buffer record;            // the FieldRecord for engines' lookups
+  // One entry per probe or ray of an update, and the ray set's matrices
+  Buffer rays, hits, results, blend_weights, irradiance_weights, distance_weights;
   std::vector<UpdateMemory> ring;
 };
 

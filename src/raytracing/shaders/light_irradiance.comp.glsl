@@ -19,17 +19,17 @@ void main() {
   uint rays = 0u;
   for (uint slot = 0u; slot < slots; ++slot) {
     RayRecord ray = no_ray();
-    vec3 stake = vec3(0.0f);
+    vec3 unoccluded = vec3(0.0f);
     if (asks) {
       LightCandidate light = candidate_of_slot(args, point, i, slot, random);
       float cosine = dot(point.normal_ws, light.to_light);
       float side = dot(point.geometric_normal_ws, light.to_light);
       if (light.perpendicular_irradiance != vec3(0.0f) && cosine > 0.0f && side > 0.0f) {
-        stake = light.perpendicular_irradiance * cosine;
+        unoccluded = light.perpendicular_irradiance * cosine;
         ray = shadow_ray(point, light);
       }
     }
-    args.stakes.at[slot * args.count + i] = stake;
+    args.unoccluded_irradiance.at[slot * args.count + i] = unoccluded;
     args.shadow_rays.at[slot * args.count + i] = ray;
     rays += ray.mask != 0u ? 1u : 0u;
   }

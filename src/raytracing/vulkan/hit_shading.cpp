@@ -69,7 +69,7 @@ void HitShading::reserve(const Chunk& chunk) {
   grow(samples * sizeof(RayRecord), "emitter rays", emitter_ray_memory_);
   grow(samples * sizeof(HitRecord), "emitter hits", emitter_hit_memory_);
   grow(slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
-  grow(slots * sizeof(ReflectedPair), "stakes of shadow rays", stake_memory_);
+  grow(slots * sizeof(ReflectedPair), "unoccluded light of shadow rays", unoccluded_memory_);
   grow(slots * sizeof(uint), "occlusions", occlusion_memory_);
 }
 
@@ -166,11 +166,11 @@ void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage
   for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
     find_emitters(recorder, stage, points, chunk, settings);
     LightDrawsArguments arguments = draws(stage, points, chunk, settings);
-    arguments.stakes.address = stake_memory_.address();
+    arguments.unoccluded_irradiance.address = unoccluded_memory_.address();
     recorder.run(kernels_.light_irradiance, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
     CollectArguments collect = collecting(chunk);
-    collect.stakes.address = stake_memory_.address();
+    collect.unoccluded_irradiance.address = unoccluded_memory_.address();
     collect.irradiance = irradiance;
     recorder.run(kernels_.collect_irradiance, collect, chunk.count);
     recorder.barrier();
@@ -204,12 +204,12 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
   for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
     find_emitters(recorder, stage, pixels.points, chunk, settings);
     LightDrawsArguments arguments = draws(stage, pixels.points, chunk, settings);
-    arguments.pairs.address = stake_memory_.address();
+    arguments.pairs.address = unoccluded_memory_.address();
     arguments.surfaces = pixels.surfaces;
     recorder.run(kernels_.light_reflected, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
     CollectArguments collect = collecting(chunk);
-    collect.pairs.address = stake_memory_.address();
+    collect.pairs.address = unoccluded_memory_.address();
     collect.diffuse = out.diffuse;
     collect.specular = out.specular;
     recorder.run(kernels_.collect_reflected, collect, chunk.count);

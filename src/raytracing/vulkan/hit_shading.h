@@ -109,7 +109,7 @@ class HitShading {
   const vulkan::Device& device_;
   const HitShadingKernels& kernels_;
   vulkan::Buffer emitter_ray_memory_, emitter_hit_memory_;
-  vulkan::Buffer shadow_ray_memory_, stake_memory_, occlusion_memory_;
+  vulkan::Buffer shadow_ray_memory_, unoccluded_memory_, occlusion_memory_;
   vulkan::Buffer ray_count_;
   std::vector<vulkan::Buffer> outgrown_;  // commands may still refer to them
 };

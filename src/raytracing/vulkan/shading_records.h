@@ -99,9 +99,9 @@ struct LightDrawsArguments {
   LitPointArray points;
   RayArray emitter_rays;
   HitArray emitter_hits;
-  RayArray shadow_rays;      ///< Mask 0 where nothing is to be had.
-  Vec3Array stakes;          ///< Irradiance [W/m^2] that arrives where the ray does.
-  ReflectedPairArray pairs;  ///< The same as reflected to the viewer [W/(m^2 sr)].
+  RayArray shadow_rays;             ///< Mask 0 where nothing is to be had.
+  Vec3Array unoccluded_irradiance;  ///< Irradiance [W/m^2] that arrives where the ray does.
+  ReflectedPairArray pairs;         ///< The same as reflected to the viewer [W/(m^2 sr)].
   PixelSurfaceArray surfaces;
   UintArray ray_count;  ///< Shadow rays drawn so far: one number.
   uint first;
@@ -115,7 +115,7 @@ struct LightDrawsArguments {
 /// Sums what arrives, slot after slot.
 struct CollectArguments {
   UintArray occluded;
-  Vec3Array stakes;
+  Vec3Array unoccluded_irradiance;
   ReflectedPairArray pairs;
   Vec3Array irradiance;  ///< A point each, from point `first` on.
   Vec3Array diffuse;

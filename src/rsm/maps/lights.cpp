@@ -24,7 +24,7 @@ constexpr std::size_t kClustersPerTask = 256;
 // their error falls with their size.
 constexpr float kBroughtExponent = 0.4f;
 // Clusters are scaled by at most this factor to bring what their texels brought.
-constexpr float kMostScale = 2.0f;
+constexpr float kMaxScale = 2.0f;
 // Weight that power alone has beside what is brought to the points: light that none of them sees is
 // not left to a few huge clusters.
 constexpr float kPowerShare = 0.1f;
@@ -106,7 +106,7 @@ std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<co
     RsmTexel& texel = clusters[i].texel;
     const float brings = luminance(texel.flux) * now[i].terms;
     if (!(brings > 0.0f) || points.count == 0) continue;
-    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMostScale, kMostScale);
+    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMaxScale, kMaxScale);
     texel.flux *= scale;
   }
   return clusters;

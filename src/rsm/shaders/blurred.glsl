@@ -5,7 +5,7 @@
 #include "shared/cross_bilateral.h"
 #include "shared/octahedral.h"
 #include "shared/packing.h"
-#include "shared/relight.h"
+#include "shared/reorient_irradiance.h"
 
 /// What tells a pixel's surface from its neighbours'.
 struct GuidePixel {
@@ -23,7 +23,7 @@ GuidePixel guide_pixel(vec4 point, uint normal) {
 /// Sums over pixels, by their weight.
 struct BlurredLight {
   vec3 light;
-  vec3 means;  // R of shared/relight.h
+  vec3 means;  // R of shared/reorient_irradiance.h
   float weight;
 };
 
@@ -59,5 +59,5 @@ uvec3 finish_blur(BlurredLight sum) {
 /// What the mean light brings the pixel's own normal.
 vec3 relit(BlurredLight sum, GuidePixel here) {
   vec3 light = sum.light / sum.weight;
-  return light * relit_share(sum.means / sum.weight, here.normal_ws, luminance(light));
+  return light * reoriented_fraction(sum.means / sum.weight, here.normal_ws, luminance(light));
 }

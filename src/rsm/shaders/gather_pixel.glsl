@@ -7,7 +7,7 @@ layout(local_size_x = 32, local_size_y = 8) in;
 #include "rsm/shaders/sub_image.glsl"
 #include "shared/octahedral.h"
 #include "shared/packing.h"
-#include "shared/relight.h"
+#include "shared/reorient_irradiance.h"
 
 /// A pixel that gathers.
 struct Pixel {
@@ -59,7 +59,7 @@ void finish_pixel(DeviceView view, GatherTarget target, ivec2 size, uint flags, 
   int place = mosaic_index(pixel.at, size, kSubImages);
   int plane = mosaic_places(size, kSubImages);
   write_guide(target.guide, place, pixel, view.depths.at[i]);
-  vec3 means = relighting(gathered.ways, pixel.normal_ws, luminance(light));
+  vec3 means = reorientation(gathered.ways, pixel.normal_ws, luminance(light));
   target.light.at[place] = pack_upper_halves(light.x, means.x);
   target.light.at[place + plane] = pack_upper_halves(light.y, means.y);
   target.light.at[place + 2 * plane] = pack_upper_halves(light.z, means.z);

@@ -28,7 +28,7 @@ struct DeviceGuide {
 struct GatherTarget {
   DeviceGuide guide;  ///< Filled where light is blurred.
   /// Where light is blurred: three planes of pack_upper_halves, irradiance and R of
-  /// shared/relight.h, red and x, green and y, blue and z.
+  /// shared/reorient_irradiance.h, red and x, green and y, blue and z.
   UintArray light;
   Vec3Array picture;   ///< Where it is not: irradiance [W/m^2].
   FloatArray arrived;  ///< With kGatherDimmed: share of the light that arrives, a pixel.

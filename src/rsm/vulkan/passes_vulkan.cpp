@@ -48,7 +48,7 @@ int tile_rows(int height, const RsmSettings& settings) {
 }
 
 int tile_rows_at_a_time(int width, int height, const RsmSettings& settings) {
-  const auto most = static_cast<int>(kMostVisibilityRays / rays_of_row(width, settings));
+  const auto most = static_cast<int>(kMaxVisibilityRays / rays_of_row(width, settings));
   return std::clamp(most, 1, tile_rows(height, settings));
 }
 

@@ -58,7 +58,7 @@ struct RsmPictureOnDevice {
 };
 
 /// Rays for visibility that are in memory at a time, at most, where a row of tiles has fewer.
-inline constexpr std::uint32_t kMostVisibilityRays = 1u << 22;
+inline constexpr std::uint32_t kMaxVisibilityRays = 1u << 22;
 
 /// Sub-images along an edge of the mosaic; 1: the picture is not restructured.
 int mosaic_sub_images(const RsmSettings& settings);

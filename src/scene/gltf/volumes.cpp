@@ -15,9 +15,9 @@ using json = nlohmann::json;
 constexpr const char* kKey = "lambent_probe_volume";
 
 // More probes along one axis than any field has.
-constexpr double kMostProbes = 1048576.0;
+constexpr double kMaxBatchProbes = 1048576.0;
 // Priorities need not be larger, and fit an int.
-constexpr double kMostPriority = 1e6;
+constexpr double kMaxPriority = 1e6;
 // Columns of a transform whose cosine is larger are sheared.
 constexpr float kMaxShear = 1e-3f;
 
@@ -50,7 +50,7 @@ const char* read_volume(const json& extras, ProbeVolume& volume) {
       if (!read_vector(value, 0.0, kMaxCoordinate, volume.size))
         return "has no three numbers as size";
     } else if (key == "probes") {
-      if (!read_vector(value, 2.0, kMostProbes, volume.probe_count)) {
+      if (!read_vector(value, 2.0, kMaxBatchProbes, volume.probe_count)) {
         return "has no three whole numbers of 2 or more as probes";
       }
     } else if (key == "spacing") {
@@ -59,7 +59,7 @@ const char* read_volume(const json& extras, ProbeVolume& volume) {
       }
       volume.probe_spacing = static_cast<float>(number);
     } else if (key == "priority") {
-      if (!read_number(value, -kMostPriority, kMostPriority, number) ||
+      if (!read_number(value, -kMaxPriority, kMaxPriority, number) ||
           number != std::floor(number)) {
         return "has no whole number as priority";
       }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has what probes averaged count for less: a lane a probe.
+// Multiplies the numbers of samples of all probes by a factor, so that their history counts less.
+// One lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
@@ -11,5 +12,5 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int probe = int(gl_GlobalInvocationID.x);
-  if (probe < args.count) args.standing.at[probe].samples *= args.share;
+  if (probe < args.count) args.standing.at[probe].samples *= args.factor;
 }

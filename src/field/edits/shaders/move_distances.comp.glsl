@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves what tiles hold by as much as the distances that rays saw changed: a lane a texel. The
-// average of many updates knows more than the rays of one: it keeps what did not change.
+// Moves the stored moments by as much as the moments of the probes' rays changed, one lane per
+// texel. The stored moments average the rays of many updates; moving them keeps what did not
+// change.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -21,7 +22,7 @@ void main() {
   const int texels = kDistanceTexels * kDistanceTexels;
   const int columns = (texels + kDistanceBlock - 1) / kDistanceBlock * kDistanceBlock;
 
-  // Blend what rays saw before and what they see now
+  // Blend the distances that the rays saw before and those that they see now
   vec2 before = vec2(0.0);
   vec2 now = vec2(0.0);
   float total = 0.0;
@@ -39,7 +40,7 @@ void main() {
   now = is_blocked ? vec2(0.0) : now / total;
   if (before == now) return;
 
-  // A probe that came out of solid matter or went into it knows nothing worth keeping
+  // The history of a probe that came out of geometry, or went into it, is not worth keeping
   int width = kDistanceTexels + 2;
   int index = (probe * width + t / kDistanceTexels + 1) * width + t % kDistanceTexels + 1;
   float unit = distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
@@ -49,7 +50,7 @@ void main() {
     uint word = args.store.distance.at[index];
     vec2 moved = keeps ? moved_moments(decode_half2(word) * units, before, now) : now;
     args.store.distance.at[index] =
-        blended_halves(word, moved, 1.0, 1.0 / unit, uint(index) + args.salt);
+        blended_halves(word, moved, 1.0, 1.0 / unit, uint(index) + args.dither_seed);
     return;
   }
   vec2 held = vec2(uintBitsToFloat(args.store.distance.at[2 * index]),

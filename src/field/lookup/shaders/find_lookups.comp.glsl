@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How points read the field: a lane a point. Where more volumes than it has lookups have a share in
-// what a point sees, those asked first answer for all.
+// Finds the lookups of points by distances, one lane per point. A point has kLookups lookups; where
+// more volumes have a weight at the point, the first ones answer for all.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -28,21 +28,22 @@ void main() {
   for (int volume = 0; volume < kVolumes; ++volume) {
     if (left <= kNothingLeft || found == kLookups) continue;
     ProbeGrid grid = args.store.grids.at[volume];
-    float share = volume + 1 == kVolumes ? 1.0 : volume_share(grid, query.position_ws);
-    if (share <= 0.0) continue;
+    float volume_weight =
+        volume + 1 == kVolumes ? 1.0 : volume_blend_weight(grid, query.position_ws);
+    if (volume_weight <= 0.0) continue;
     CornerWeights corners =
         lookup_weights(grid, volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
-    // Where the volume knows nothing, coarser ones answer for it
+    // Where no probe of this volume is visible, the next volumes take its weight
     if (sum_of_weights(corners) == 0.0) continue;
-    share *= left;
-    left -= share;
-    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= share;
+    volume_weight *= left;
+    left -= volume_weight;
+    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= volume_weight;
     args.lookups.at[point.lookup + found] =
         SurfelLookup(corners, corner, fetch.fraction.x, fetch.fraction.y);
     ++found;
   }
 
-  // Where it is the last that knows nothing, those before answer for all
+  // Where no probe of the last volume is visible, scale up the weights of the volumes before it
   for (int l = 0; l < kLookups; ++l) {
     if (l >= found) {
       args.lookups.at[point.lookup + l].tile_corner = kNoLookup;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looks the field up at points: a lane a point.
+// Looks the field up at points, one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -14,8 +14,8 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int i = int(gl_GlobalInvocationID.y) * args.width + int(gl_GlobalInvocationID.x);
-  // Lanes beyond the last point look that up once more: none leaves early, which is what lets
-  // processors read what all lanes share once
+  // Lanes beyond the last point look up the last one again. No lane leaves early, so that lavapipe
+  // reads what all lanes have in common once
   QueryRecord query = args.queries.at[min(i, args.count - 1)];
   vec3 irradiance =
       lookup_irradiance(kVolumes, query.position_ws, query.normal_ws, query.to_viewer_ws);

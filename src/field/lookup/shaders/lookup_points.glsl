@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points that look the field up; the includer has declared push constants with `args.points`.
+// Points at which the field is looked up. The includer has declared push constants with
+// `args.points`.
 #ifndef LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_POINTS_GLSL
 #define LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_POINTS_GLSL
 
@@ -14,7 +15,7 @@ struct LookupPoint {
   int lookup;  // the first of its lookups
 };
 
-/// The point of an invocation.
+/// The point that this invocation works on.
 LookupPoint lookup_point() {
   int column = int(gl_GlobalInvocationID.x), row = int(gl_GlobalInvocationID.y);
   int place = row * args.points.stride + column, among_all = place;
@@ -31,7 +32,7 @@ RaySetRecord rays_of(LookupPoint point) {
   return args.points.list.sets.at[args.points.list.ray_sets.at[point.row]];
 }
 
-/// Whether a point that exists reflects what it would look up.
+/// Whether an existing point needs a lookup: surfels that reflect nothing need none.
 bool reads_field(LookupPoint point) {
   if (args.points.count > 0) return true;
   SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
@@ -39,7 +40,7 @@ bool reads_field(LookupPoint point) {
          surfel.albedo_over_pi != vec3(0.0);
 }
 
-/// What a point that exists asks.
+/// The query of an existing point.
 QueryRecord query_of(LookupPoint point) {
   if (args.points.count > 0) return args.points.queries.at[point.place];
   SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance at points whose lookups were found: a lane a point.
+// Computes the irradiance at points whose lookups were found, one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The corners of a lookup whose weights by distances are known; the includer has declared push
-// constants with `args.store`.
+// Weights of a lookup's corners by visibility rays. The includer has declared push constants with
+// `args.store`.
 #ifndef LAMBENT_FIELD_LOOKUP_SHADERS_SEEN_CORNERS_GLSL
 #define LAMBENT_FIELD_LOOKUP_SHADERS_SEEN_CORNERS_GLSL
 
@@ -13,17 +13,18 @@ ProbeGrid grid_of(CornerWeights corners) {
   return args.store.grids.at[int(corners.table) / kCellWraps];
 }
 
-/// A ray to a corner from where its distances are asked, which is off the surface: it meets no
-/// rounding error.
+/// A ray from the biased position of a query to a corner. The biased position is off the surface,
+/// so that rounding cannot make the ray hit the surface itself.
 RayRecord corner_ray(CornerWeights corners, int corner, QueryRecord query) {
   ProbeGrid grid = grid_of(corners);
   vec3 from_ws = biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws,
                                  smallest_spacing(grid));
   ivec3 coords = probe_coords(grid, corners.base) + cell_corner(corner);
-  return sight_ray(from_ws, placed_probe(grid, coords));
+  return visibility_ray(from_ws, placed_probe(grid, coords));
 }
 
-/// What the corners weigh if they are seen. Those in solid matter weigh nothing by distances.
+/// The weights that the corners have if they are visible. Probes inside geometry have no weight by
+/// distances, and get none here.
 CornerWeights seen_corners(CornerWeights corners, QueryRecord query) {
   ProbeGrid grid = grid_of(corners);
   ProbeCell cell = probe_cell(grid, query.position_ws);
@@ -39,7 +40,7 @@ CornerWeights seen_corners(CornerWeights corners, QueryRecord query) {
   return seen;
 }
 
-/// The corners that weigh something, by their bits.
+/// The corners with a weight above 0, as bits.
 uint weighed_corners(CornerWeights corners) {
   uint weighed = 0u;
   for (int k = 0; k < kCellCorners; ++k) {
@@ -48,12 +49,13 @@ uint weighed_corners(CornerWeights corners) {
   return weighed;
 }
 
-/// Has corners weigh nothing, and the others as much as all did. False where there are no others.
-bool hide_corners(inout CornerWeights corners, uint hidden, float share) {
+/// Sets the weights of hidden corners to 0, and scales the others to the sum `total`. Returns false
+/// where no corner is left.
+bool hide_corners(inout CornerWeights corners, uint hidden, float total) {
   for (int k = 0; k < kCellCorners; ++k) {
     if ((hidden >> k & 1u) != 0u) corners.weight[k] = 0.0;
   }
-  return scale_weights(corners, share) != 0;
+  return scale_weights(corners, total) != 0;
 }
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// By how much the light of probes changed (tile_light.h): a lane a probe.
+// Computes how much the light of probes changed (tile_light.h), one lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

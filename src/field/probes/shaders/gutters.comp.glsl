@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gutters of tiles: a lane a texel.
+// Fills the gutters of tiles, one lane per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies tiles of some probes to where those of all probes are: a lane a texel.
+// Copies the tiles of some probes into the array of all probes' tiles, one lane per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A store in a device's memory, as field/lookup/lookup.inl.h and others read it. The includer has
-// declared push constants with a member `args.store`.
+// Access to a store in a device's memory, as field/lookup/lookup.inl.h requires it. The includer
+// has declared push constants with a member `args.store`.
 #ifndef LAMBENT_FIELD_PROBES_SHADERS_STORE_GLSL
 #define LAMBENT_FIELD_PROBES_SHADERS_STORE_GLSL
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Encodes the light of probes: a lane a texel.
+// Encodes the light of probes into the store, one lane per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -23,7 +23,7 @@ void main() {
     for (int c = 0; c < 3; ++c) args.words.at[3 * index + c] = floatBitsToUint(light[c]);
     return;
   }
-  vec3 u = irradiance_dither(uint(index), args.salt);
+  vec3 u = irradiance_dither(uint(index), args.dither_seed);
   args.words.at[index] =
       kIrradianceFormat == kRgb9e5 ? encode_rgb9e5(light, u) : encode_r11g11b10f(light, u);
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The noise of a probe's neighbourhood, as ProbeAgenda::note_noise.
+// The noise of a probe's neighbourhood. The twin of ProbeScheduler::refresh_noise.
 #ifndef LAMBENT_FIELD_SCHEDULE_SHADERS_NOISE_AROUND_GLSL
 #define LAMBENT_FIELD_SCHEDULE_SHADERS_NOISE_AROUND_GLSL
 
 #include "field/schedule/schedule_arguments.h"
 #include "field/probes/shaders/volume_of.glsl"
 
-/// The mean noise of a probe and of those next to it that are not off.
+/// The mean noise of a probe and of its neighbours along the axes that are not off.
 float noise_around(GridArray grids, UintArray states, ServiceArray service, int probe) {
   ProbeGrid grid = grids.at[volume_of(grids, probe)];
   ivec3 place = probe_coords(grid, probe);

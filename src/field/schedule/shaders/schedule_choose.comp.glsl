@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many probes an update serves, down to which bin, and how large the kernels to come are: one
-// workgroup.
+// Decides how many probes an update traces, down to which bin, and how large the kernels are that
+// work on them. One workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -11,22 +11,23 @@ layout(push_constant, scalar) uniform Push {
   ScheduleChooseArguments args;
 };
 
-shared uint bins[kWorthBins];
+shared uint bins[kPriorityBins];
 shared uint chosen;
 shared int last_bin;
 
-/// Goes down the bins until as many are served as may be, or as want it, up to a whole block.
+/// Takes probes from the highest bin downwards, until the budget is spent or no probe needs rays,
+/// rounded up to a whole block.
 void choose() {
   uint wanting = 0u;
   uint live = 0u;
-  for (int bin = kRestBin; bin < kWorthBins; ++bin) {
+  for (int bin = kRestBin; bin < kPriorityBins; ++bin) {
     live += bins[bin];
-    if (bin >= kFirstGainBin) wanting += bins[bin];
+    if (bin >= kFirstReductionBin) wanting += bins[bin];
   }
   uint block = uint(kBlockProbes);
   chosen = min((wanting + block - 1u) / block * block, uint(args.most));
   uint left = chosen;
-  int last = kWorthBins - 1;
+  int last = kPriorityBins - 1;
   while (last > 0 && bins[last] < left) left -= bins[last--];
   last_bin = last;
   args.state.at[0].last_bin = last;
@@ -34,12 +35,12 @@ void choose() {
   args.state.at[0].live = live;
   args.state.at[0].list.probes = chosen;
   args.state.at[0].list.texels = chosen * uint(kIrradianceTexels * kIrradianceTexels);
-  args.state.at[0].list.largest_share = 0u;
+  args.state.at[0].list.largest_blend_weight = 0u;
 }
 
 void main() {
   int lane = int(gl_LocalInvocationIndex);
-  if (lane < kWorthBins) {
+  if (lane < kPriorityBins) {
     bins[lane] = 0u;
     for (int c = 0; c < args.chunk_count; ++c) bins[lane] += args.chunks.at[c].bins[lane];
   }
@@ -48,7 +49,7 @@ void main() {
   barrier();
   for (int c = lane; c < args.chunk_count; c += kChunkProbes) {
     uint higher = 0u;
-    for (int bin = last_bin + 1; bin < kWorthBins; ++bin) higher += args.chunks.at[c].bins[bin];
+    for (int bin = last_bin + 1; bin < kPriorityBins; ++bin) higher += args.chunks.at[c].bins[bin];
     args.chunks.at[c].higher = int(higher);
     args.chunks.at[c].of_last = int(args.chunks.at[c].bins[last_bin]);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists the probes that an update serves, in the order of their indices: a lane a probe, a
-// workgroup a chunk.
+// Lists the probes that an update traces, in the order of their indices. One lane per probe, one
+// workgroup per chunk.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -10,9 +10,10 @@ layout(push_constant, scalar) uniform Push {
   ScheduleListArguments args;
 };
 
-// Of a chunk's probes up to each: those in higher bins than the last, and those in the last.
+// For each probe of a chunk, how many probes up to it are in higher bins than the last, and in the
+// last.
 shared ivec2 counts[kChunkProbes];
-// The same of all chunks before.
+// Both numbers for all chunks before this one.
 shared int higher_before;
 shared int last_before;
 
@@ -23,7 +24,7 @@ void main() {
   int bin = probe < args.count ? int(args.bins.at[probe]) : -1;
   ivec2 own = ivec2(bin > last ? 1 : 0, bin == last ? 1 : 0);
 
-  // Add up over the lanes before: Hillis and Steele, "Data Parallel Algorithms", CACM 29(12), 1986
+  // Compute prefix sums: Hillis and Steele, "Data Parallel Algorithms", CACM 29(12), 1986
   counts[lane] = own;
   if (lane == 0) higher_before = last_before = 0;
   barrier();

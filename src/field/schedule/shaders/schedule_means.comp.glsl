@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mean light of all probes, from that of those just served, and their mean noise, from that of
-// the chunks: one workgroup.
+// Updates the mean light of all probes from the probes just traced, and their mean noise from the
+// chunks. One workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -17,7 +17,7 @@ void main() {
   int count = args.chosen != 0u ? int(args.state.at[0].list.probes) : args.count;
   vec4 sum = vec4(0.0);
   for (int k = lane; k < count; k += kGroupLanes) {
-    if (args.shares.at[k] > 0.0) sum += vec4(args.changes.at[k].z, 1.0, 0.0, 0.0);
+    if (args.blend_weights.at[k] > 0.0) sum += vec4(args.changes.at[k].z, 1.0, 0.0, 0.0);
   }
   for (int c = lane; args.chosen != 0u && c < args.chunk_count; c += kGroupLanes) {
     sum += vec4(0.0, 0.0, args.chunks.at[c].noise_sum, float(args.chunks.at[c].unsettled));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Distances of a block of probes into their tiles: a matrix product (blend.h) whose cluster
-// keeps kDistanceVectors x kClusterLanes texels of kBlockProbes probes in registers.
+// Blends the distances of probes' rays into their tiles. This is a matrix product (blend.h): each
+// lane group keeps kDistanceVectors x kLaneGroupSize texels of kBlockProbes probes in registers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/probes/moments_encoding.h"
-#include "field/transport/shaders/cluster.glsl"
+#include "field/transport/shaders/lane_group.glsl"
 #include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = kGroupLanes) in;
@@ -12,31 +12,31 @@ layout(push_constant, scalar) uniform Push {
   BlendDistancesArguments args;
 };
 
-/// Moves a texel of a store a share of the way to new moments.
-void store_moments(int texel, vec2 now, float share, float scale) {
+/// Blends a stored texel with new moments.
+void store_moments(int texel, vec2 now, float blend_weight, float scale) {
   if (kDistanceFormat == kRg16f) {
-    args.store.distance.at[texel] = blended_halves(args.store.distance.at[texel], now, share, scale,
-                                                   uint(texel) + args.salt);
+    args.store.distance.at[texel] = blended_halves(args.store.distance.at[texel], now, blend_weight,
+                                                   scale, uint(texel) + args.dither_seed);
     return;
   }
   vec2 old = vec2(uintBitsToFloat(args.store.distance.at[2 * texel]),
                   uintBitsToFloat(args.store.distance.at[2 * texel + 1]));
-  vec2 moments = blended_moments(old, now, share, scale);
+  vec2 moments = blended_moments(old, now, blend_weight, scale);
   args.store.distance.at[2 * texel] = floatBitsToUint(moments.x);
   args.store.distance.at[2 * texel + 1] = floatBitsToUint(moments.y);
 }
 
 void main() {
-  int b = int(gl_WorkGroupID.y * kGroupClusters + cluster_in_group());
+  int b = int(gl_WorkGroupID.y * kLaneGroupsPerWorkgroup + lane_group_in_workgroup());
   if (b >= args.block_count) return;
   ProbeBlock block = args.blocks.at[b];
   if (block.count == 0) return;
   RaySetRecord set = args.list.sets.at[block.ray_set];
   const int texels = kDistanceTexels * kDistanceTexels;
   const int columns = (texels + kDistanceBlock - 1) / kDistanceBlock * kDistanceBlock;
-  int first = int(gl_WorkGroupID.x) * kDistanceBlock + cluster_lane();
+  int first = int(gl_WorkGroupID.x) * kDistanceBlock + lane_in_group();
 
-  // Add up the rays' distances and their squares, a cluster of rays at a time
+  // Sum the weighted distances and their squares, a lane group's number of rays at a time
   float means[kDistanceVectors][kBlockProbes];
   float squares[kDistanceVectors][kBlockProbes];
   float totals[kDistanceVectors];
@@ -44,16 +44,16 @@ void main() {
     totals[v] = 0.0;
     [[unroll]] for (int p = 0; p < kBlockProbes; ++p) means[v][p] = squares[v][p] = 0.0;
   }
-  for (int ray = 0; ray < set.rays; ray += kClusterLanes) {
+  for (int ray = 0; ray < set.rays; ray += kLaneGroupSize) {
     float seen[kBlockProbes];
     [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
       int k = block.first + min(p, block.count - 1);
-      seen[p] = args.seen.at[k * args.stride + ray + cluster_lane()];
+      seen[p] = args.seen.at[k * args.stride + ray + lane_in_group()];
     }
-    [[unroll]] for (int lane = 0; lane < kClusterLanes; ++lane) {
+    [[unroll]] for (int lane = 0; lane < kLaneGroupSize; ++lane) {
       float weights[kDistanceVectors];
       [[unroll]] for (int v = 0; v < kDistanceVectors; ++v) {
-        weights[v] = set.distance_weights.at[(ray + lane) * columns + first + kClusterLanes * v];
+        weights[v] = set.distance_weights.at[(ray + lane) * columns + first + kLaneGroupSize * v];
         totals[v] += weights[v];
       }
       [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
@@ -73,12 +73,12 @@ void main() {
     int probe = args.list.probes.at[k];
     float scale = 1.0 / distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
     float known = args.blocked.at[k] == 0u ? 1.0 : 0.0;
-    float share = args.shares.at[k];
+    float blend_weight = args.blend_weights.at[k];
     [[unroll]] for (int v = 0; v < kDistanceVectors; ++v) {
-      int t = first + kClusterLanes * v;
+      int t = first + kLaneGroupSize * v;
       int texel = (probe * width + t / kDistanceTexels + 1) * width + t % kDistanceTexels + 1;
       vec2 now = vec2(means[v][p], squares[v][p]) * (known / totals[v]);
-      if (p < block.count && t < texels) store_moments(texel, now, share, scale);
+      if (p < block.count && t < texels) store_moments(texel, now, blend_weight, scale);
     }
   }
 }

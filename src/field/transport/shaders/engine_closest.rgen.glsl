@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest hit of each ray in an engine's acceleration structure, of which nothing is known but
-// its address: masks are the engine's, and what is see-through stops rays.
+// Finds the closest hit of each ray in an engine's acceleration structure. Only the structure's
+// address is known: instance masks are the engine's, and transparent surfaces stop rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"

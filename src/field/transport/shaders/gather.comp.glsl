@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Radiance along probes' rays, and whether they count: a lane a ray.
+// Gathers the radiance along probes' rays, one lane per ray. The fourth channel is 1 for rays that
+// count.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
@@ -13,14 +14,14 @@ layout(push_constant, scalar) uniform Push {
 
 const int kTexels = kIrradianceTexels * kIrradianceTexels;
 
-/// What a lookup reads from the field.
+/// The irradiance that a lookup reads from the field.
 vec3 read_field(SurfelLookup lookup) {
   ivec2 corner = ivec2(int(lookup.tile_corner) % (kIrradianceTexels + 1),
                        int(lookup.tile_corner) / (kIrradianceTexels + 1));
   CornerOffsets offsets = args.corners.at[lookup.corners.table];
   float fx = lookup.fraction_x;
   float fy = lookup.fraction_y;
-  float shares[4] =
+  float tap_weights[4] =
       float[]((1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy);
   int taps[4];
   for (int tap = 0; tap < 4; ++tap) {
@@ -31,7 +32,7 @@ vec3 read_field(SurfelLookup lookup) {
   for (int k = 0; k < kCellCorners; ++k) {
     int tile = (lookup.corners.base + offsets.probe[k]) * kTexels;
     for (int tap = 0; tap < 4; ++tap) {
-      sum += args.field.at[tile + taps[tap]].xyz * (lookup.corners.weight[k] * shares[tap]);
+      sum += args.field.at[tile + taps[tap]].xyz * (lookup.corners.weight[k] * tap_weights[tap]);
     }
   }
   return sum;
@@ -47,7 +48,7 @@ void main() {
   int slot = probe * args.stride + min(ray, rays - 1);
   SurfelRecord surfel = args.surfels.at[slot];
 
-  vec3 share = surfel.kind == kSurfelSky       ? vec3(1.0)
+  vec3 reflectance = surfel.kind == kSurfelSky       ? vec3(1.0)
                : args.light != kGatherSky      ? surfel.albedo_over_pi
                                                : vec3(0.0);
   vec3 arrives = surfel.light;
@@ -58,6 +59,6 @@ void main() {
     }
   }
   float counts = there && surfel.kind != kSurfelBackFace ? 1.0 : 0.0;
-  vec4 radiance = there ? vec4(share * arrives, counts) : vec4(0.0);
+  vec4 radiance = there ? vec4(reflectance * arrives, counts) : vec4(0.0);
   args.radiance.at[k * args.radiance_stride + ray] = radiance;
 }

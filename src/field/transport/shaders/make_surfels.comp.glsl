@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfels from what shading made of hits: a lane each. As make_surfel.
+// Makes surfels from shaded hits, one lane per surfel. The twin of make_surfel() in surfels.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

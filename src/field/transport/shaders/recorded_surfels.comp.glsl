@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfels from what an engine tells of rays: a lane each. Rays that were not traced count for
-// nothing, as those that met back faces.
+// Makes surfels from an engine's ray results, one lane per ray. Rays that were not traced do not
+// count, like rays that hit back faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
@@ -12,8 +12,9 @@ layout(push_constant, scalar) uniform Push {
   RecordedSurfelsArguments args;
 };
 
-// A surfel's light is what it reflects a share of. What glows is told as such light, and reflects
-// at least this share of it: too little for what it reflects besides to be seen.
+// A surfel stores the light that arrives, of which it reflects its albedo. Emitted light is stored
+// as additional arriving light, divided by the albedo. For this, an emitting surfel has at least
+// this albedo, which is too small for other reflected light to be visible.
 const float kLeastGlowingAlbedo = 1e-3;
 
 void main() {
@@ -22,29 +23,29 @@ void main() {
   if (k >= args.count || ray >= args.rays_per_probe) return;
   int i = k * args.rays_per_probe + ray;
   RayRecord from = args.rays.at[i];
-  RayResult told = args.results.at[i];
-  if (from.mask == 0u) told = ray_met_back_face(0.0, -from.direction_ws);
-  bool left = told.kind == kRayLeft;
-  bool surface = told.kind == kRayMetSurface;
+  RayResult result = args.results.at[i];
+  if (from.mask == 0u) result = ray_met_back_face(0.0, -from.direction_ws);
+  bool left = result.kind == kRayLeft;
+  bool surface = result.kind == kRayMetSurface;
 
   SurfelRecord surfel;
   surfel.kind = left ? kSurfelSky : surface ? kSurfelSurface : kSurfelBackFace;
-  surfel.position_ws = from.origin_ws + (left ? 0.0 : told.distance) * from.direction_ws;
-  surfel.normal_ws = encode_unit_vector(left ? -from.direction_ws : told.normal_ws);
+  surfel.position_ws = from.origin_ws + (left ? 0.0 : result.distance) * from.direction_ws;
+  surfel.normal_ws = encode_unit_vector(left ? -from.direction_ws : result.normal_ws);
   surfel.geometric_normal_ws =
-      encode_unit_vector(left ? -from.direction_ws : told.geometric_normal_ws);
+      encode_unit_vector(left ? -from.direction_ws : result.geometric_normal_ws);
   surfel.material = 0u;
   surfel.receives_gi = surface ? 1u : 0u;
   surfel.albedo_over_pi = vec3(0.0);
-  surfel.light = left ? told.radiance : vec3(0.0);
+  surfel.light = left ? result.radiance : vec3(0.0);
   if (surface) {
-    vec3 albedo = clamp(told.albedo, 0.0, args.max_albedo);
-    vec3 glows = vec3(greaterThan(told.radiance, vec3(0.0)));
+    vec3 albedo = clamp(result.albedo, 0.0, args.max_albedo);
+    vec3 glows = vec3(greaterThan(result.radiance, vec3(0.0)));
     albedo = max(albedo, kLeastGlowingAlbedo * glows);
     surfel.albedo_over_pi = albedo * kInvPi;
-    surfel.light = told.direct_irradiance;
+    surfel.light = result.direct_irradiance;
     for (int c = 0; c < 3; ++c) {
-      if (glows[c] > 0.0) surfel.light[c] += told.radiance[c] / surfel.albedo_over_pi[c];
+      if (glows[c] > 0.0) surfel.light[c] += result.radiance[c] / surfel.albedo_over_pi[c];
     }
   }
   args.surfels.at[args.list.at[k] * args.stride + ray] = surfel;

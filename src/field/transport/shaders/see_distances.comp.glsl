@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What hits count as in distances, and which probes stand in solid matter: a cluster a probe.
+// Computes the distances that hits count as, and which probes stand inside geometry. One lane group
+// per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/blend_math.h"
-#include "field/transport/shaders/cluster.glsl"
+#include "field/transport/shaders/lane_group.glsl"
 #include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = kGroupLanes) in;
@@ -12,12 +13,12 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-  int k = int(gl_WorkGroupID.x * kGroupClusters + cluster_in_group());
+  int k = int(gl_WorkGroupID.x * kLaneGroupsPerWorkgroup + lane_group_in_workgroup());
   if (k >= args.count) return;
   int probe = args.probes.at[k];
   float farthest = max_probe_distance(args.grids.at[volume_of(args.grids, probe)]);
   int back_faces = 0;
-  for (int ray = cluster_lane(); ray < args.seen_stride; ray += kClusterLanes) {
+  for (int ray = lane_in_group(); ray < args.seen_stride; ray += kLaneGroupSize) {
     float counted = 0.0;
     if (ray < args.rays_per_probe) {
       uint kind = args.surfels.at[probe * args.stride + ray].kind;
@@ -28,6 +29,8 @@ void main() {
     }
     args.seen.at[k * args.seen_stride + ray] = counted;
   }
-  back_faces = cluster_sum(back_faces);
-  if (cluster_lane() == 0) args.blocked.at[k] = stands_in_matter(back_faces, args.rays_per_probe);
+  back_faces = lane_group_sum(back_faces);
+  if (lane_in_group() == 0) {
+    args.blocked.at[k] = is_inside_geometry(back_faces, args.rays_per_probe);
+  }
 }

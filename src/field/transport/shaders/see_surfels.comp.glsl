@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What probes' surfels tell that rays saw, and which probes stand in solid matter: a cluster a
-// probe.
+// Computes the distances that rays count as from the probes' surfels, and which probes stand inside
+// geometry. One lane group per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/blend_math.h"
-#include "field/transport/shaders/cluster.glsl"
+#include "field/transport/shaders/lane_group.glsl"
 #include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = kGroupLanes) in;
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-  int k = int(gl_WorkGroupID.x * kGroupClusters + cluster_in_group());
+  int k = int(gl_WorkGroupID.x * kLaneGroupsPerWorkgroup + lane_group_in_workgroup());
   if (k >= args.count) return;
   int probe = args.list.probes.at[k];
   int rays = args.list.sets.at[args.list.ray_sets.at[k]].rays;
@@ -22,7 +22,7 @@ void main() {
   vec3 origin_ws = placed_position(grid, probe_coords(grid, probe), offset);
   float farthest = max_probe_distance(grid);
   int back_faces = 0;
-  for (int ray = cluster_lane(); ray < args.seen_stride; ray += kClusterLanes) {
+  for (int ray = lane_in_group(); ray < args.seen_stride; ray += kLaneGroupSize) {
     float counted = 0.0;
     if (ray < rays) {
       SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
@@ -34,6 +34,6 @@ void main() {
     }
     args.seen.at[k * args.seen_stride + ray] = counted;
   }
-  back_faces = cluster_sum(back_faces);
-  if (cluster_lane() == 0) args.blocked.at[k] = stands_in_matter(back_faces, rays);
+  back_faces = lane_group_sum(back_faces);
+  if (lane_in_group() == 0) args.blocked.at[k] = is_inside_geometry(back_faces, rays);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides whether a solve is done, and how it goes on: one workgroup.
+// Decides whether a solve is done, and computes the coefficients of the next extrapolation. One
+// workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_solve.h"
@@ -13,9 +14,9 @@ const int kLanes = 64;
 
 shared Wide partial[kLanes][kSolveSums];
 
-/// Remembers the products of the newest step, and the error that is left.
+/// Adds the inner products of the newest step to the state, and estimates the error that is left.
 void take_step(Wide sums[kSolveSums], inout SolveState state) {
-  float bound = state.largest_share * state.max_albedo;
+  float bound = state.largest_blend_weight * state.max_albedo;
   float contraction = bound;
   if (state.iterations > 0) {
     int newest = (state.iterations - 1) % kAndersonDepth;
@@ -31,7 +32,7 @@ void take_step(Wide sums[kSolveSums], inout SolveState state) {
     contraction = min(bound, max(state.observed, kMinContraction));
   }
   ++state.iterations;
-  state.error = remaining_error(contraction, state.largest_share, sums[kResidualSquare].high,
+  state.error = remaining_error(contraction, state.largest_blend_weight, sums[kResidualSquare].high,
                                 sums[kImageSquare].high);
 }
 
@@ -58,7 +59,7 @@ void main() {
     return;
   }
   take_step(sums, state);
-  state.shares = step_shares(state.products, state.steps);
+  state.coefficients = step_coefficients(state.products, state.steps);
   if (state.error <= state.tolerance || state.iterations >= state.max_iterations) {
     GroupCounts none = GroupCounts(0u, 1u, 1u);
     state.over_texels = none;

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/frame_renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "compose/probe_view.h"
+#include "core/image/metrics.h"
+#include "core/memory.h"
+#include "lambent/console.h"
+#include "lambent/memory_check.h"
+#include "lambent/progress_bar.h"
+#include "lambent/render_output.h"
+#include "lambent/renderer.h"
+#include "lambent/step.h"
+#include "reference/path_tracer.h"
+
+namespace lambent::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Side of the blocks whose means --verify compares [pixels]: hides the path tracer's noise, keeps
+// structure.
+constexpr int kVerifyBlock = 8;
+
+// Defaults of --samples: enough for smooth edges, and for a picture in which noise is fine grain.
+constexpr int kFieldSamples = 4;
+constexpr int kReferenceSamples = 64;
+
+// Of the picture that tells the field what is seen [pixels].
+constexpr int kSeenWidth = 48, kMaxSeenHeight = 96;
+
+const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAspect::irradiance},
+                                                          {"distance", ProbeAspect::distance},
+                                                          {"state", ProbeAspect::state},
+                                                          {"age", ProbeAspect::age}};
+
+/// The field that the options ask for, as yet without updates.
+Expected<IrradianceField> open_field(const RenderOptions& options, const World& world) {
+  const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
+  if (!settings) return tl::unexpected(settings.error());
+  if (options.field_file.empty()) return make_field(*settings, options.field, world, 1);
+  Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
+  if (!loaded) return tl::unexpected(loaded.error());
+  const auto probes = static_cast<std::uint64_t>(loaded->field.probes());
+  const auto fits =
+      check_field_memory(field_memory(loaded->field.settings(), probes),
+                         host_rays(loaded->field.settings(), world), 1, available_memory());
+  if (!fits) return tl::unexpected(fits.error());
+  if (!loaded->same_light) {
+    warn(options.field_file + " was made under other light than the scene's");
+  }
+  return std::move(loaded->field);
+}
+
+ReferenceSettings reference_settings(const RenderOptions& options, const glm::ivec2& size,
+                                     int samples) {
+  ReferenceSettings settings;
+  settings.width = size.x;
+  settings.height = size.y;
+  settings.samples = samples;
+  settings.seed = options.seed;
+  if (options.bounces >= 0) settings.max_bounces = options.bounces;
+  return settings;
+}
+
+/// Adds what a frame, or some of its rows, cost.
+void book(const RenderedFrame& frame, Json& stats) {
+  for (const PassTime& pass : frame.passes) {
+    const std::string key = pass.name + "_ms";
+    stats[key] = stats.value(key, 0.0) + pass.ms;
+  }
+  stats["camera_rays"] = stats.value("camera_rays", std::uint64_t{0}) + frame.rays;
+}
+
+/// The same view in few pixels: enough to tell how bright it is.
+FrameSettings preview_of(FrameSettings frame) {
+  constexpr int kPreviewSide = 512;  // [pixels], the longer one
+  const double scale = static_cast<double>(kPreviewSide) / std::max(frame.width, frame.height);
+  frame.width = std::max(1, static_cast<int>(std::lround(frame.width * scale)));
+  frame.height = std::max(1, static_cast<int>(std::lround(frame.height * scale)));
+  return frame;
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer(const RenderOptions& options, const glm::ivec2& size)
+    : options_(options), size_(size), progress_(terminal_progress()) {}
+
+/// Brings the field up to date with the world: the first time from nothing, or from a file.
+Expected<void> FrameRenderer::follow(const World& world, const Camera& camera, Json& stats) {
+  const glm::vec3 viewer(camera.world_from_view[3]);
+  if (field_) {
+    const int height = std::clamp(kSeenWidth * size_.y / size_.x, 1, kMaxSeenHeight);
+    const std::vector<FieldQuery> seen = visible_points(world, camera, kSeenWidth, height);
+    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms, viewer, seen};
+    update_field(world, options_.frame_updates, request, *field_, progress_, stats);
+    return {};
+  }
+  Expected<IrradianceField> opened = open_field(options_, world);
+  if (!opened) return tl::unexpected(opened.error());
+  field_.emplace(std::move(*opened));
+  if (options_.converge) {
+    settle_field(world, {0, 0.0, viewer}, *field_, progress_, stats);
+  } else {
+    update_field(world, options_.updates, {0, 0.0, viewer}, *field_, progress_, stats);
+  }
+  return {};
+}
+
+/// Makes the fields of one frame anew: all light, and the first bounce of the lights that the maps
+/// bring, which is taken out. Both trace the same rays, so that noise goes with it.
+Expected<void> FrameRenderer::split_bounces(const World& world, const Camera& camera, Json& stats) {
+  const auto settings =
+      field_settings(options_.field, world.scene(), options_.seed, options_.bounces);
+  if (!settings) return tl::unexpected(settings.error());
+  Expected<IrradianceField> all = make_field(*settings, options_.field, world, 2);
+  if (!all) return tl::unexpected(all.error());
+  field_.emplace(std::move(*all));
+  first_bounce_.emplace(
+      *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world)));
+  const FirstBounce lights_alone(world.scene());
+  Json ignored;
+  const UpdateRequest request{0, 0.0, glm::vec3(camera.world_from_view[3])};
+  update_field(lights_alone.world(), options_.updates, request, *first_bounce_, progress_, ignored);
+  update_field(world, options_.updates, request, *field_, progress_, stats);
+  return {};
+}
+
+/// Brings the light that the method looks up to date with the world.
+Expected<void> FrameRenderer::light(const World& world, const Camera& camera, Json& stats) {
+  if (!uses_field(options_)) return {};
+  begin_step("updating the field");
+  return options_.method == "rsm+field" ? split_bounces(world, camera, stats)
+                                        : follow(world, camera, stats);
+}
+
+FrameSettings FrameRenderer::frame_settings() const {
+  FrameSettings frame;
+  frame.width = size_.x;
+  frame.height = size_.y;
+  frame.samples = options_.samples > 0 ? options_.samples : kFieldSamples;
+  frame.gather_rays = options_.gather_rays;
+  frame.seed = options_.seed;
+  return frame;
+}
+
+Expected<RenderedFrame> FrameRenderer::render(const World& world, const Camera& camera,
+                                              const FrameSettings& frame,
+                                              const ProgressFn& progress) const {
+  begin_step("rendering the picture");
+  const auto rsm = rsm_settings(options_.rsm, options_.method, options_.seed);
+  if (!rsm) return tl::unexpected(rsm.error());
+  IndirectSources sources;
+  sources.rsm = uses_rsm(options_.method) ? &*rsm : nullptr;
+  sources.rsm_stages = options_.layers && sources.rsm != nullptr;
+  sources.field = field_ ? &*field_ : nullptr;
+  sources.subtracted_field = first_bounce_ ? &*first_bounce_ : nullptr;
+  return render_frame(world, sources, camera, frame, progress);
+}
+
+Expected<LayeredImage> FrameRenderer::paint(const World& world, const Camera& camera, Json& stats) {
+  if (options_.method == "reference") return paint_by_reference(world, camera, stats);
+  if (const auto lit = light(world, camera, stats); !lit) return tl::unexpected(lit.error());
+  Expected<RenderedFrame> rendered = render(world, camera, frame_settings(), progress_);
+  if (!rendered) return tl::unexpected(rendered.error());
+  book(*rendered, stats);
+  if (!options_.show_probes.empty()) {
+    const ProbeViewSettings view{.aspect = kProbeAspects.at(options_.show_probes)};
+    draw_probes(world, *field_, camera, view, rendered->image);
+  }
+  return std::move(rendered->image);
+}
+
+Expected<void> FrameRenderer::paint_to_file(const World& world, const Camera& camera,
+                                            const std::string& path, std::optional<float>& stops,
+                                            Json& stats) {
+  PictureFile file(options_, path, size_, stops);
+  if (!made_in_bands(options_, size_)) {
+    Expected<LayeredImage> image = paint(world, camera, stats);
+    if (!image) return tl::unexpected(image.error());
+    if (const auto written = file.write(std::move(*image)); !written) return written;
+    return file.finish();
+  }
+  if (const auto lit = light(world, camera, stats); !lit) return lit;
+  FrameSettings frame = frame_settings();
+  if (file.needs_stops()) {
+    const Expected<RenderedFrame> small = render(world, camera, preview_of(frame), {});
+    if (!small) return tl::unexpected(small.error());
+    stops = automatic_stops(*small->image.find(""));
+  }
+  frame.rows = rows_of_a_band(size_);
+  for (; frame.first_row < size_.y; frame.first_row += frame.rows) {
+    frame.rows = std::min(frame.rows, size_.y - frame.first_row);
+    const auto of_all = [&](std::string_view stage, double share_done) {
+      progress_(stage, (frame.first_row + share_done * frame.rows) / size_.y);
+    };
+    Expected<RenderedFrame> band =
+        render(world, camera, frame, progress_ ? ProgressFn(of_all) : ProgressFn());
+    if (!band) return tl::unexpected(band.error());
+    book(*band, stats);
+    if (const auto written = file.write(std::move(band->image)); !written) return written;
+  }
+  return file.finish();
+}
+
+LayeredImage FrameRenderer::paint_by_reference(const World& world, const Camera& camera,
+                                               Json& stats) const {
+  begin_step("tracing paths");
+  const int samples = options_.samples > 0 ? options_.samples : kReferenceSamples;
+  ReferenceResult result =
+      render_reference(world, camera, reference_settings(options_, size_, samples), progress_);
+  stats["samples"] = samples;
+  stats["reference_ms"] = result.ms;
+  stats["reference_rays"] = result.rays;
+  stats["relative_standard_error"] = result.relative_standard_error;
+  std::array<char, 96> text;
+  std::snprintf(text.data(), text.size(),
+                "reference: %d samples a pixel, relative standard error %.4f", samples,
+                result.relative_standard_error);
+  tell(text.data());
+  return std::move(result.image);
+}
+
+Expected<void> FrameRenderer::verify(const World& world, const Camera& camera,
+                                     const LayeredImage& image, Json& stats) const {
+  begin_step("comparing with the reference");
+  const ReferenceResult reference = render_reference(
+      world, camera, reference_settings(options_, size_, options_.verify_samples), progress_);
+  std::printf("error against %d path-traced samples a pixel (their own: %.4f)\n",
+              options_.verify_samples, reference.relative_standard_error);
+  for (const char* name : {"", "direct", "indirect", "irradiance"}) {
+    const Image* ours = image.find(name);
+    const Image* truth = reference.image.find(name);
+    if (ours == nullptr || truth == nullptr) continue;
+    const Expected<Metrics> metrics =
+        compare_images(*ours, *truth, {.block = kVerifyBlock, .perceptual = false});
+    if (!metrics) return tl::unexpected(metrics.error());
+    const std::string label = *name == '\0' ? "all" : name;
+    if (metrics->mean_b == 0.0) {
+      std::printf("  %-11s black in truth, mean %g here\n", label.c_str(), metrics->mean_a);
+      continue;
+    }
+    std::printf("  %-11s mean ratio %.4f, relative RMSE of 8x8 blocks %.4f\n", label.c_str(),
+                metrics->mean_ratio, metrics->relative_rmse);
+    stats["verify_" + label + "_mean_ratio"] = metrics->mean_ratio;
+    stats["verify_" + label + "_relative_rmse"] = metrics->relative_rmse;
+  }
+  return {};
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes the rays between the probes of cells, one lane per cell.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/vulkan/device_arguments.h"
+
+layout(local_size_x = kGroupLanes) in;
+layout(push_constant, scalar) uniform Push {
+  CellVisibilityRaysArguments args;
+};
+
+#include "field/probes/shaders/store.glsl"
+#include "field/probes/shaders/volume_of.glsl"
+#include "field/lookup/visibility_math.h"
+#include "field/lookup/lookup.inl.h"
+
+void main() {
+  int cell = int(gl_GlobalInvocationID.x);
+  if (cell >= args.count) return;
+  int lowest = args.cells.at[cell];
+  ProbeGrid grid = args.store.grids.at[volume_of(args.store.grids, lowest)];
+  ivec3 coords = probe_coords(grid, lowest);
+  vec3 places[kCellCorners];
+  for (int k = 0; k < kCellCorners; ++k) places[k] = placed_probe(grid, coords + cell_corner(k));
+
+  int ray = cell * kCellPairs;
+  for (int i = 0; i < kCellCorners; ++i) {
+    for (int k = i + 1; k < kCellCorners; ++k) {
+      args.rays.at[ray++] = visibility_ray(places[i], places[k]);
+    }
+  }
+}

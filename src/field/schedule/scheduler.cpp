@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: Apache-2.0
+// Choice of the most urgent probes, without looking at those that are not urgent.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "field/schedule/schedule.h"
+
+namespace lambent {
+namespace {
+
+// Probes of a block. With this number, looking at all blocks and looking into the urgent ones cost
+// about the same in a field of some 100,000 probes.
+constexpr std::size_t kBlock = 64;
+constexpr std::size_t kBlocksPerTask = 64;
+
+// The error reduction that a sleeping probe's first update counts as. Other probes come first until
+// their error is hardly visible.
+constexpr float kSleepingReduction = 0.02f;
+
+// A probe counts half as much at this distance from the camera [cells].
+constexpr float kHalfWeightCells = 16.0f;
+
+// Probes that do not matter to the visible points count this much all the same, because the camera
+// will turn.
+constexpr float kUnseenWeight = 0.02f;
+
+constexpr std::uint32_t kNotLive = std::numeric_limits<std::uint32_t>::max();
+
+// The urgency of a probe is below 1 while its age is below kMaxProbeAge, between 1 and 2 above that
+// age, and at least 2 where it has never been traced.
+constexpr float kOld = 1.0f, kNever = 2.0f;
+
+bool is_old(std::uint32_t served, std::uint32_t update) {
+  return served != kNotLive && (served == 0 || update - served >= kMaxProbeAge);
+}
+
+/// The urgency of a probe from its error reduction and its weight; 0: it need not be traced. It
+/// grows with both and with the age.
+float urgency_of(float reduction, std::uint32_t served, std::uint32_t update, float weight) {
+  if (served == 0) return kNever + weight;
+  if (is_old(served, update)) {
+    const auto age = static_cast<float>(update - served);
+    return kOld + age / (age + kMaxProbeAge);
+  }
+  return kOld * reduction * weight / (1.0f + reduction * weight);
+}
+
+/// Calls body(neighbour) for the probes next to one in its grid.
+template <class Body>
+void for_each_neighbour(const ProbeStore& store, int probe, Body body) {
+  const ProbeGrid& grid = store.grid_of(probe);
+  const ivec3 place = probe_coords(grid, probe);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      ivec3 next = place;
+      next[axis] += side;
+      if (next[axis] >= 0 && next[axis] < grid.count[axis]) body(probe_index(grid, next));
+    }
+  }
+}
+
+struct Candidate {
+  float urgency;
+  int probe;
+};
+
+/// Orders candidates by urgency, and equally urgent ones by index.
+bool comes_before(const Candidate& a, const Candidate& b) {
+  return a.urgency != b.urgency ? a.urgency > b.urgency : a.probe < b.probe;
+}
+
+/// Keeps the most urgent of many candidates.
+class Best {
+ public:
+  explicit Best(std::size_t most) : most_(most) {}
+
+  void add(const Candidate& candidate) {
+    if (heap_.size() == most_) {
+      if (!comes_before(candidate, heap_.front())) return;
+      std::pop_heap(heap_.begin(), heap_.end(), comes_before);
+      heap_.back() = candidate;
+    } else {
+      heap_.push_back(candidate);
+    }
+    std::push_heap(heap_.begin(), heap_.end(), comes_before);
+  }
+
+  /// Whether a candidate of this urgency cannot be among them any more.
+  bool beyond(float urgency) const {
+    return heap_.size() == most_ && heap_.front().urgency > urgency;
+  }
+
+  std::vector<Candidate> take() {
+    std::sort_heap(heap_.begin(), heap_.end(), comes_before);
+    return std::move(heap_);
+  }
+
+ private:
+  std::size_t most_;
+  std::vector<Candidate> heap_;  // the least urgent one in front
+};
+
+/// The weight of a probe this many cells away from the viewer.
+float distance_weight(float cells) {
+  return kHalfWeightCells / (kHalfWeightCells + cells);
+}
+
+float largest_spacing(const ProbeGrid& grid) {
+  return max(grid.spacing.x, max(grid.spacing.y, grid.spacing.z));
+}
+
+/// A lower bound on the distance of the probes from `first` to `last` from the viewer [cells].
+float least_cells_away(const ProbeStore& store, int first, int last, const vec3& viewer_ws) {
+  const ProbeGrid& grid = store.grid_of(first);
+  // Nothing is known of probes of two volumes, or of a scrolled volume, whose order wraps around
+  if (last >= grid.first + probe_count(grid) || grid.scroll != ivec3(0)) return 0.0f;
+  vec3 low = vec3(probe_coords(grid, first)), high = vec3(probe_coords(grid, last));
+  const bool layers = low.z != high.z, rows = layers || low.y != high.y;
+  if (rows) low.x = 0.0f, high.x = static_cast<float>(grid.count.x - 1);
+  if (layers) low.y = 0.0f, high.y = static_cast<float>(grid.count.y - 1);
+  const vec3 viewer = grid_coords(grid, viewer_ws);
+  const vec3 beyond = max(max(low - viewer, viewer - high) - kMaxProbeOffset, vec3(0.0f));
+  return length(beyond * grid.spacing) / largest_spacing(grid);
+}
+
+int& count_of(ProbeCounts& counts, ProbeState state) {
+  int* const by_state[] = {&counts.off,   &counts.sleeping,       &counts.newly_awake,
+                           &counts.awake, &counts.newly_vigilant, &counts.vigilant};
+  return *by_state[static_cast<int>(state)];
+}
+
+}  // namespace
+
+ProbeScheduler::ProbeScheduler(int probes, std::span<const VolumeRole> roles,
+                               const FieldSettings& settings)
+    : roles_(roles.begin(), roles.end()),
+      rays_per_probe_(settings.rays_per_probe),
+      longest_(longest_average(settings)),
+      entries_(probes),
+      blocks_((entries_.size() + kBlock - 1) / kBlock) {
+  states_.off = static_cast<int>(entries_.size());
+  unserved_ = states_.off;
+}
+
+void ProbeScheduler::mark_changed(int probe) {
+  if (!all_changed_) changed_.push_back(probe);
+}
+
+void ProbeScheduler::refresh_status(std::span<const ProbeStatus> statuses, int probe) {
+  Entry& entry = entries_[probe];
+  const ProbeStatus& status = statuses[probe];
+  --count_of(states_, entry.state);
+  entry.state = status.state;
+  ++count_of(states_, entry.state);
+  if (entry.served == 0) --unserved_;
+  entry.served = is_live(status) ? status.served : kNotLive;
+  // Only open air needs the light of a sleeping probe: it counts as traced once, and so comes after
+  // all other probes that have never been traced
+  if (status.state == ProbeState::sleeping) entry.served = std::max(entry.served, 1u);
+  if (entry.served == 0) ++unserved_;
+}
+
+/// Updates what depends on the noise of a probe and its neighbours; see probe_noise().
+void ProbeScheduler::refresh_noise(const ProbeStore& store, std::span<const ProbeStatus> statuses,
+                                   int probe) {
+  Entry& entry = entries_[probe];
+  const ProbeStatus& own = statuses[probe];
+  entry.noise = entry.reduction = entry.reduction_per_noise = 0.0f;
+  if (entry.served == kNotLive) return;
+  float sum = own.noise;
+  int count = 1;
+  for_each_neighbour(store, probe, [&](int neighbour) {
+    if (entries_[neighbour].served == kNotLive) return;
+    sum += statuses[neighbour].noise;
+    ++count;
+  });
+  entry.noise = probe_noise(own.noise, sum / static_cast<float>(count));
+  if (own.state == ProbeState::sleeping) {
+    entry.reduction = kSleepingReduction;
+    return;
+  }
+  entry.reduction = error_reduction(entry.noise, own.samples, longest_);
+  if (entry.reduction > 0.0f) entry.reduction_per_noise = error_reduction_per_noise(own.samples);
+}
+
+void ProbeScheduler::refresh_block(std::size_t block) {
+  Block sum;
+  sum.served = kNotLive;
+  const std::size_t end = std::min((block + 1) * kBlock, entries_.size());
+  for (std::size_t i = block * kBlock; i < end; ++i) {
+    const Entry& entry = entries_[i];
+    sum.reduction = std::max(sum.reduction, entry.reduction);
+    sum.reduction_per_noise = std::max(sum.reduction_per_noise, entry.reduction_per_noise);
+    sum.served = std::min(sum.served, entry.served);
+    if (entry.reduction == 0.0f) continue;
+    sum.noise_sum += entry.noise;
+    ++sum.unsettled;
+  }
+  blocks_[block] = sum;
+}
+
+void ProbeScheduler::refresh(const ProbeStore& store, std::span<const ProbeStatus> statuses) {
+  if (all_changed_) {
+    for (std::size_t i = 0; i < entries_.size(); ++i) refresh_status(statuses, static_cast<int>(i));
+    parallel_chunks(blocks_.size(), kBlocksPerTask, [&](std::size_t begin, std::size_t end) {
+      const std::size_t last = std::min(end * kBlock, entries_.size());
+      for (std::size_t i = begin * kBlock; i < last; ++i)
+        refresh_noise(store, statuses, static_cast<int>(i));
+      for (std::size_t block = begin; block < end; ++block) refresh_block(block);
+    });
+  } else {
+    std::vector<int> noisy = changed_;
+    for (const int probe : changed_) {
+      refresh_status(statuses, probe);
+      for_each_neighbour(store, probe, [&](int neighbour) { noisy.push_back(neighbour); });
+    }
+    std::sort(noisy.begin(), noisy.end());
+    noisy.erase(std::unique(noisy.begin(), noisy.end()), noisy.end());
+    for (std::size_t i = 0; i < noisy.size(); ++i) {
+      refresh_noise(store, statuses, noisy[i]);
+      const std::size_t block = noisy[i] / kBlock;
+      if (i + 1 == noisy.size() || noisy[i + 1] / kBlock != block) refresh_block(block);
+    }
+  }
+  changed_.clear();
+  all_changed_ = false;
+}
+
+/// A probe gets rays in proportion to its noise. The first time it gets few, so that all probes
+/// hold some light soon.
+int ProbeScheduler::rays_of(const Entry& entry, float mean_noise) const {
+  if (entry.served == 0) return kRayClasses.front();
+  const bool unknown = entry.state == ProbeState::sleeping || mean_noise <= 0.0f;
+  const float share = unknown ? 1.0f : entry.noise / mean_noise;
+  return ray_class_for(static_cast<float>(rays_per_probe_) * share);
+}
+
+/// The mean noise of the probes that have not converged.
+float ProbeScheduler::mean_noise() const {
+  double noise_sum = 0.0;
+  std::int64_t unsettled = 0;
+  for (const Block& block : blocks_) {
+    noise_sum += block.noise_sum;
+    unsettled += block.unsettled;
+  }
+  return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
+}
+
+/// The weight of a probe, 0 to 1, from its volume's level and its importance or distance.
+float ProbeScheduler::view_weight(const ProbeStore& store, int probe,
+                                  const std::optional<glm::vec3>& viewer_ws,
+                                  std::span<const float> importance) const {
+  const int volume = store.volume_of(probe);
+  const float weight = std::ldexp(1.0f, -roles_[volume].level);
+  if (!importance.empty()) return weight * std::max(importance[probe], kUnseenWeight);
+  if (!viewer_ws) return weight;
+  const float away = length(store.probe_position_ws(probe) - *viewer_ws);
+  return weight * distance_weight(away / largest_spacing(store.grid(volume)));
+}
+
+Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budget,
+                                std::uint32_t update, const std::optional<glm::vec3>& viewer_ws,
+                                std::span<const float> importance) const {
+  // Order the blocks by an upper bound on the urgency of their probes
+  std::vector<Candidate> blocks;
+  const float noise = mean_noise();
+  const float least = kMinNoiseOfMean * noise;
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    const Block& block = blocks_[b];
+    // Only the oldest probe of a block matters here: if it is not old, none is
+    const std::uint32_t served = is_old(block.served, update) ? block.served : kNotLive;
+    float weight = 1.0f;
+    if (viewer_ws && importance.empty()) {
+      const int first = static_cast<int>(b * kBlock);
+      const int last = static_cast<int>(std::min((b + 1) * kBlock, entries_.size())) - 1;
+      weight = distance_weight(least_cells_away(store, first, last, *viewer_ws));
+    }
+    const float urgency = urgency_of(std::max(block.reduction, least * block.reduction_per_noise),
+                                     served, update, weight);
+    if (urgency > 0.0f) blocks.push_back({urgency, static_cast<int>(b)});
+  }
+  const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };
+  std::make_heap(blocks.begin(), blocks.end(), later);
+
+  // Look into blocks until no other can hold a probe within the budget
+  Best best(ray_budget / kRayClasses.front() + 1);
+  while (!blocks.empty() && !best.beyond(blocks.front().urgency)) {
+    const std::size_t first = blocks.front().probe * kBlock;
+    std::pop_heap(blocks.begin(), blocks.end(), later);
+    blocks.pop_back();
+    for (std::size_t i = first; i < std::min(first + kBlock, entries_.size()); ++i) {
+      const Entry& entry = entries_[i];
+      if (entry.reduction == 0.0f && !is_old(entry.served, update)) continue;
+      const int probe = static_cast<int>(i);
+      const float weight = view_weight(store, probe, viewer_ws, importance);
+      best.add({urgency_of(std::max(entry.reduction, least * entry.reduction_per_noise),
+                           entry.served, update, weight),
+                probe});
+    }
+  }
+
+  // Take the most urgent probes until the rays are spent
+  std::vector<std::pair<int, int>> chosen;
+  std::uint64_t spent = 0;
+  for (const Candidate& candidate : best.take()) {
+    const Entry& entry = entries_[candidate.probe];
+    const int rays = rays_of(entry, noise);
+    if (spent + rays > ray_budget) break;
+    spent += rays;
+    chosen.emplace_back(candidate.probe, rays);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  Schedule schedule;
+  for (const auto& [probe, rays] : chosen) {
+    schedule.probes.push_back(probe);
+    schedule.rays.push_back(rays);
+  }
+  return schedule;
+}
+
+}  // namespace lambent

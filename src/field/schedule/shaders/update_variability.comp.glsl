@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Updates the noise of the probes that were traced, and notes when they were traced. One lane per
+// probe.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/schedule/schedule_arguments.h"
+#include "field/probes/tile_light_math.h"
+
+layout(local_size_x = kGroupLanes) in;
+layout(push_constant, scalar) uniform Push {
+  UpdateVariabilityArguments args;
+};
+
+void main() {
+  int k = int(gl_GlobalInvocationID.x);
+  int count = args.chosen != 0u ? int(args.state.at[0].list.probes) : args.count;
+  if (k >= count) return;
+  float blend_weight = args.blend_weights.at[k];
+  if (blend_weight == 0.0) return;
+  int probe = args.list.at[k];
+  ProbeService service = args.service.at[probe];
+  vec3 change = args.changes.at[k];
+  float mean_light = args.state.at[0].mean_light;
+  float before = max(change.y, kDarkShare * mean_light);
+  float square =
+      change.x * max(change.y * change.y, kTiniestLight) / max(before * before, kTiniestLight);
+  float estimate_square = estimate_relative_square(square, change.y, blend_weight, mean_light);
+  service.known = learned_noise(service.known, estimate_square, 1.0, 1.0 / blend_weight - 1.0);
+  service.served = args.update;
+  args.service.at[probe] = service;
+}

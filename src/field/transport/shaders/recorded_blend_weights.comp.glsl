@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Computes the blend weights of a recorded field's probes and counts their samples, one lane per
+// probe. From now on, lookups find each probe where its rays started.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/vulkan/recorded_arguments.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  RecordedBlendWeightsArguments args;
+};
+
+void main() {
+  int k = int(gl_GlobalInvocationID.x);
+  if (k >= (args.is_chosen != 0u ? int(args.chosen.at[0]) : args.count)) return;
+  int probe = args.list.at[k];
+  if (probe_rests(args.probes.states.at[probe], args.all)) {
+    args.blend_weights.at[k] = 0.0;
+    return;
+  }
+  float averaged = args.discards_history != 0u ? 0.0 : args.probes.standing.at[probe].samples;
+  float samples = min(averaged, args.longest - 1.0) + 1.0;
+  args.blend_weights.at[k] = 1.0 / samples;
+  // Positive floats are ordered as their bits are
+  if (args.is_chosen != 0u) {
+    atomicMax(args.largest_blend_weight.at[0], floatBitsToUint(1.0 / samples));
+  }
+  args.probes.standing.at[probe].samples = samples;
+  args.offsets.at[probe] = args.probes.standing.at[probe].offset;
+}

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/transport/solve_bounces.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "core/parallel.h"
+#include "core/simd.h"
+#include "field/probes/tile.h"
+#include "field/transport/anderson_math.h"
+#include "field/transport/blend_math.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kProbesPerTask = 16;
+constexpr std::size_t kProbesPerCopy = 512;
+constexpr std::size_t kTexelsPerTask = 16384;
+
+// kMinContraction in double precision.
+constexpr double kLeastContraction = 0.1;
+
+/// Calls body(k, i, j) for each of the operator's probes: k is its place among them, i the index of
+/// its first texel in the field, and j that in arrays of the operator's probes alone.
+template <class Body>
+void for_each_probe(const TransportOperator& transport, Body body) {
+  const std::span<const int> probes = transport.probes();
+  const auto texels = static_cast<std::size_t>(transport.texels());
+  parallel_chunks(probes.size(), kProbesPerCopy, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) body(k, probes[k] * texels, k * texels);
+  });
+}
+
+/// Sets the field's texels to the blend of history and solution.
+void blend_into(const TransportOperator& transport, std::span<const float> blend_weights,
+                const WorkingIrradiance& history, const WorkingIrradiance& solution,
+                WorkingIrradiance& field) {
+  for_each_probe(transport, [&](std::size_t k, std::size_t in_field, std::size_t own) {
+    for (int t = 0; t < transport.texels(); ++t) {
+      field[in_field + t] = mix(history[own + t], solution[own + t], blend_weights[k]);
+    }
+  });
+}
+
+/// Blends the solution into the field at the end of a solve, without negative light. Returns the
+/// relative change of the light.
+double finish(const TransportOperator& transport, std::span<const float> blend_weights,
+              const WorkingIrradiance& history, const WorkingIrradiance& solution,
+              WorkingIrradiance& field) {
+  WorkingIrradiance difference(history.size());
+  for_each_probe(transport, [&](std::size_t k, std::size_t in_field, std::size_t own) {
+    for (int t = 0; t < transport.texels(); ++t) {
+      const vec4 blended =
+          max(mix(history[own + t], solution[own + t], blend_weights[k]), vec4(0.0f));
+      difference[own + t] = blended - history[own + t];
+      field[in_field + t] = blended;
+    }
+  });
+  const double whole = norm(solution);
+  return whole > 0.0 ? norm(difference) / whole : 0.0;
+}
+
+/// Gathers the radiance along a probe's rays without light from the field: that of the sky and, if
+/// `reflected`, of direct light on surfels. The fourth channel is 1 for rays that count, else 0.
+void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
+  for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
+    const Surfel& surfel = trace.surfels[i];
+    const vec3 reflectance = surfel.kind == SurfelKind::sky ? vec3(1.0f)
+                             : reflected                    ? surfel.albedo_over_pi
+                                                            : vec3(0.0f);
+    const vec3 sent = reflectance * surfel.light;
+    for (int c = 0; c < 3; ++c) radiance[4 * i + c] = sent[c];
+    radiance[4 * i + 3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
+  }
+}
+
+/// Everything that the radiance along a probe's rays depends on.
+struct GatherInput {
+  const ProbeTrace& trace;
+  const CornerOffsets* corner_table;
+  const std::array<std::uint16_t, 4>* taps;  // interior texels of each place of a fetch
+  const vec4* field;
+  int texels;  // of a tile
+};
+
+/// Adds the irradiance that a lookup reads from the field.
+LAMBENT_FORCE_INLINE void read_field(const GatherInput& in, const SurfelLookup& lookup,
+                                     float sum[4]) {
+  const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
+  const CornerOffsets& offsets = in.corner_table[lookup.corners.table];
+  const float fx = lookup.fraction_x, fy = lookup.fraction_y;
+  const float tap_weights[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
+                                fx * fy};
+  const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
+  for (int corner = 0; corner < kCellCorners; ++corner) {
+    const vec4* tile = base + static_cast<std::ptrdiff_t>(offsets.probe[corner]) * in.texels;
+    const float weight = lookup.corners.weight[corner];
+    for (int tap = 0; tap < 4; ++tap) {
+      const float tap_weight = weight * tap_weights[tap];
+      const float* texel = &tile[taps[tap]].x;
+      for (int c = 0; c < 4; ++c) sum[c] += tap_weight * texel[c];
+    }
+  }
+}
+
+/// Gathers the radiance along a probe's rays. Four floats per ray; the fourth is 1 for rays that
+/// count, else 0.
+LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance) {
+  for (std::size_t i = 0; i < in.trace.surfels.size(); ++i) {
+    const Surfel& surfel = in.trace.surfels[i];
+    float* out = radiance + 4 * i;
+    out[3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
+
+    // Surfels that reflect nothing are the sky, or black
+    if (!surfel.reflects()) {
+      const bool sky = surfel.kind == SurfelKind::sky;
+      for (int c = 0; c < 3; ++c) out[c] = sky ? surfel.light[c] : 0.0f;
+      continue;
+    }
+
+    // Look the field up at the surfel, and compute the radiance that it reflects
+    float sum[4] = {};
+    read_field(in, in.trace.lookups[i], sum);
+    for (int c = 0; c < 3; ++c) out[c] = surfel.albedo_over_pi[c] * (surfel.light[c] + sum[c]);
+  }
+  for (const FurtherLookup& further : in.trace.further) {
+    float sum[4] = {};
+    read_field(in, further.lookup, sum);
+    const vec3 albedo_over_pi = in.trace.surfels[further.ray].albedo_over_pi;
+    for (int c = 0; c < 3; ++c) radiance[4 * further.ray + c] += albedo_over_pi[c] * sum[c];
+  }
+}
+
+}  // namespace
+
+TransportOperator::TransportOperator(std::span<const CornerOffsets> corner_table,
+                                     std::span<const ProbeTrace> traces,
+                                     std::span<const int> probes, const BlendMatrix& fit,
+                                     int texels)
+    : corner_table_(corner_table),
+      traces_(traces),
+      probes_(probes),
+      fit_(fit),
+      texels_(texels * texels),
+      taps_(static_cast<std::size_t>(texels + 1) * (texels + 1)) {
+  for (int y = 0; y <= texels; ++y) {
+    for (int x = 0; x <= texels; ++x) {
+      for (int tap = 0; tap < 4; ++tap) {
+        const ivec2 source = tile_source({x + (tap & 1), y + (tap >> 1)}, texels);
+        taps_[x + (texels + 1) * y][tap] = static_cast<std::uint16_t>(source.x + texels * source.y);
+      }
+    }
+  }
+}
+
+void TransportOperator::gather_probe_radiance(const WorkingIrradiance& field,
+                                              const ProbeTrace& trace, float* radiance) const {
+  gather_radiance({trace, corner_table_.data(), taps_.data(), field.data(), texels_}, radiance);
+}
+
+void TransportOperator::apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
+                              WorkingIrradiance& received) const {
+  receive([&](const ProbeTrace& trace,
+              float* radiance) { gather_probe_radiance(field, trace, radiance); },
+          fallback, received);
+}
+
+void TransportOperator::apply_direct(const WorkingIrradiance& fallback,
+                                     WorkingIrradiance& received) const {
+  receive([](const ProbeTrace& trace,
+             float* radiance) { gather_unlit(trace, /*reflected=*/true, radiance); },
+          fallback, received);
+}
+
+void TransportOperator::apply_sky(const WorkingIrradiance& fallback,
+                                  WorkingIrradiance& received) const {
+  receive([](const ProbeTrace& trace,
+             float* radiance) { gather_unlit(trace, /*reflected=*/false, radiance); },
+          fallback, received);
+}
+
+template <class Gather>
+void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback,
+                                WorkingIrradiance& received) const {
+  parallel_chunks(probes_.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> radiance;
+    std::vector<vec4> sums(texels_), at_centres(texels_);
+    for (std::size_t k = begin; k < end; ++k) {
+      const ProbeTrace& trace = traces_[probes_[k]];
+      const float enough = kMinKnownWeight * static_cast<float>(trace.surfels.size());
+      radiance.resize(4 * trace.surfels.size());
+      gather(trace, radiance.data());
+      trace.rays->irradiance_blend.apply4(radiance.data(), &sums[0].x);
+      bool known = true;
+      for (int t = 0; t < texels_; ++t) {
+        known = known && sums[t].w > enough;
+        at_centres[t] = vec4(irradiance_at_centre(sums[t]), 0.0f);
+      }
+      vec4* out = &received[k * texels_];
+      if (known) {
+        fit_.apply4(&at_centres[0].x, &out[0].x);
+        continue;
+      }
+
+      // Where rays count for some texels only, the fit is left out: the other texels keep their
+      // light
+      for (int t = 0; t < texels_; ++t) {
+        out[t] = sums[t].w > enough ? at_centres[t] : fallback[k * texels_ + t];
+      }
+    }
+  });
+}
+
+void multiply(WorkingIrradiance& a, const WorkingIrradiance& b) {
+  parallel_chunks(a.size(), kTexelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) a[i] *= b[i];
+  });
+}
+
+WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> probes,
+                           int texels) {
+  WorkingIrradiance light(probes.size() * texels);
+  parallel_chunks(probes.size(), kProbesPerCopy, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      std::copy_n(&field[static_cast<std::size_t>(probes[k]) * texels], texels, &light[k * texels]);
+    }
+  });
+  return light;
+}
+
+SolveResult solve_counted_bounces(const TransportOperator& transport,
+                                  std::span<const float> blend_weights, int bounces,
+                                  WorkingIrradiance& field) {
+  assert(transport.probes().size() * transport.texels() == field.size());
+  const WorkingIrradiance history = field;
+  WorkingIrradiance solution(field.size()), received(field.size());
+  transport.apply_sky(history, solution);
+  for (int i = 0; i < bounces; ++i) {
+    transport.apply(solution, history, received);
+    solution.swap(received);
+  }
+  const double change = finish(transport, blend_weights, history, solution, field);
+  return {bounces, 0.0, change, std::move(solution)};
+}
+
+SolveResult solve_bounces(const TransportOperator& transport, std::span<const float> blend_weights,
+                          const WorkingIrradiance& history_ratio, const SolveSettings& settings,
+                          WorkingIrradiance& field) {
+  const WorkingIrradiance history = light_of(field, transport.probes(), transport.texels());
+  const std::size_t size = history.size();
+  WorkingIrradiance solution = history, image(size), residual(size);
+  WorkingIrradiance previous_image, previous_residual;
+  AndersonMemory memory;
+  SolveResult result;
+  if (size == 0) return result;
+  const double blend_weight = *std::max_element(blend_weights.begin(), blend_weights.end());
+  const double bound = blend_weight * settings.max_albedo;
+  assert(static_cast<float>(kLeastContraction) == kMinContraction);
+  double observed = 0.0;
+  double contraction = bound;
+
+  while (true) {
+    // Apply the transport once
+    blend_into(transport, blend_weights, history, solution, field);
+    transport.apply(field, history, image);
+    if (!history_ratio.empty()) multiply(image, history_ratio);
+    ++result.iterations;
+    add_scaled(image, -1.0f, solution, residual);
+
+    // Compute the contraction: the ratio of the change of the image to the change of its argument.
+    // After a single step, only the largest albedo bounds it
+    if (!previous_residual.empty()) {
+      WorkingIrradiance residual_change(size), image_change(size), change(size);
+      add_scaled(residual, -1.0f, previous_residual, residual_change);
+      add_scaled(image, -1.0f, previous_image, image_change);
+      add_scaled(image_change, -1.0f, residual_change, change);
+      const double change_norm = norm(change);
+      if (change_norm > 0.0) observed = std::max(observed, norm(image_change) / change_norm);
+      contraction = std::min(bound, std::max(observed, kLeastContraction));
+      memory.push(std::move(residual_change), std::move(image_change));
+    }
+
+    // Estimate the error: a contraction by q leaves q / (1 - q) of the last step to go
+    const double image_norm = norm(image);
+    const double remaining = contraction / (1.0 - contraction);
+    result.error = image_norm > 0.0 ? blend_weight * remaining * norm(residual) / image_norm : 0.0;
+    if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {
+      result.change = finish(transport, blend_weights, history, image, field);
+      result.solution = std::move(image);
+      return result;
+    }
+
+    // Extrapolate from the last steps; without them, the next iterate is the image
+    previous_residual = residual;
+    previous_image = image;
+    solution = image;
+    memory.extrapolate(residual, solution);
+  }
+}
+
+}  // namespace lambent
