@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/nearest_word.h"
 #include "scenes/recipes.h"
 
 namespace lambent::scenes {
@@ -12,21 +13,27 @@ namespace {
 
 struct Recipe {
   std::string_view name;
+  std::string_view what;  // there is to see
   AnimatedScene (*make)();
 };
 
 constexpr std::array kRecipes{
-    Recipe{"cornell", make_cornell},
-    Recipe{"cornell-spot", make_cornell_spot},
-    Recipe{"furnace", make_furnace},
-    Recipe{"furnace-sky", make_furnace_sky},
-    Recipe{"two-rooms", make_two_rooms},
-    Recipe{"two-rooms-sealed", make_two_rooms_sealed},
-    Recipe{"house", make_house},
-    Recipe{"cube", make_cube},
-    Recipe{"squares-parallel", make_squares_parallel},
-    Recipe{"squares-perpendicular", make_squares_perpendicular},
-    Recipe{"atrium", [] { return make_atrium(); }},
+    Recipe{"cornell", "the Cornell box, from its published measurements", make_cornell},
+    Recipe{"cornell-spot", "the Cornell box with a spot light for a lamp", make_cornell_spot},
+    Recipe{"furnace", "a closed room whose radiance is 1 everywhere", make_furnace},
+    Recipe{"furnace-sky", "a sphere that reflects a sky at exactly its albedo", make_furnace_sky},
+    Recipe{"two-rooms", "a lit and a dark room, a thin wall with a gap between them",
+           make_two_rooms},
+    Recipe{"two-rooms-sealed", "the same without the gap: the second room is black",
+           make_two_rooms_sealed},
+    Recipe{"house", "sixteen rooms joined by doorways, a lamp in each", make_house},
+    Recipe{"cube", "a 10 m cube around a point light, with solved radiosity", make_cube},
+    Recipe{"squares-parallel", "two squares whose form factor is known, face to face",
+           make_squares_parallel},
+    Recipe{"squares-perpendicular", "two squares whose form factor is known, at a right angle",
+           make_squares_perpendicular},
+    Recipe{"atrium", "a court with columns and curtains; the sun moves, a door opens",
+           [] { return make_atrium(); }},
 };
 
 const Recipe* find(const std::string& name) {
@@ -80,6 +87,11 @@ bool is_name(const std::string& name) {
   return find(name) != nullptr;
 }
 
+std::string description(const std::string& name) {
+  const Recipe* recipe = find(name);
+  return recipe == nullptr ? std::string() : std::string(recipe->what);
+}
+
 Expected<AnimatedScene> make_animated(const std::string& name) {
   if (const Recipe* recipe = find(name)) {
     AnimatedScene made = recipe->make();
@@ -90,11 +102,11 @@ Expected<AnimatedScene> make_animated(const std::string& name) {
     made.scene.source.animations = static_cast<int>(made.animations.size());
     return made;
   }
+  const std::vector<std::string> known = names();
+  const std::string nearest = did_you_mean(name, known);
+  if (!nearest.empty()) return fail(name, "", "is not a built-in scene" + nearest);
   std::string list;
-  for (const Recipe& recipe : kRecipes) {
-    if (!list.empty()) list += ", ";
-    list += recipe.name;
-  }
+  for (const std::string& other : known) list += (list.empty() ? "" : ", ") + other;
   return fail(name, "", "is not a built-in scene; there are " + list);
 }
 

@@ -44,6 +44,10 @@ std::vector<std::string> names();
 /// True where `name` is one of names().
 bool is_name(const std::string& name);
 
+/// What there is to see in the built-in scene of that name, in a few words; empty where there is
+/// none.
+std::string description(const std::string& name);
+
 /// The built-in scene of that name, the same bits every time; an Error that lists the names
 /// otherwise.
 Expected<AnimatedScene> make_animated(const std::string& name);

@@ -9,7 +9,8 @@ lambent_packages=(
   # Ray tracing, threads, mathematics
   libembree-dev libtbb-dev libglm-dev libeigen3-dev
   # Images and scenes
-  libopenexr-dev zlib1g-dev libstb-dev libwebp-dev libtinygltf-dev libdraco-dev libmeshoptimizer-dev
+  libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev libwebp-dev libtinygltf-dev libdraco-dev
+  libmeshoptimizer-dev
   nlohmann-json3-dev
   # Program and errors
   libcli11-dev libexpected-dev

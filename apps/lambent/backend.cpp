@@ -2,7 +2,9 @@
 #include "lambent/backend.h"
 
 #include <CLI/CLI.hpp>
-#include <cstdio>
+
+#include "lambent/console.h"
+#include "lambent/validators.h"
 
 namespace lambent::cli {
 namespace {
@@ -13,14 +15,16 @@ constexpr int kMaxDevice = 1023;
 
 void add_backend_options(CLI::App& command, BackendOptions& o) {
   command.add_option("--backend", o.name, "cpu, or vulkan: a device with ray tracing pipelines")
-      ->check(CLI::IsMember({"cpu", "vulkan"}))
-      ->capture_default_str();
+      ->check(one_of({"cpu", "vulkan"}))
+      ->capture_default_str()
+      ->type_name("B");
   o.of_vulkan.push_back(
       command
           .add_option("--device", o.device,
                       "Which Vulkan device, by its index in lambent devices (the first that can be "
                       "used)")
-          ->check(CLI::Range(0, kMaxDevice)));
+          ->check(whole_number(0, kMaxDevice))
+          ->type_name("N"));
   o.of_vulkan.push_back(command.add_flag("--vulkan-validation", o.validation,
                                          "Have Vulkan's validation layer watch"));
 }
@@ -44,7 +48,7 @@ Expected<void> check_validation(const vulkan::Device* device) {
   if (device == nullptr) return {};
   const std::vector<std::string> messages = vulkan::validation_messages(*device);
   for (const std::string& message : messages) {
-    std::fprintf(stderr, "lambent: validation: %s\n", message.c_str());
+    tell_error("validation: " + message);
   }
   if (messages.empty()) return {};
   return fail("--vulkan-validation", "",

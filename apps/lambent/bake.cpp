@@ -1,18 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // lambent bake: a field that has settled, in a file.
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <array>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/atomic_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
 #include "lambent/field_options.h"
+#include "lambent/help.h"
+#include "lambent/memory_check.h"
+#include "lambent/output.h"
 #include "lambent/progress_bar.h"
 #include "lambent/stage.h"
+#include "lambent/step.h"
 #include "lambent/threads.h"
+#include "lambent/validators.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
@@ -31,24 +38,26 @@ struct Options {
 };
 
 Expected<void> check(const Options& options) {
-  for (const std::string& path : {options.output, options.stats}) {
-    if (path.empty()) continue;
-    if (const Expected<void> fine = check_writable(path); !fine) return fine;
+  if (const auto fine = check_own_output(options.output, "a field"); !fine) return fine;
+  if (!options.stats.empty()) {
+    if (const auto fine = check_place(options.stats); !fine) return fine;
   }
-  if (options.time_s && !std::isfinite(*options.time_s)) {
-    return fail("--time", "", "is not a finite number of seconds");
-  }
-  return {};
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
+  files.writes(options.output, "-o");
+  files.writes(options.stats, "--stats");
+  return files.check();
 }
 
-void tell(const Options& options, const IrradianceField& field, const FieldProgress& reached) {
-  const double percent = 100.0 * reached.change;
+void tell_baked(const Options& options, const IrradianceField& field,
+                const FieldProgress& reached) {
   const char* how = options.updates > 0 ? "made" : reached.settled ? "settled" : "not settled";
-  std::printf("%s after %d updates: the last changed the light by %.3g %%\n", how, reached.updates,
-              percent);
-  std::printf("%d probes, %zu bytes each: %s\n", field.probes(),
-              field.store_bytes() / static_cast<std::size_t>(field.probes()),
-              options.output.c_str());
+  std::array<char, 128> text;
+  std::snprintf(text.data(), text.size(),
+                "%s after %d updates, the last of which changed the light by %.3g %%", how,
+                reached.updates, 100.0 * reached.change);
+  tell_written(options.output, std::to_string(field.probes()) + " probes", text.data());
 }
 
 Expected<void> bake(const Options& options) {
@@ -59,6 +68,7 @@ Expected<void> bake(const Options& options) {
   }
   const ThreadLimit limit(options.threads);
 
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   if (options.time_s) {
@@ -67,19 +77,24 @@ Expected<void> bake(const Options& options) {
     }
     animate(*scene, -1, *options.time_s);
   }
-  const World world(*scene);
-  const Expected<Camera> camera = choose_camera(options.stage, world);
-  if (!camera) return tl::unexpected(camera.error());
+  begin_step("preparing the scene for rays");
+  World world(*scene);
+  const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  tell("light: " + *light);
   const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> field = IrradianceField::make(*settings, open_bounds(world));
+  begin_step("updating the field");
+  Expected<IrradianceField> field = make_field(*settings, options.field, world, 1);
   if (!field) return tl::unexpected(field.error());
 
   nlohmann::ordered_json stats;
   stats["triangles"] = triangle_count(*scene);
   stats["build_ms"] = world.build_ms();
   FieldProgress reached;
-  const UpdateRequest request{0, 0.0, glm::vec3(camera->world_from_view[3])};
+  const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
   {
     const ProgressFn progress = terminal_progress();
     reached = options.updates > 0
@@ -87,10 +102,14 @@ Expected<void> bake(const Options& options) {
                   : settle_field(world, request, *field, progress, stats);
   }
   stats["settled"] = reached.settled;
+  begin_step("writing the field");
+  if (const auto made = make_folders(options.output); !made) return made;
   if (const auto saved = save_field(options.output, *field, world); !saved) return saved;
-  tell(options, *field, reached);
-  if (options.stats.empty()) return {};
-  return write_file_atomically(options.stats, stats.dump(2) + "\n");
+  if (!options.stats.empty()) {
+    if (const auto told = write_statistics(options.stats, stats); !told) return told;
+  }
+  tell_baked(options, *field, reached);
+  return {};
 }
 
 }  // namespace
@@ -98,17 +117,30 @@ Expected<void> bake(const Options& options) {
 void add_bake(CLI::App& app, Run& run) {
   auto o = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("bake", "Compute a scene's field, and write it to a file");
-  add_scene_options(*command, o->stage);
-  command->add_option("-o,--output", o->output, "The field file to write")->required();
-  command->add_option("--time", o->time_s, "Time of the scene's animation [s]");
+  command->group(kFieldGroup);
+  command->option_defaults()->group(kMainGroup);
+  command->add_option("-o,--output", o->output, "The field file to write, such as a.field")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--updates", o->updates, "Update so often (until the light has settled)")
-      ->check(CLI::Range(1, kMaxUpdates));
+      ->check(whole_number(1, kMaxUpdates))
+      ->type_name("N");
+  command->add_option("--time", o->time_s, "Time of the scene's animation [s]")
+      ->check(number(-kMaxTime, kMaxTime))
+      ->type_name("S");
   command->add_option("--bounces", o->bounces, "Bounces of indirect light (all of them)")
-      ->check(CLI::Range(0, kMaxBounces));
-  command->add_option("--seed", o->seed, "Of all random numbers")->capture_default_str();
+      ->check(whole_number(0, kMaxBounces))
+      ->type_name("N");
+  command->add_option("--seed", o->seed, "Of all random numbers")
+      ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
+      ->capture_default_str()
+      ->type_name("N");
   command->add_option("--threads", o->threads, "Threads to use (all)")
-      ->check(CLI::Range(1, kMaxThreads));
-  command->add_option("--stats", o->stats, "Write times and counts to this .json file");
+      ->check(whole_number(1, kMaxThreads))
+      ->type_name("N");
+  command->add_option("--stats", o->stats, "Write times and counts to this .json file")
+      ->type_name("FILE");
+  add_scene_options(*command, o->stage);
   add_field_options(*command, o->field);
   command->callback([o, &run] { run = [o] { return bake(*o); }; });
 }

@@ -25,5 +25,6 @@ void add_make_scene(CLI::App& app, Run& run);
 void add_picture(CLI::App& app, Run& run);
 void add_prepare(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
+void add_scenes(CLI::App& app, Run& run);
 
 }  // namespace lambent::cli

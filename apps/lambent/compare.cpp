@@ -11,9 +11,20 @@
 
 #include "core/image/heat_map.h"
 #include "core/image/metrics.h"
+#include "core/memory.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
 #include "lambent/image.h"
+#include "lambent/input.h"
+#include "lambent/layers.h"
+#include "lambent/memory_check.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
+#include "lambent/step.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 namespace {
@@ -36,6 +47,8 @@ struct Comparison {
 /// Layers that are numbers, not pictures: no exposure makes sense of them.
 constexpr const char* kDataLayers[] = {"normal", "position", "depth"};
 constexpr int kMaxBlock = 1 << 12;
+/// Products with what images hold are still numbers.
+constexpr double kMaxScale = 1e12;
 /// Numbers that were not measured; shown as "-".
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
@@ -43,24 +56,9 @@ bool is_picture(const std::string& layer) {
   return std::find(std::begin(kDataLayers), std::end(kDataLayers), layer) == std::end(kDataLayers);
 }
 
-std::string shown_name(const std::string& layer) {
-  return layer.empty() ? "(picture)" : layer;
-}
-
 /// Files of 8 bits hold what a display shows, all others linear radiance.
 bool is_display_file(const std::string& path) {
   return has_ending(path, ".png") || has_ending(path, ".jpg") || has_ending(path, ".jpeg");
-}
-
-/// The layer, or an Error that lists those there are.
-Expected<const Image*> layer_of(const std::string& path, const LayeredImage& image,
-                                const std::string& name) {
-  if (const Image* found = image.find(name)) return found;
-  std::string present;
-  for (const Layer& layer : image.layers) {
-    present += (present.empty() ? "" : ", ") + shown_name(layer.name);
-  }
-  return fail(path, "layer " + shown_name(name), "not in the file, which has " + present);
 }
 
 /// What --layer asks for; without it every layer that both files have.
@@ -89,7 +87,7 @@ Expected<const Image*> noise_of(const CompareOptions& options, const LayeredImag
                                 const std::string& layer, std::size_t comparisons) {
   if (const Image* same_name = noise.find(layer)) return same_name;
   if (comparisons == 1 && noise.find("") != nullptr) return noise.find("");
-  return layer_of(options.noise_path, noise, layer);
+  return find_layer(options.noise_path, noise, layer);
 }
 
 // What is not finite becomes null.
@@ -165,7 +163,7 @@ void print_table(const std::vector<Comparison>& comparisons, bool noise) {
   }
   std::printf("\n");
   for (const Comparison& comparison : comparisons) {
-    std::printf("%-*s", kNameColumns, shown_name(comparison.name_a).c_str());
+    std::printf("%-*s", kNameColumns, layer_text(comparison.name_a).c_str());
     for (const Column& column : columns) {
       if (!shown(column)) continue;
       const std::string text = number_text(column.value(comparison.metrics), column.format);
@@ -176,7 +174,7 @@ void print_table(const std::vector<Comparison>& comparisons, bool noise) {
   for (const Comparison& comparison : comparisons) {
     if (comparison.metrics.excluded == 0) continue;
     std::printf("%s: %zu pixels left out, being NaN or infinite\n",
-                shown_name(comparison.name_a).c_str(), comparison.metrics.excluded);
+                layer_text(comparison.name_a).c_str(), comparison.metrics.excluded);
   }
 }
 
@@ -190,9 +188,9 @@ struct LayerNoise {
 Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& a,
                              const LayeredImage& b, const LayerNoise& noise, Comparison& comparison,
                              std::vector<Image>& pictures) {
-  const Expected<const Image*> layer_a = layer_of(options.path_a, a, comparison.name_a);
+  const Expected<const Image*> layer_a = find_layer(options.path_a, a, comparison.name_a);
   if (!layer_a) return tl::unexpected(layer_a.error());
-  const Expected<const Image*> layer_b = layer_of(options.path_b, b, comparison.name_b);
+  const Expected<const Image*> layer_b = find_layer(options.path_b, b, comparison.name_b);
   if (!layer_b) return tl::unexpected(layer_b.error());
 
   const bool display = is_display_file(options.path_a) && is_display_file(options.path_b);
@@ -205,7 +203,7 @@ Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& 
   }
   const Expected<Metrics> metrics = compare_images(**layer_a, **layer_b, how);
   if (!metrics) {
-    return fail(options.path_a, "layer " + shown_name(comparison.name_a),
+    return fail(options.path_a, "layer " + layer_text(comparison.name_a),
                 metrics.error().message());
   }
   comparison.metrics = *metrics;
@@ -217,10 +215,22 @@ Expected<void> compare_layer(const CompareOptions& options, const LayeredImage& 
 
 Expected<void> compare(const CompareOptions& options) {
   if (!options.heat_map_path.empty()) {
-    if (const auto fine = check_output(options.heat_map_path, ".png"); !fine) return fine;
+    if (const auto fine = check_output(options.heat_map_path, {".png"}); !fine) return fine;
   }
-  const Expected<LayeredImage> a = read_image(options.path_a), b = read_image(options.path_b);
+  for (const std::string& path : {options.path_a, options.path_b, options.noise_path}) {
+    if (path.empty()) continue;
+    if (const auto fine = check_image_input(path); !fine) return fine;
+  }
+  CommandFiles files;
+  files.reads(options.path_a, "image A");
+  files.reads(options.path_b, "image B");
+  files.reads(options.noise_path, "--noise");
+  files.writes(options.heat_map_path, "--heatmap");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the images");
+  const Expected<LayeredImage> a = read_image(options.path_a);
   if (!a) return tl::unexpected(a.error());
+  const Expected<LayeredImage> b = read_image(options.path_b);
   if (!b) return tl::unexpected(b.error());
   LayeredImage noise;
   if (!options.noise_path.empty()) {
@@ -237,8 +247,11 @@ Expected<void> compare(const CompareOptions& options) {
         "the images differ in size: " + size(*a) + ", but " + options.path_b + " is " + size(*b));
   }
 
+  const auto fits = check_comparison_memory({a->width, a->height}, available_memory());
+  if (!fits) return fits;
   Expected<std::vector<Comparison>> comparisons = choose_layers(options, *a, *b);
   if (!comparisons) return tl::unexpected(comparisons.error());
+  begin_step("comparing the images");
   std::vector<Image> pictures;
   for (Comparison& comparison : *comparisons) {
     const LayerNoise layer_noise{noise, comparisons->size()};
@@ -249,8 +262,10 @@ Expected<void> compare(const CompareOptions& options) {
   }
 
   if (!options.heat_map_path.empty()) {
-    if (const auto written = write_png(options.heat_map_path, stack(pictures)); !written)
-      return written;
+    const Image picture = stack(pictures);
+    if (const auto fine = make_folders(options.heat_map_path); !fine) return fine;
+    if (const auto done = write_png(options.heat_map_path, picture); !done) return done;
+    tell_written(options.heat_map_path, pixels_text(picture.width, picture.height));
   }
   if (options.json) {
     print_json(*comparisons);
@@ -263,30 +278,34 @@ Expected<void> compare(const CompareOptions& options) {
 }  // namespace
 
 void add_compare(CLI::App& app, Run& run) {
-  CLI::App* command =
-      app.add_subcommand("compare", "Measures how image A differs from reference B");
+  CLI::App* command = app.add_subcommand("compare", "Measure how image A differs from reference B");
+  command->group(kPictureGroup);
   const auto options = std::make_shared<CompareOptions>();
   command->add_option("A", options->path_a, "Image: .exr, .hdr, .png or .jpg")->required();
   command->add_option("B", options->path_b, "Reference of the same size")->required();
   command
       ->add_option("--layer", options->layers,
                    "Layer to compare, or A_NAME=B_NAME; the whole picture's name is empty. May be "
-                   "repeated. Default: all layers that both files have")
-      ->allow_extra_args(false);
+                   "repeated (all layers that both files have)")
+      ->allow_extra_args(false)
+      ->type_name("L");
   command->add_flag("--json", options->json, "Print one flat JSON object in place of a table");
-  command->add_option("--heatmap", options->heat_map_path,
-                      "PNG to write: signed relative error and FLIP, a row for each layer");
+  command
+      ->add_option("--heatmap", options->heat_map_path,
+                   "PNG to write: signed relative error and FLIP, a row for each layer")
+      ->type_name("FILE");
   command
       ->add_option("--block", options->block,
-                   "Squared errors of the means of NxN pixels, not of single ones")
-      ->check(CLI::Range(1, kMaxBlock));
-  command->add_option("--noise", options->noise_path,
-                      "Standard error of B per pixel (EXR): also print RMSE/B without B's noise");
-  command->add_option("--scale", options->scale, "Factor on A before comparing")
-      ->check([](const std::string& text) {
-        const char* const begin = text.c_str();
-        return std::isfinite(std::strtod(begin, nullptr)) ? "" : "--scale must be finite";
-      });
+                   "Squared errors of the means of NxN pixels, not of single ones (1)")
+      ->check(whole_number(1, kMaxBlock))
+      ->type_name("N");
+  command
+      ->add_option("--noise", options->noise_path,
+                   "Standard error of B per pixel (EXR): also print RMSE/B without B's noise")
+      ->type_name("FILE");
+  command->add_option("--scale", options->scale, "Factor on A before comparing (1)")
+      ->check(number(-kMaxScale, kMaxScale))
+      ->type_name("F");
   command->callback([options, &run] { run = [options] { return compare(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "lambent/commands.h"
+#include "lambent/help.h"
 #include "lambent/vulkan.h"
 
 namespace lambent::cli {
@@ -62,6 +63,7 @@ void add_devices(CLI::App& app, Run& run) {
   auto as_json = std::make_shared<bool>(false);
   CLI::App* command =
       app.add_subcommand("devices", "List Vulkan devices, and what those lack that cannot be used");
+  command->group(kMachineGroup);
   command->add_flag("--json", *as_json, "As one flat object");
   command->callback([as_json, &run] { run = [as_json] { return list_devices(*as_json); }; });
 }

@@ -6,10 +6,15 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "core/atomic_file.h"
 #include "field/file/field_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
 #include "lambent/image.h"
+#include "lambent/input.h"
+#include "lambent/output.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 namespace {
@@ -18,6 +23,8 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kIrradianceFormats[] = {"rgb9e5", "r11g11b10f", "float32"};
 constexpr const char* kDistanceFormats[] = {"rg16f", "rg32f"};
+constexpr const char* kIrradianceEnding = ".irradiance.exr";
+constexpr const char* kDistanceEnding = ".distance.exr";
 constexpr std::array kStates = {"off",   "sleeping",       "newly_awake",
                                 "awake", "newly_vigilant", "vigilant"};
 
@@ -112,6 +119,7 @@ void print_volume(const FieldVolume& volume) {
 }
 
 Expected<void> info(const std::string& path, bool as_json) {
+  if (const auto fine = check_field_input(path); !fine) return fine;
   const Expected<FieldFile> field = read_field_file(path);
   if (!field) return tl::unexpected(field.error());
   if (as_json) {
@@ -153,7 +161,8 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     const vec3 value = store.irradiance_texel(probe, texel);
     for (int c = 0; c < 3; ++c) light.at(x, y)[c] = value[c];
   });
-  if (auto done = write_exr(prefix + ".irradiance.exr", irradiance); !done) return done;
+  if (auto done = write_exr(prefix + kIrradianceEnding, irradiance); !done) return done;
+  tell_written(prefix + kIrradianceEnding, pixels_text(irradiance.width, irradiance.height));
 
   LayeredImage distance = blank_atlas(volume, volume.distance_texels);
   distance.require("", 1);
@@ -164,17 +173,29 @@ Expected<void> export_volume(const FieldVolume& volume, const std::string& prefi
     *means.at(x, y) = moments.x;
     *squares.at(x, y) = moments.y;
   });
-  return write_exr(prefix + ".distance.exr", distance);
+  if (auto done = write_exr(prefix + kDistanceEnding, distance); !done) return done;
+  tell_written(prefix + kDistanceEnding, pixels_text(distance.width, distance.height));
+  return {};
 }
 
 Expected<void> export_atlases(const std::string& path, const std::string& prefix) {
-  if (const auto fine = check_writable(prefix + ".irradiance.exr"); !fine) return fine;
+  if (const auto fine = check_place(prefix + kIrradianceEnding); !fine) return fine;
+  if (const auto fine = check_field_input(path); !fine) return fine;
   const Expected<FieldFile> field = read_field_file(path);
   if (!field) return tl::unexpected(field.error());
+  const auto prefix_of = [&](std::size_t i) {
+    return field->volumes.size() == 1 ? prefix : prefix + "." + std::to_string(i);
+  };
+  CommandFiles files;
+  files.reads(path, "the field");
   for (std::size_t i = 0; i < field->volumes.size(); ++i) {
-    const bool one = field->volumes.size() == 1;
-    const std::string name = one ? prefix : prefix + "." + std::to_string(i);
-    if (auto done = export_volume(field->volumes[i], name); !done) return done;
+    files.writes(prefix_of(i) + kIrradianceEnding, "-o");
+    files.writes(prefix_of(i) + kDistanceEnding, "-o");
+  }
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  for (std::size_t i = 0; i < field->volumes.size(); ++i) {
+    if (auto made = make_folders(prefix_of(i) + kIrradianceEnding); !made) return made;
+    if (auto done = export_volume(field->volumes[i], prefix_of(i)); !done) return done;
   }
   return {};
 }
@@ -183,6 +204,7 @@ Expected<void> export_atlases(const std::string& path, const std::string& prefix
 
 void add_field(CLI::App& app, Run& run) {
   CLI::App* command = app.add_subcommand("field", "Look into a field file, or export it");
+  command->group(kFieldGroup);
   command->require_subcommand(1);
 
   struct Options {
@@ -191,16 +213,17 @@ void add_field(CLI::App& app, Run& run) {
   };
   const auto o = std::make_shared<Options>();
   CLI::App* print = command->add_subcommand("info", "Print what a field file holds");
-  print->add_option("file", o->file, "Field file, of lambent bake")->required();
+  print->add_option("FILE", o->file, "Field file, of lambent bake")->required();
   print->add_flag("--json", o->json, "One flat JSON object");
   print->callback([o, &run] { run = [o] { return info(o->file, o->json); }; });
 
   CLI::App* atlases = command->add_subcommand("export", "Write the atlases of a field as .exr");
-  atlases->add_option("file", o->file, "Field file, of lambent bake")->required();
+  atlases->add_option("FILE", o->file, "Field file, of lambent bake")->required();
   atlases
       ->add_option("-o,--output", o->prefix,
                    "Write this and .irradiance.exr, and this and .distance.exr")
-      ->required();
+      ->required()
+      ->type_name("PREFIX");
   atlases->callback([o, &run] { run = [o] { return export_atlases(o->file, o->prefix); }; });
 }
 

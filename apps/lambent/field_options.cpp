@@ -4,8 +4,10 @@
 #include <CLI/CLI.hpp>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "lambent/parse.h"
+#include "lambent/validators.h"
 
 namespace lambent::cli {
 namespace {
@@ -22,8 +24,33 @@ const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
 const std::map<std::string, DistanceFormat> kDistanceFormats = {{"rg16f", DistanceFormat::rg16f},
                                                                 {"rg32f", DistanceFormat::rg32f}};
 
+// The widest distance between probes whose square is still a number [m].
+constexpr double kMaxSpacing = 1e15;
+constexpr int kMaxCascades = 16;
+
 const std::map<std::string, Visibility> kVisibilities = {
     {"moments", Visibility::moments}, {"hybrid", Visibility::hybrid}, {"exact", Visibility::exact}};
+
+/// What a setting of the library is called on the command line. Those that are not here cannot be
+/// reached from there.
+constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
+    {"rays", "--rays"},
+    {"hysteresis", "--hysteresis"},
+    {"irradiance texels", "--irradiance-texels"},
+    {"distance texels", "--distance-texels"},
+    {"bounces", "--bounces"},
+    {"cascades", "--cascades"},
+    {"probe spacing", "--probe-spacing"},
+    {"probes", "--probes"},
+    {"volume", "--bounds"},
+    {"volumes", "--volume"}};
+
+template <class Value>
+std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
 
 FieldProgress run_updates(const World& world, int most, bool until_settled,
                           const UpdateRequest& request, IrradianceField& field,
@@ -87,57 +114,67 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
 }  // namespace
 
 void add_field_options(CLI::App& command, FieldOptions& o) {
-  o.of_shape.push_back(command.add_option("--probes", o.probes, "Probes along each axis, XxYxZ"));
-  o.of_shape.push_back(
-      command
-          .add_option("--probe-spacing", o.settings.probe_spacing, "Distance between probes [m]")
-          ->check([](const std::string& text) {
-            float spacing = 0.0f;
-            const bool fine = CLI::detail::lexical_cast(text, spacing) && spacing > 0.0f;
-            return fine ? std::string() : "'" + text + "' is not a number above 0";
-          }));
-  o.of_shape.push_back(
-      command.add_option("--bounds", o.bounds, "Box of the probes, x0,y0,z0,x1,y1,z1 [m]"));
-  o.of_shape.push_back(command
-                           .add_option("--cascades", o.settings.cascades,
-                                       "Nested volumes around the camera, in place of one box")
-                           ->check(CLI::Range(0, 16)));
-  o.of_shape.push_back(
-      command
-          .add_option("--volume", o.volumes,
-                      "Another volume: a box, then any of :spacing=M :probes=XxYxZ :turn=DEGREES "
-                      ":priority=N")
-          ->allow_extra_args(false)
-          ->take_all());
-  command.add_option("--rays", o.settings.rays_per_probe, "Rays a probe and update")
-      ->check(CLI::Range(16, 4096))
-      ->capture_default_str();
+  command.option_defaults()->group("The field");
+  const auto of_shape = [&o](CLI::Option* option) {
+    o.of_shape.push_back(option);
+    return option;
+  };
+  of_shape(command.add_option("--probes", o.probes, "Probes along each axis, each 2 to 4096"))
+      ->type_name("XxYxZ");
+  of_shape(command.add_option("--probe-spacing", o.settings.probe_spacing,
+                              "Or the distance between them [m] (about 4,096 probes)"))
+      ->check(number_above_zero(kMaxSpacing))
+      ->type_name("M");
+  of_shape(command.add_option("--bounds", o.bounds,
+                              "Box of the probes [m] (the scene's open space, a little inside)"))
+      ->type_name("X0,Y0,Z0,X1,Y1,Z1");
+  of_shape(command.add_option("--cascades", o.settings.cascades,
+                              "Nested volumes around the camera in place of one box, 1 to 16"))
+      ->check(whole_number(0, kMaxCascades))
+      ->type_name("N");
+  of_shape(command.add_option("--volume", o.volumes,
+                              "Another volume: a box as of --bounds, then any of :spacing=M "
+                              ":probes=XxYxZ :turn=DEGREES :priority=N"))
+      ->allow_extra_args(false)
+      ->take_all()
+      ->type_name("BOX[:KEY=VALUE]...");
+  command.add_option("--rays", o.settings.rays_per_probe, "Rays a probe and update, 16 to 4096")
+      ->check(whole_number(16, 4096))
+      ->capture_default_str()
+      ->type_name("N");
   command
-      .add_option("--hysteresis", o.settings.hysteresis, "Share of the old light an update keeps")
-      ->check(CLI::Range(0.0f, 0.999f))
-      ->capture_default_str();
-  o.of_shape.push_back(
-      command
-          .add_option("--irradiance-format", o.irradiance_format, "rgb9e5, r11g11b10f or float32")
-          ->check(CLI::IsMember(kIrradianceFormats))
-          ->capture_default_str());
-  o.of_shape.push_back(command.add_option("--distance-format", o.distance_format, "rg16f or rg32f")
-                           ->check(CLI::IsMember(kDistanceFormats))
-                           ->capture_default_str());
-  o.of_shape.push_back(
-      command
-          .add_option("--irradiance-texels", o.settings.irradiance_texels, "Of a tile's edge, even")
-          ->check(CLI::Range(2, 16))
-          ->capture_default_str());
-  o.of_shape.push_back(
-      command.add_option("--distance-texels", o.settings.distance_texels, "Of a tile's edge")
-          ->check(CLI::Range(4, 32))
-          ->capture_default_str());
-  o.of_shape.push_back(
+      .add_option("--hysteresis", o.settings.hysteresis,
+                  "Share of the old light that an update keeps, 0 to 0.999")
+      ->check(number(0.0, 0.999))
+      ->capture_default_str()
+      ->type_name("H");
+  of_shape(command.add_option("--irradiance-format", o.irradiance_format,
+                              "rgb9e5, r11g11b10f or float32"))
+      ->check(one_of(names_of(kIrradianceFormats)))
+      ->capture_default_str()
+      ->type_name("F");
+  of_shape(command.add_option("--distance-format", o.distance_format, "rg16f or rg32f"))
+      ->check(one_of(names_of(kDistanceFormats)))
+      ->capture_default_str()
+      ->type_name("F");
+  of_shape(command.add_option("--irradiance-texels", o.settings.irradiance_texels,
+                              "Along a tile's edge, 2 to 16, even"))
+      ->check(whole_number(2, 16))
+      ->capture_default_str()
+      ->type_name("N");
+  of_shape(command.add_option("--distance-texels", o.settings.distance_texels,
+                              "Along a tile's edge, 4 to 32"))
+      ->check(whole_number(4, 32))
+      ->capture_default_str()
+      ->type_name("N");
+  of_shape(
       command.add_flag("!--no-relocation", o.settings.relocation, "Keep the probes on the grid"));
-  command.add_option("--visibility", o.settings.visibility, "Of probes: moments, hybrid or exact")
-      ->transform(CLI::CheckedTransformer(kVisibilities))
-      ->default_str("moments");
+  command
+      .add_option("--visibility", o.visibility,
+                  "Which probes a lookup sees: moments, hybrid or exact")
+      ->check(one_of(names_of(kVisibilities)))
+      ->capture_default_str()
+      ->type_name("V");
 }
 
 Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
@@ -147,6 +184,7 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
   settings.max_bounces = bounces;
   settings.irradiance_format = kIrradianceFormats.at(options.irradiance_format);
   settings.distance_format = kDistanceFormats.at(options.distance_format);
+  settings.visibility = kVisibilities.at(options.visibility);
   if (!options.probes.empty()) {
     if (settings.probe_spacing > 0.0f && settings.cascades == 0) {
       return fail("--probes", "", "give either --probes or --probe-spacing");
@@ -170,6 +208,19 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
     settings.volumes.push_back(*volume);
   }
   return settings;
+}
+
+Error in_options(Error error, const FieldOptions& options) {
+  for (const auto& [setting, option] : kOptionsOfSettings) {
+    if (error.place != setting) continue;
+    error.place = option;
+    return error;
+  }
+  // Volumes are named by what was typed, or by the scene's author
+  for (const std::string& typed : options.volumes) {
+    if (error.place == "volume '" + typed + "'") error.place = "--volume " + typed;
+  }
+  return error;
 }
 
 FieldProgress update_field(const World& world, int updates, const UpdateRequest& request,

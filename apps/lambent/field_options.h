@@ -29,6 +29,7 @@ struct FieldOptions {
   std::vector<std::string> volumes;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
+  std::string visibility = "moments";
   std::vector<const CLI::Option*> of_shape;  // what a field's file has decided
 };
 
@@ -38,6 +39,9 @@ void add_field_options(CLI::App& command, FieldOptions& options);
 /// What the options say, with the volumes that the scene brings.
 Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
                                        std::uint32_t seed, int bounces);
+
+/// An error that the library has about a field's settings, told of the options that the user typed.
+Error in_options(Error error, const FieldOptions& options);
 
 /// Where updates of a field led.
 struct FieldProgress {

@@ -2,14 +2,21 @@
 #include "lambent/frame_renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
 #include "core/image/metrics.h"
+#include "core/memory.h"
+#include "lambent/console.h"
+#include "lambent/memory_check.h"
 #include "lambent/progress_bar.h"
+#include "lambent/render_output.h"
 #include "lambent/renderer.h"
+#include "lambent/step.h"
 #include "reference/path_tracer.h"
 
 namespace lambent::cli {
@@ -37,12 +44,16 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world) {
   const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  if (options.field_file.empty()) return IrradianceField::make(*settings, open_bounds(world));
+  if (options.field_file.empty()) return make_field(*settings, options.field, world, 1);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
   if (!loaded) return tl::unexpected(loaded.error());
+  const auto probes = static_cast<std::uint64_t>(loaded->field.probes());
+  const auto fits =
+      check_field_memory(field_memory(loaded->field.settings(), probes),
+                         host_rays(loaded->field.settings(), world), 1, available_memory());
+  if (!fits) return tl::unexpected(fits.error());
   if (!loaded->same_light) {
-    std::fprintf(stderr, "lambent: %s was made under other light than the scene's\n",
-                 options.field_file.c_str());
+    warn(options.field_file + " was made under other light than the scene's");
   }
   return std::move(loaded->field);
 }
@@ -56,6 +67,24 @@ ReferenceSettings reference_settings(const RenderOptions& options, const glm::iv
   settings.seed = options.seed;
   if (options.bounces >= 0) settings.max_bounces = options.bounces;
   return settings;
+}
+
+/// Adds what a frame, or some of its rows, cost.
+void book(const RenderedFrame& frame, Json& stats) {
+  for (const PassTime& pass : frame.passes) {
+    const std::string key = pass.name + "_ms";
+    stats[key] = stats.value(key, 0.0) + pass.ms;
+  }
+  stats["camera_rays"] = stats.value("camera_rays", std::uint64_t{0}) + frame.rays;
+}
+
+/// The same view in few pixels: enough to tell how bright it is.
+FrameSettings preview_of(FrameSettings frame) {
+  constexpr int kPreviewSide = 512;  // [pixels], the longer one
+  const double scale = static_cast<double>(kPreviewSide) / std::max(frame.width, frame.height);
+  frame.width = std::max(1, static_cast<int>(std::lround(frame.width * scale)));
+  frame.height = std::max(1, static_cast<int>(std::lround(frame.height * scale)));
+  return frame;
 }
 
 }  // namespace
@@ -90,7 +119,7 @@ Expected<void> FrameRenderer::split_bounces(const World& world, const Camera& ca
   const auto settings =
       field_settings(options_.field, world.scene(), options_.seed, options_.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> all = IrradianceField::make(*settings, open_bounds(world));
+  Expected<IrradianceField> all = make_field(*settings, options_.field, world, 2);
   if (!all) return tl::unexpected(all.error());
   field_.emplace(std::move(*all));
   first_bounce_.emplace(
@@ -103,38 +132,86 @@ Expected<void> FrameRenderer::split_bounces(const World& world, const Camera& ca
   return {};
 }
 
-Expected<LayeredImage> FrameRenderer::paint(const World& world, const Camera& camera, Json& stats) {
-  if (options_.method == "reference") return paint_by_reference(world, camera, stats);
-  if (uses_field(options_)) {
-    const auto done = options_.method == "rsm+field" ? split_bounces(world, camera, stats)
-                                                     : follow(world, camera, stats);
-    if (!done) return tl::unexpected(done.error());
-  }
-  const auto rsm = rsm_settings(options_.rsm, options_.method, options_.seed);
-  if (!rsm) return tl::unexpected(rsm.error());
-  IndirectSources sources;
-  sources.rsm = uses_rsm(options_.method) ? &*rsm : nullptr;
-  sources.rsm_stages = options_.layers;
-  sources.field = field_ ? &*field_ : nullptr;
-  sources.subtracted_field = first_bounce_ ? &*first_bounce_ : nullptr;
+/// Brings the light that the method looks up to date with the world.
+Expected<void> FrameRenderer::light(const World& world, const Camera& camera, Json& stats) {
+  if (!uses_field(options_)) return {};
+  begin_step("updating the field");
+  return options_.method == "rsm+field" ? split_bounces(world, camera, stats)
+                                        : follow(world, camera, stats);
+}
+
+FrameSettings FrameRenderer::frame_settings() const {
   FrameSettings frame;
   frame.width = size_.x;
   frame.height = size_.y;
   frame.samples = options_.samples > 0 ? options_.samples : kFieldSamples;
   frame.gather_rays = options_.gather_rays;
   frame.seed = options_.seed;
-  RenderedFrame rendered = render_frame(world, sources, camera, frame, progress_);
-  for (const PassTime& pass : rendered.passes) stats[pass.name + "_ms"] = pass.ms;
-  stats["camera_rays"] = rendered.rays;
+  return frame;
+}
+
+Expected<RenderedFrame> FrameRenderer::render(const World& world, const Camera& camera,
+                                              const FrameSettings& frame,
+                                              const ProgressFn& progress) const {
+  begin_step("rendering the picture");
+  const auto rsm = rsm_settings(options_.rsm, options_.method, options_.seed);
+  if (!rsm) return tl::unexpected(rsm.error());
+  IndirectSources sources;
+  sources.rsm = uses_rsm(options_.method) ? &*rsm : nullptr;
+  sources.rsm_stages = options_.layers && sources.rsm != nullptr;
+  sources.field = field_ ? &*field_ : nullptr;
+  sources.subtracted_field = first_bounce_ ? &*first_bounce_ : nullptr;
+  return render_frame(world, sources, camera, frame, progress);
+}
+
+Expected<LayeredImage> FrameRenderer::paint(const World& world, const Camera& camera, Json& stats) {
+  if (options_.method == "reference") return paint_by_reference(world, camera, stats);
+  if (const auto lit = light(world, camera, stats); !lit) return tl::unexpected(lit.error());
+  Expected<RenderedFrame> rendered = render(world, camera, frame_settings(), progress_);
+  if (!rendered) return tl::unexpected(rendered.error());
+  book(*rendered, stats);
   if (!options_.show_probes.empty()) {
     const ProbeViewSettings view{.aspect = kProbeAspects.at(options_.show_probes)};
-    draw_probes(world, *field_, camera, view, rendered.image);
+    draw_probes(world, *field_, camera, view, rendered->image);
   }
-  return std::move(rendered.image);
+  return std::move(rendered->image);
+}
+
+Expected<void> FrameRenderer::paint_to_file(const World& world, const Camera& camera,
+                                            const std::string& path, std::optional<float>& stops,
+                                            Json& stats) {
+  PictureFile file(options_, path, size_, stops);
+  if (!made_in_bands(options_, size_)) {
+    Expected<LayeredImage> image = paint(world, camera, stats);
+    if (!image) return tl::unexpected(image.error());
+    if (const auto written = file.write(std::move(*image)); !written) return written;
+    return file.finish();
+  }
+  if (const auto lit = light(world, camera, stats); !lit) return lit;
+  FrameSettings frame = frame_settings();
+  if (file.needs_stops()) {
+    const Expected<RenderedFrame> small = render(world, camera, preview_of(frame), {});
+    if (!small) return tl::unexpected(small.error());
+    stops = automatic_stops(*small->image.find(""));
+  }
+  frame.rows = rows_of_a_band(size_);
+  for (; frame.first_row < size_.y; frame.first_row += frame.rows) {
+    frame.rows = std::min(frame.rows, size_.y - frame.first_row);
+    const auto of_all = [&](std::string_view stage, double share_done) {
+      progress_(stage, (frame.first_row + share_done * frame.rows) / size_.y);
+    };
+    Expected<RenderedFrame> band =
+        render(world, camera, frame, progress_ ? ProgressFn(of_all) : ProgressFn());
+    if (!band) return tl::unexpected(band.error());
+    book(*band, stats);
+    if (const auto written = file.write(std::move(band->image)); !written) return written;
+  }
+  return file.finish();
 }
 
 LayeredImage FrameRenderer::paint_by_reference(const World& world, const Camera& camera,
                                                Json& stats) const {
+  begin_step("tracing paths");
   const int samples = options_.samples > 0 ? options_.samples : kReferenceSamples;
   ReferenceResult result =
       render_reference(world, camera, reference_settings(options_, size_, samples), progress_);
@@ -142,13 +219,17 @@ LayeredImage FrameRenderer::paint_by_reference(const World& world, const Camera&
   stats["reference_ms"] = result.ms;
   stats["reference_rays"] = result.rays;
   stats["relative_standard_error"] = result.relative_standard_error;
-  std::printf("reference: %d samples a pixel, relative standard error %.4f\n", samples,
-              result.relative_standard_error);
+  std::array<char, 96> text;
+  std::snprintf(text.data(), text.size(),
+                "reference: %d samples a pixel, relative standard error %.4f", samples,
+                result.relative_standard_error);
+  tell(text.data());
   return std::move(result.image);
 }
 
 Expected<void> FrameRenderer::verify(const World& world, const Camera& camera,
                                      const LayeredImage& image, Json& stats) const {
+  begin_step("comparing with the reference");
   const ReferenceResult reference = render_reference(
       world, camera, reference_settings(options_, size_, options_.verify_samples), progress_);
   std::printf("error against %d path-traced samples a pixel (their own: %.4f)\n",

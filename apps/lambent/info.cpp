@@ -10,9 +10,11 @@
 #include <string>
 
 #include "lambent/commands.h"
+#include "lambent/help.h"
+#include "lambent/input.h"
 #include "lambent/scene.h"
+#include "lambent/words.h"
 #include "scene/attributes.h"
-#include "scenes/builtin.h"
 
 namespace lambent::cli {
 namespace {
@@ -47,16 +49,6 @@ Totals total(const Scene& scene) {
   }
   for (const Texture& texture : scene.textures) totals.texture_bytes += bytes_of(texture);
   return totals;
-}
-
-// Names come from files: nothing in them may reach the terminal as a control sequence.
-std::string printable(const std::string& text) {
-  std::string clean;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    clean += byte < 0x20 || byte == 0x7f ? '?' : c;
-  }
-  return clean;
 }
 
 std::string join(const std::vector<std::string>& parts) {
@@ -326,7 +318,7 @@ struct InfoOptions {
 };
 
 Expected<void> info(const InfoOptions& options) {
-  const Expected<Scene> scene = scenes::open_scene(options.scene);
+  const Expected<Scene> scene = open_scene_input(options.scene);
   if (!scene) return tl::unexpected(scene.error());
   if (options.json) {
     // Names are UTF-8 already; a path need not be
@@ -342,7 +334,8 @@ Expected<void> info(const InfoOptions& options) {
 
 void add_info(CLI::App& app, Run& run) {
   auto options = std::make_shared<InfoOptions>();
-  CLI::App* command = app.add_subcommand("info", "Print what was understood of a scene.");
+  CLI::App* command = app.add_subcommand("info", "Print what was understood of a scene");
+  command->group(kSceneGroup);
   command->add_option("SCENE", options->scene, "A .gltf or .glb file, or a built-in scene")
       ->required();
   command->add_flag("--json", options->json, "Print one flat JSON object");

@@ -9,7 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "core/nearest_word.h"
+#include "lambent/validators.h"
+#include "scene/limits.h"
 
 namespace lambent::cli {
 namespace {
@@ -17,6 +19,18 @@ namespace {
 constexpr int kMaxImageSide = 16384;
 constexpr int kMinProbes = 2;
 constexpr int kMaxProbes = 4096;
+
+/// What people call usual sizes of pictures [pixels].
+struct NamedSize {
+  const char* name;
+  int width, height;
+};
+constexpr NamedSize kSizes[] = {{"480p", 854, 480},    {"720p", 1280, 720},   {"1080p", 1920, 1080},
+                                {"1440p", 2560, 1440}, {"2160p", 3840, 2160}, {"4k", 3840, 2160},
+                                {"4320p", 7680, 4320}, {"8k", 7680, 4320}};
+
+// Brighter or darker by more stops shows white or black whatever the picture [stops].
+constexpr double kMaxStops = 64.0;
 
 /// The numbers between separators, or nothing if any part is not a number.
 template <class T>
@@ -94,13 +108,6 @@ bool has_ending(const std::string& path, const char* ending) {
   return extension == ending;
 }
 
-Expected<void> check_output(const std::string& path, const char* ending) {
-  if (!has_ending(path, ending)) {
-    return fail(path, "", std::string("the output must end in ") + ending);
-  }
-  return check_writable(path);
-}
-
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text) {
   const auto n = parse_floats(option, text, 3, "three numbers x,y,z");
   if (!n) return tl::unexpected(n.error());
@@ -108,11 +115,9 @@ Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& tex
 }
 
 Expected<glm::vec3> parse_place(const std::string& option, const std::string& text) {
-  // Squares of distances to it are still numbers
-  constexpr float kFarthest = 1e15f;
   const auto place = parse_vec3(option, text);
-  if (place && glm::any(glm::greaterThan(glm::abs(*place), glm::vec3(kFarthest)))) {
-    return malformed(option, text, "a place within 1e15 m of the origin");
+  if (place && !is_in_reach(*place)) {
+    return malformed(option, text, "a place within 1e9 m of the origin");
   }
   return place;
 }
@@ -123,13 +128,24 @@ Expected<Bounds> parse_box(const std::string& option, const std::string& text) {
   if (!n) return tl::unexpected(n.error());
   const Bounds box{{(*n)[0], (*n)[1], (*n)[2]}, {(*n)[3], (*n)[4], (*n)[5]}};
   if (!glm::all(glm::lessThan(box.min, box.max))) return malformed(option, text, kWanted);
+  if (!is_in_reach(box.min) || !is_in_reach(box.max)) {
+    return malformed(option, text, "a box within 1e9 m of the origin");
+  }
   return box;
 }
 
 Expected<glm::ivec2> parse_size(const std::string& option, const std::string& text) {
-  const auto n = parse_ints(option, text, 2, 1, kMaxImageSide, "a size WxH, each 1 to 16384");
-  if (!n) return tl::unexpected(n.error());
-  return glm::ivec2((*n)[0], (*n)[1]);
+  std::vector<std::string> names;
+  for (const NamedSize& size : kSizes) {
+    if (text == size.name) return glm::ivec2(size.width, size.height);
+    names.emplace_back(size.name);
+  }
+  const auto n = parse_ints(option, text, 2, 1, kMaxImageSide,
+                            "a size: WxH, each 1 to 16384, or a name such as 720p, 1080p or 4k");
+  if (n) return glm::ivec2((*n)[0], (*n)[1]);
+  Error error = n.error();
+  error.cause += did_you_mean(text, names);
+  return tl::unexpected(error);
 }
 
 Expected<glm::ivec3> parse_counts(const std::string& option, const std::string& text) {
@@ -162,6 +178,16 @@ Expected<ProbeVolume> parse_volume(const std::string& option, const std::string&
     return fail(option, "", "give either probes or spacing");
   }
   return volume;
+}
+
+Expected<std::optional<float>> parse_exposure(const std::string& text) {
+  if (text == "auto") return std::optional<float>();
+  const std::optional<double> stops = finite_number(text);
+  if (!stops || std::abs(*stops) > kMaxStops) {
+    return fail("--exposure", "",
+                "'" + text + "' is neither auto nor a number of stops, -64 to 64");
+  }
+  return std::optional<float>(static_cast<float>(*stops));
 }
 
 }  // namespace lambent::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 
 #include "lambent/error.h"
@@ -13,20 +14,17 @@ namespace lambent::cli {
 /// Whether a path ends in `ending` (".png"), in capitals or not.
 bool has_ending(const std::string& path, const char* ending);
 
-/// Fails where a file cannot be written, or its name does not end as its content asks for: before
-/// any work is done for it.
-Expected<void> check_output(const std::string& path, const char* ending);
-
 /// "x,y,z", finite numbers. `option` names the culprit in the error.
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text);
 
-/// The same for a place [m], no coordinate of which is beyond what rays can start from, 1e15.
+/// The same for a place [m], no coordinate of which is beyond kMaxCoordinate (scene/limits.h).
 Expected<glm::vec3> parse_place(const std::string& option, const std::string& text);
 
-/// "x0,y0,z0,x1,y1,z1": two corners of a box with min < max.
+/// "x0,y0,z0,x1,y1,z1": two corners of a box with min < max, within kMaxCoordinate.
 Expected<Bounds> parse_box(const std::string& option, const std::string& text);
 
-/// "WxH", each 1 to 16384.
+/// "WxH", each 1 to 16384, or a name of a usual size: "480p", "720p", "1080p", "1440p", "2160p" or
+/// "4k", "4320p" or "8k".
 Expected<glm::ivec2> parse_size(const std::string& option, const std::string& text);
 
 /// "XxYxZ", each 2 to 4096.
@@ -35,5 +33,8 @@ Expected<glm::ivec3> parse_counts(const std::string& option, const std::string& 
 /// A box as of parse_box, and after it, in any order, ":spacing=M", ":probes=XxYxZ",
 /// ":turn=DEGREES" (about +Y, through its middle), ":priority=N".
 Expected<ProbeVolume> parse_volume(const std::string& option, const std::string& text);
+
+/// Stops, or nothing for "auto".
+Expected<std::optional<float>> parse_exposure(const std::string& text);
 
 }  // namespace lambent::cli

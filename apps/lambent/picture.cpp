@@ -5,11 +5,20 @@
 #include <memory>
 #include <string>
 
-#include "core/image/metrics.h"
+#include "core/image/exposure.h"
 #include "core/image/tone_map.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
 #include "lambent/image.h"
+#include "lambent/input.h"
+#include "lambent/layers.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
+#include "lambent/step.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 namespace {
@@ -23,35 +32,50 @@ struct Options {
 };
 
 Expected<void> picture(const Options& options) {
-  if (const Expected<void> fine = check_output(options.output, ".png"); !fine) return fine;
+  if (const Expected<void> fine = check_output(options.output, kPictureEndings); !fine) return fine;
+  CommandFiles files;
+  files.reads(options.input, "the image");
+  files.writes(options.output, "-o");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  const auto asked_stops = parse_exposure(options.exposure);
+  if (!asked_stops) return tl::unexpected(asked_stops.error());
+  if (const Expected<void> fine = check_image_input(options.input); !fine) return fine;
+  begin_step("reading the image");
   const Expected<LayeredImage> file = read_image(options.input);
   if (!file) return tl::unexpected(file.error());
-  const Image* layer = file->find(options.layer);
-  if (layer == nullptr) return fail(options.input, "layer " + options.layer, "not in the file");
+  const Expected<const Image*> layer = find_layer(options.input, *file, options.layer);
+  if (!layer) return tl::unexpected(layer.error());
 
-  float stops = 0.0f;
-  if (options.exposure == "auto") {
-    stops = static_cast<float>(std::log2(auto_exposure(*layer)));
-  } else if (!CLI::detail::lexical_cast(options.exposure, stops) || !std::isfinite(stops)) {
-    return fail("--exposure", "",
-                "'" + options.exposure + "' is neither auto nor a number of stops");
-  }
-  return write_png(options.output,
-                   display_image(*layer, *tone_map_from_name(options.tone_map), stops));
+  begin_step("encoding the picture");
+  const float stops =
+      *asked_stops ? **asked_stops : static_cast<float>(std::log2(display_exposure(**layer)));
+  const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops);
+  if (const Expected<void> fine = make_folders(options.output); !fine) return fine;
+  const bool png = has_ending(options.output, ".png");
+  const auto done = png ? write_png(options.output, shown) : write_jpeg(options.output, shown);
+  if (!done) return done;
+  tell_written(options.output, pixels_text(shown.width, shown.height), exposure_text(stops));
+  return {};
 }
 
 }  // namespace
 
 void add_picture(CLI::App& app, Run& run) {
   const auto o = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("picture", "Show a layer of an image as a .png");
-  command->add_option("image", o->input, "Image: .exr, .hdr, .png or .jpg")->required();
-  command->add_option("-o,--output", o->output, "The .png file to write")->required();
-  command->add_option("--layer", o->layer, "Layer to show (the whole picture)");
-  command->add_option("--exposure", o->exposure, "In stops, or auto")->capture_default_str();
+  CLI::App* command = app.add_subcommand("picture", "Show a layer of an image as a display does");
+  command->group(kPictureGroup);
+  command->add_option("IMAGE", o->input, "Image: .exr, .hdr, .png or .jpg")->required();
+  command->add_option("-o,--output", o->output, "The .png or .jpg file to write")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--layer", o->layer, "Layer to show (the whole picture)")->type_name("L");
+  command->add_option("--exposure", o->exposure, "In stops, or auto")
+      ->capture_default_str()
+      ->type_name("E");
   command->add_option("--tone-map", o->tone_map, "aces, neutral or linear")
-      ->check(CLI::IsMember({"aces", "neutral", "linear"}))
-      ->capture_default_str();
+      ->check(one_of({"aces", "neutral", "linear"}))
+      ->capture_default_str()
+      ->type_name("T");
   command->callback([o, &run] { run = [o] { return picture(*o); }; });
 }
 

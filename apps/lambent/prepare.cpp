@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // lambent prepare: a scene in a file for machines that cannot read any other.
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 
-#include "core/atomic_file.h"
+#include "lambent/command_files.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
+#include "lambent/output.h"
 #include "lambent/stage.h"
+#include "lambent/step.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
 #include "lambent/world.h"
 #include "scene/prepared.h"
 
@@ -25,17 +29,27 @@ struct Options {
 };
 
 Expected<void> prepare(const Options& options) {
-  if (const Expected<void> fine = check_writable(options.output); !fine) return fine;
+  if (const Expected<void> fine = check_own_output(options.output, "a prepared scene"); !fine)
+    return fine;
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
+  files.writes(options.output, "-o");
+  if (const auto distinct = files.check(); !distinct) return distinct;
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
-  const Expected<Camera> camera = choose_camera(options.stage, World(*scene));
-  if (!camera) return tl::unexpected(camera.error());
-  scene->cameras.insert(scene->cameras.begin(), *camera);
+  World world(*scene);
+  const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  scene->cameras.insert(scene->cameras.begin(), view->camera);
   limit_textures(*scene, options.texture_size);
+  if (const auto fine = make_folders(options.output); !fine) return fine;
   if (const auto saved = save_prepared(*scene, options.output); !saved) return saved;
-  std::printf("%s: %zu triangles, %zu textures, %ju bytes\n", options.output.c_str(),
-              triangle_count(*scene), scene->textures.size(),
-              std::uintmax_t{std::filesystem::file_size(options.output)});
+  tell_written(options.output, count_text(triangle_count(*scene), "triangle") + " and " +
+                                   count_text(scene->textures.size(), "texture"));
   return {};
 }
 
@@ -46,9 +60,14 @@ void add_prepare(CLI::App& app, Run& run) {
   CLI::App* command =
       app.add_subcommand("prepare", "Write a scene as a file that lambent_gpu_bench reads");
   add_stage_options(*command, options->stage);
-  command->add_option("-o,--output", options->output, "The file to write")->required();
+  command->group(kSceneGroup);
+  command->option_defaults()->group("The file");
+  command->add_option("-o,--output", options->output, "The file to write")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--texture-size", options->texture_size, "Longest side of textures [texels]")
-      ->check(CLI::Range(1, kAnyTextureSize));
+      ->check(whole_number(1, kAnyTextureSize))
+      ->type_name("N");
   command->callback([options, &run] { run = [options] { return prepare(*options); }; });
 }
 

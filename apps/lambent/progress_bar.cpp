@@ -9,6 +9,9 @@
 #include <memory>
 #include <utility>
 
+#include "lambent/console.h"
+#include "lambent/words.h"
+
 namespace lambent::cli {
 namespace {
 
@@ -21,20 +24,6 @@ constexpr int kMinBarColumns = 10, kMaxBarColumns = 40;
 constexpr int kDefaultColumns = 80;
 /// Back to the start of the line, and erase it (ECMA-48 EL).
 constexpr std::string_view kWipe = "\r\x1b[K";
-
-/// "45 s", "3 min 05 s", "2 h 10 min".
-std::string duration_text(double seconds) {
-  const long whole = std::lround(std::min(std::max(seconds, 0.0), 1e9));
-  char text[48];
-  if (whole < 60) {
-    std::snprintf(text, sizeof text, "%ld s", whole);
-  } else if (whole < 3600) {
-    std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
-  } else {
-    std::snprintf(text, sizeof text, "%ld h %02ld min", whole / 3600, whole / 60 % 60);
-  }
-  return text;
-}
 
 int terminal_columns() {
   winsize size{};
@@ -54,7 +43,8 @@ std::string progress_line(std::string_view stage, double share_done, double elap
   char percent[16];
   std::snprintf(percent, sizeof percent, " %3d %%", static_cast<int>(share * 100.0));
   std::string tail = percent;
-  if (share > 0.0) tail += "  " + duration_text(elapsed_seconds * (1.0 - share) / share) + " left";
+  if (share > 0.0)
+    tail += "  " + whole_seconds_text(elapsed_seconds * (1.0 - share) / share) + " left";
 
   // The bar takes what is left of the line, and goes first where the terminal is narrow.
   std::string line(stage);
@@ -98,7 +88,7 @@ void ProgressBar::clear() {
 }
 
 ProgressFn terminal_progress() {
-  if (isatty(STDERR_FILENO) == 0) return {};
+  if (is_quiet() || isatty(STDERR_FILENO) == 0) return {};
   const auto write = [](std::string_view text) {
     std::fwrite(text.data(), 1, text.size(), stderr);
     std::fflush(stderr);

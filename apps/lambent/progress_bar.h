@@ -41,8 +41,8 @@ class ProgressBar {
   bool drawn_ = false;
 };
 
-/// Progress on stderr when that is a terminal, silent otherwise. The line is wiped when the last
-/// copy of the function is gone.
+/// Progress on stderr when that is a terminal and the program not quiet, silent otherwise. The line
+/// is wiped when the last copy of the function is gone.
 ProgressFn terminal_progress();
 
 }  // namespace lambent::cli

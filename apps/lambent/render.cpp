@@ -4,14 +4,20 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "core/atomic_file.h"
+#include "core/memory.h"
 #include "lambent/commands.h"
+#include "lambent/console.h"
 #include "lambent/frame_renderer.h"
+#include "lambent/help.h"
+#include "lambent/memory_check.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
 #include "lambent/render_sequence.h"
+#include "lambent/step.h"
 #include "lambent/threads.h"
+#include "lambent/words.h"
 #include "lambent/world.h"
 
 namespace lambent::cli {
@@ -19,31 +25,40 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kExamples =
+    "  lambent render scene.glb                     write scene.png, with everything chosen\n"
+    "  lambent render scene.glb --size 1080p --sun=0.3,-1,0.2 -o pictures/day.jpg\n"
+    "  lambent render scene.glb --eye 2,1.7,3 --target 0,1,0 --layers -o layers.exr\n";
+
 Expected<void> render_picture(const RenderOptions& options, const World& world,
-                              FrameRenderer& renderer, Json& stats) {
-  const Expected<Camera> camera = choose_camera(options.stage, world);
-  if (!camera) return tl::unexpected(camera.error());
-  const Expected<LayeredImage> image = renderer.paint(world, *camera, stats);
-  if (!image) return tl::unexpected(image.error());
+                              const Camera& camera, FrameRenderer& renderer, Json& stats) {
   std::optional<float> stops;
-  const auto done = write_output(options, *image, options.output, stops);
-  if (!done || options.verify_samples == 0) return done;
-  if (world.on_device() == nullptr) return renderer.verify(world, *camera, *image, stats);
-  return renderer.verify(World(world.scene()), *camera, *image, stats);
+  if (const auto made = make_folders(options.output); !made) return made;
+  Expected<LayeredImage> image;  // what --verify compares
+  if (options.verify_samples > 0) {
+    image = renderer.paint(world, camera, stats);
+    if (!image) return tl::unexpected(image.error());
+  }
+  const auto done = options.verify_samples > 0
+                        ? write_output(options, *image, options.output, stops)
+                        : renderer.paint_to_file(world, camera, options.output, stops, stats);
+  if (!done) return done;
+  tell_written(options.output, pixels_text(renderer.size().x, renderer.size().y),
+               stops ? exposure_text(*stops) : "");
+  if (options.verify_samples == 0) return {};
+  if (world.on_device() == nullptr) return renderer.verify(world, camera, *image, stats);
+  return renderer.verify(World(world.scene()), camera, *image, stats);
 }
 
 /// The animation that the options name; -1: all of them.
 Expected<int> chosen_animation(const RenderOptions& options, const Scene& scene) {
   if (options.animation.empty()) return -1;
-  std::string known;
+  std::vector<std::string> names;
   for (int i = 0; i < static_cast<int>(scene.animations.size()); ++i) {
-    const std::string& name = scene.animations[i].name;
-    if (options.animation == name || options.animation == std::to_string(i)) return i;
-    known += (i == 0 ? "" : ", ") + std::to_string(i) + " " + name;
+    names.push_back(scene.animations[i].name);
+    if (options.animation == names.back() || options.animation == std::to_string(i)) return i;
   }
-  return fail("--animation", "",
-              "no animation '" + options.animation + "'; the scene has " +
-                  (known.empty() ? std::string("none") : known));
+  return fail("--animation", "", no_such("animation", options.animation, names));
 }
 
 /// Poses the scene at the time that the options ask for, a sequence's start included.
@@ -62,17 +77,28 @@ Expected<void> render(const RenderOptions& options) {
   if (const auto fine = check_options(options); !fine) return fine;
   const auto size = parse_size("--size", options.size);
   if (!size) return tl::unexpected(size.error());
+  if (const auto fits = check_picture_memory(options, *size, available_memory()); !fits)
+    return fits;
   const ThreadLimit limit(options.threads);
 
   const auto device = open_backend(options.backend);
   if (!device) return tl::unexpected(device.error());
 
+  begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
   const auto animation = chosen_animation(options, *scene);
   if (!animation) return tl::unexpected(animation.error());
   if (const auto posed = pose(options, *animation, *scene); !posed) return posed;
+  begin_step("preparing the scene for rays");
   World world(*scene, *device);
+  const float aspect = static_cast<float>(size->x) / static_cast<float>(size->y);
+  const Expected<View> view = choose_view(options.stage, world, aspect);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  tell("camera: " + describe(*view));
+  tell("light: " + *light);
 
   Json stats;
   stats["method"] = options.method;
@@ -86,12 +112,13 @@ Expected<void> render(const RenderOptions& options) {
 
   FrameRenderer renderer(options, *size);
   const Expected<void> done =
-      options.frames > 0 ? render_sequence(options, *scene, *animation, world, renderer, stats)
-                         : render_picture(options, world, renderer, stats);
+      options.frames > 0
+          ? render_sequence(options, *scene, *animation, *view, world, renderer, stats)
+          : render_picture(options, world, view->camera, renderer, stats);
   if (const auto silent = check_validation(device->get()); done && !silent) return silent;
   // Of a sequence that was interrupted, what was done is told
   if (options.stats.empty() || (!done && options.frames == 0)) return done;
-  const auto told = write_file_atomically(options.stats, stats.dump(2) + "\n");
+  const auto told = write_statistics(options.stats, stats);
   return done ? told : done;
 }
 
@@ -101,7 +128,12 @@ void add_render(CLI::App& app, Run& run) {
   auto options = std::make_shared<RenderOptions>();
   CLI::App* command = app.add_subcommand("render", "Render a picture of a scene, or a sequence");
   add_render_options(*command, *options);
-  command->callback([options, &run] { run = [options] { return render(*options); }; });
+  command->group(kPictureGroup);
+  set_examples(*command, kExamples);
+  command->callback([options, &run] {
+    if (options->output.empty()) options->output = picture_beside(options->stage.scene);
+    run = [options] { return render(*options); };
+  });
 }
 
 }  // namespace lambent::cli

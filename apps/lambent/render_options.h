@@ -23,7 +23,7 @@ namespace lambent::cli {
 /// What `lambent render` was asked for.
 struct RenderOptions {
   StageOptions stage;
-  std::string output;
+  std::string output;  // empty: beside the scene, until render has chosen
   std::string method = "field";
   BackendOptions backend;
   std::string size = "1280x720";
@@ -52,8 +52,7 @@ struct RenderOptions {
   std::string field_file;  // to start from; empty: nothing
   int updates = 8;
   bool converge = false;
-  std::string show_probes;  // which aspect; empty: not
-  const CLI::Option* fps_option = nullptr;
+  std::string show_probes;                            // which aspect; empty: not
   std::vector<const CLI::Option*> of_running_fields;  // what a field that frames share is asked
   std::vector<const CLI::Option*> of_sequences;       // what means nothing to one picture
   std::vector<const CLI::Option*> of_the_field;       // what means nothing to other methods

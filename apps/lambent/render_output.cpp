@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/render_output.h"
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "core/atomic_file.h"
-#include "core/image/metrics.h"
+#include "core/image/exposure.h"
 #include "core/image/tone_map.h"
+#include "lambent/command_files.h"
+#include "lambent/output.h"
 #include "lambent/parse.h"
 
 namespace lambent::cli {
 namespace {
 
 constexpr const char* kFramePlace = "####";
-constexpr std::size_t kFrameDigits = 4;
+
+/// Rendered and written at a time: about 120 MB with all layers, and enough to keep all cores busy.
+constexpr std::size_t kBandPixels = std::size_t{1} << 20;
+/// Pictures of no more are kept until their exposure is known (400 MB, an 8K frame); of larger ones
+/// a small picture of the same view tells it.
+constexpr std::size_t kKeptPixels = std::size_t{1} << 25;
+
+std::size_t pixels_of(const glm::ivec2& size) {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+}
 
 }  // namespace
 
@@ -28,39 +39,127 @@ std::string frame_path(const std::string& pattern, int frame) {
 }
 
 Expected<void> check_outputs(const RenderOptions& options) {
+  const auto fine = check_output(options.output, {".png", ".jpg", ".jpeg", ".exr"});
+  if (!fine) return fine;
   const bool exr = has_ending(options.output, ".exr");
-  if (!exr && !has_ending(options.output, ".png")) {
-    return fail(options.output, "", "the output must end in .exr or .png");
+  if (options.layers && !exr) {
+    return fail("--layers", "", "go into an .exr alone: add -o FILE.exr");
   }
-  if (options.layers && !exr) return fail("--layers", "", "layers need an .exr output");
   const std::string first = options.frames > 0 ? frame_path(options.output, 0) : options.output;
   for (const std::string& path : {first, options.stats}) {
     if (path.empty()) continue;
-    if (const Expected<void> fine = check_writable(path); !fine) return fine;
+    if (const Expected<void> place = check_place(path); !place) return place;
+  }
+  CommandFiles files;
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
+  files.reads(options.field_file, "--field");
+  if (options.frames > 0) {
+    files.writes_frames(options.output, options.frames, "-o");
+  } else {
+    files.writes(options.output, "-o");
+  }
+  files.writes(options.stats, "--stats");
+  return files.check();
+}
+
+bool made_in_bands(const RenderOptions& options, const glm::ivec2& size) {
+  const bool can = (options.method == "field" || options.method == "direct") &&
+                   options.show_probes.empty() && options.verify_samples == 0;
+  return can && pixels_of(size) > kBandPixels;
+}
+
+int rows_of_a_band(const glm::ivec2& size) {
+  return std::max(1, static_cast<int>(kBandPixels / static_cast<std::size_t>(size.x)));
+}
+
+bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size) {
+  return !has_ending(options.output, ".exr") && pixels_of(size) <= kKeptPixels &&
+         !*parse_exposure(options.exposure);
+}
+
+float automatic_stops(const Image& picture) {
+  return static_cast<float>(std::log2(display_exposure(picture)));
+}
+
+PictureFile::PictureFile(const RenderOptions& options, std::string path, const glm::ivec2& size,
+                         std::optional<float>& stops)
+    : options_(options), path_(std::move(path)), size_(size), stops_(stops) {
+  if (!stops_) stops_ = *parse_exposure(options.exposure);
+}
+
+bool PictureFile::needs_stops() const {
+  return !stops_ && !has_ending(path_, ".exr") && pixels_of(size_) > kKeptPixels;
+}
+
+Expected<void> PictureFile::write(LayeredImage rows) {
+  if (!has_ending(path_, ".exr")) {
+    Image& picture = *rows.find("");
+    if (stops_) return show(picture);
+    if (kept_.empty()) {
+      kept_ = Image(size_.x, 0, picture.channels);
+      kept_.pixels.reserve(pixels_of(size_) * static_cast<std::size_t>(picture.channels));
+    }
+    kept_.height += picture.height;
+    kept_.pixels.insert(kept_.pixels.end(), picture.pixels.begin(), picture.pixels.end());
+    return {};
+  }
+  if (!options_.layers) {
+    std::erase_if(rows.layers, [](const Layer& layer) { return !layer.name.empty(); });
+  }
+  if (!exr_) {
+    Expected<ExrWriter> opened = ExrWriter::open(path_, rows, size_.y);
+    if (!opened) return tl::unexpected(opened.error());
+    exr_.emplace(std::move(*opened));
+  }
+  return exr_->write(rows);
+}
+
+/// Adds rows to the .png or .jpg, which the first of them begin.
+Expected<void> PictureFile::add(const Image& shown) {
+  if (has_ending(path_, ".png")) {
+    if (!png_) {
+      Expected<PngWriter> opened = PngWriter::open(path_, size_.x, size_.y, shown.channels);
+      if (!opened) return tl::unexpected(opened.error());
+      png_.emplace(std::move(*opened));
+    }
+    return png_->write(shown);
+  }
+  if (!jpeg_) {
+    Expected<JpegWriter> opened = JpegWriter::open(path_, size_.x, size_.y);
+    if (!opened) return tl::unexpected(opened.error());
+    jpeg_.emplace(std::move(*opened));
+  }
+  return jpeg_->write(shown);
+}
+
+/// Writes rows as a display shows them.
+Expected<void> PictureFile::show(const Image& rows) {
+  const ToneMap tone_map = *tone_map_from_name(options_.tone_map);
+  const int at_once = rows_of_a_band(size_);
+  for (int first = 0; first < rows.height; first += at_once) {
+    Image some(rows.width, std::min(at_once, rows.height - first), rows.channels);
+    std::copy_n(rows.at(0, first), some.pixels.size(), some.pixels.begin());
+    const Image shown = display_image(some, tone_map, *stops_);
+    if (const auto written = add(shown); !written) return written;
   }
   return {};
 }
 
-Expected<std::optional<float>> parse_exposure(const std::string& text) {
-  float stops = 0.0f;
-  if (text == "auto") return std::optional<float>();
-  if (!CLI::detail::lexical_cast(text, stops) || !std::isfinite(stops)) {
-    return fail("--exposure", "", "'" + text + "' is neither auto nor a number of stops");
+Expected<void> PictureFile::finish() {
+  if (exr_) return exr_->finish();
+  if (!kept_.empty()) {
+    stops_ = automatic_stops(kept_);
+    if (const auto shown = show(kept_); !shown) return shown;
   }
-  return std::optional<float>(stops);
+  return png_ ? png_->finish() : jpeg_->finish();
 }
 
 Expected<void> write_output(const RenderOptions& options, const LayeredImage& image,
                             const std::string& path, std::optional<float>& stops) {
-  const Image& picture = *image.find("");
-  if (has_ending(path, ".exr")) {
-    if (options.layers) return write_exr(path, image);
-    LayeredImage whole{image.width, image.height, {{"", picture}}};
-    return write_exr(path, whole);
-  }
-  if (!stops) stops = *parse_exposure(options.exposure);
-  if (!stops) stops = static_cast<float>(std::log2(auto_exposure(picture)));
-  return write_png(path, display_image(picture, *tone_map_from_name(options.tone_map), *stops));
+  PictureFile file(options, path, {image.width, image.height}, stops);
+  if (const auto written = file.write(image); !written) return written;
+  return file.finish();
 }
 
 }  // namespace lambent::cli

@@ -2,7 +2,11 @@
 #include "lambent/render_rsm.h"
 
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <map>
+#include <utility>
+
+#include "lambent/validators.h"
 
 namespace lambent::cli {
 namespace {
@@ -12,6 +16,43 @@ const std::map<std::string, RsmPattern> kPatterns = {{"whole", RsmPattern::whole
 const std::map<std::string, RsmLayout> kLayouts = {{"restructured", RsmLayout::restructured},
                                                    {"sub-maps", RsmLayout::sub_maps},
                                                    {"full", RsmLayout::full}};
+
+// Whatever a float holds: the library says which numbers will do.
+constexpr double kAnyNumber = std::numeric_limits<float>::max();
+
+/// What a setting of the library is called on the command line. plane_tolerance has no option.
+constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
+    {"resolution", "--rsm-size"},      {"texels", "--rsm-texels"},
+    {"sub_maps", "--sub-maps"},        {"sub_images", "--sub-images"},
+    {"disk_radius", "--rsm-radius"},   {"softening", "--rsm-softening"},
+    {"sub_blur_radius", "--sub-blur"}, {"visibility_rays", "--rsm-visibility"},
+    {"downscale", "--rsm-downscale"}};
+
+/// An error of the library's, told of the option that the user typed.
+Error in_options(Error error) {
+  for (const auto& [setting, option] : kOptionsOfSettings) {
+    if (error.place != setting) continue;
+    error.place = option;
+    break;
+  }
+  return error;
+}
+
+/// Fails where options each make sense, but not together: as the library's check does, which names
+/// its own settings.
+Expected<void> check_together(const RsmSettings& s) {
+  if (s.sub_maps > 0 && s.sub_images % s.sub_maps != 0) {
+    return fail("--sub-images", "",
+                std::to_string(s.sub_images) + " is not a multiple of --sub-maps " +
+                    std::to_string(s.sub_maps) + ": some light would reach no pixel");
+  }
+  if (s.pattern != RsmPattern::disk) return {};
+  if (s.texels == 0) return fail("--rsm-texels", "", "0 does not go with --rsm-pattern disk");
+  if (s.visibility_rays > 0) {
+    return fail("--rsm-visibility", "", "goes with --rsm-pattern whole alone");
+  }
+  return {};
+}
 
 /// A copy of a scene in which directional, point and spot lights alone shine.
 Scene without_other_light(Scene scene) {
@@ -30,36 +71,44 @@ Scene without_other_light(Scene scene) {
 }  // namespace
 
 void add_rsm_options(CLI::App& command, RsmOptions& o) {
+  command.option_defaults()->group("Reflective shadow maps, for --method rsm and rsm+field");
   const std::size_t others = command.get_options().size();
   RsmSettings& s = o.settings;
-  command.add_option("--rsm-size", s.resolution, "Texels along an edge of each light's map")
-      ->capture_default_str();
-  command.add_option("--rsm-texels", s.texels, "Lights that each map becomes (0: all its texels)")
-      ->capture_default_str();
-  command.add_option("--sub-images", s.sub_images, "Along an edge of the picture")
-      ->capture_default_str();
-  command.add_option("--sub-maps", s.sub_maps, "Along an edge of the maps")->capture_default_str();
+  // Ranges are the library's to check; here a value must be a number
+  const auto count = [&command](const char* name, int& value, const char* what) {
+    command.add_option(name, value, what)
+        ->check(whole_number())
+        ->capture_default_str()
+        ->type_name("N");
+  };
+  const auto length = [&command](const char* name, float& value, const char* what) {
+    command.add_option(name, value, what)
+        ->check(number(-kAnyNumber, kAnyNumber))
+        ->capture_default_str()
+        ->type_name("R");
+  };
+  count("--rsm-size", s.resolution, "Texels along an edge of each light's map, 1 to 4096");
+  count("--rsm-texels", s.texels, "Lights that each map becomes, 1 to 65536; 0: all its texels");
+  count("--sub-images", s.sub_images, "Along an edge of the picture, 1 to 16");
+  count("--sub-maps", s.sub_maps, "Along an edge of the maps, 1 to 16");
   command.add_option("--rsm-pattern", o.pattern, "whole or disk")
-      ->check(CLI::IsMember(kPatterns))
-      ->capture_default_str();
+      ->check(one_of({"whole", "disk"}))
+      ->capture_default_str()
+      ->type_name("P");
   command.add_option("--rsm-layout", o.layout, "restructured, sub-maps or full")
-      ->check(CLI::IsMember(kLayouts))
-      ->capture_default_str();
-  command.add_option("--rsm-radius", s.disk_radius, "Of the disk, in edges of the map")
-      ->capture_default_str();
-  command.add_option("--rsm-softening", s.softening, "Spreads texels' light")
-      ->capture_default_str();
-  command.add_option("--sub-blur", s.sub_blur_radius, "Radius of the blur in sub-images")
-      ->capture_default_str();
+      ->check(one_of({"restructured", "sub-maps", "full"}))
+      ->capture_default_str()
+      ->type_name("L");
+  length("--rsm-radius", s.disk_radius, "Of the disk, in edges of the map, above 0 to 2");
+  length("--rsm-softening", s.softening, "Times a texel's area that its light is spread over");
+  count("--sub-blur", s.sub_blur_radius, "Radius of the blur in sub-images, 0 to 4");
   command.add_flag("--irregular-blur", s.irregular_blur, "Repeat that blur with irregular taps");
   command.add_flag("--no-final-blur", o.no_final_blur, "Leave out the blur of the picture");
   command.add_flag("--no-shuffle", o.no_shuffle, "Deal texels to sub-maps in order");
   command.add_flag("--no-view-importance", o.no_view_importance,
                    "Choose lights by their power alone");
-  command.add_option("--rsm-visibility", s.visibility_rays, "Shadow rays a pixel and light")
-      ->capture_default_str();
-  command.add_option("--rsm-downscale", s.downscale, "Gather at 1/N of width and height")
-      ->capture_default_str();
+  count("--rsm-visibility", s.visibility_rays, "Shadow rays a pixel and light, 0 to 64");
+  count("--rsm-downscale", s.downscale, "Gather at 1/N of width and height, 1 to 16");
   command.add_flag("--rsm-from-camera", s.from_camera, "One map, seen from the camera");
   const std::vector<CLI::Option*> all = command.get_options();
   o.options.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
@@ -88,7 +137,8 @@ Expected<RsmSettings> rsm_settings(const RsmOptions& options, const std::string&
     return fail("--rsm-from-camera", "",
                 "goes with --method rsm alone: its light is not of lights without extent alone");
   }
-  if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());
+  if (const auto fine = check_together(settings); !fine) return tl::unexpected(fine.error());
+  if (const auto fine = check(settings); !fine) return tl::unexpected(in_options(fine.error()));
   return settings;
 }
 

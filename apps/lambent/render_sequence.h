@@ -12,8 +12,8 @@ namespace lambent::cli {
 /// Renders the frames that the options ask for, of an animation (-1: all at once). `world` is of
 /// `scene`, which is posed anew for each frame. Statistics of each go into the list
 /// stats["frames"], also of those before a failure. The first interrupt (Ctrl-C) ends the sequence
-/// after the frame at hand, the second one at once.
-Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation,
+/// after the frame at hand, the second one at once. `view` is that of the first frame.
+Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int animation, View view,
                                World& world, FrameRenderer& renderer,
                                nlohmann::ordered_json& stats);
 

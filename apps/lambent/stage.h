@@ -8,6 +8,7 @@
 
 #include "lambent/error.h"
 #include "lambent/scene.h"
+#include "lambent/stage_light.h"
 
 namespace CLI {
 class App;
@@ -24,8 +25,7 @@ struct StageOptions {
   std::string camera;
   std::string eye, target;
   std::optional<float> fov_degrees;  // none: the camera's own
-  std::string sun, sun_irradiance;
-  std::string sky, environment;
+  LightOptions light;
   std::string materials = "gltf";
   bool no_normal_maps = false;
 };
@@ -35,12 +35,24 @@ void add_scene_options(CLI::App& command, StageOptions& options);
 /// All of it.
 void add_stage_options(CLI::App& command, StageOptions& options);
 
-/// The scene with the lights that the options ask for. Tells on stderr of the loader's warnings,
-/// and where a scene without any light was given some.
+/// The scene with the lights that the options name. Tells on stderr of the loader's warnings.
 Expected<Scene> open_stage(const StageOptions& options);
 
-/// The camera that the options ask for, else the scene's first, else one that shows the scene: from
-/// inside where the scene is a room, from outside where it is an object.
-Expected<Camera> choose_camera(const StageOptions& options, const World& world);
+/// From where a scene is seen, and who says so.
+struct View {
+  enum class From { options, scene, inside, outside };
+  Camera camera;
+  From from = From::scene;
+};
+
+/// The camera that the options ask for, else the scene's first, else one that shows the scene
+/// (lambent/first_picture.h). `aspect` is the picture's width over its height.
+Expected<View> choose_view(const StageOptions& options, const World& world, float aspect);
+
+/// The camera of the scene that the options name, else its first, of which there must be one.
+Expected<Camera> camera_of_scene(const StageOptions& options, const Scene& scene);
+
+/// Who chose the view, in words; of one that we chose also the options that give it again.
+std::string describe(const View& view);
 
 }  // namespace lambent::cli

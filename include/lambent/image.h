@@ -68,4 +68,13 @@ Expected<void> write_exr(const std::string& path, const LayeredImage& image);
 /// [0, 1]. Same all-or-nothing promise as write_exr.
 Expected<void> write_png(const std::string& path, const Image& display_encoded);
 
+/// Artefacts are hard to see, in files of a fifth of a PNG's size.
+inline constexpr int kJpegQuality = 92;
+
+/// Writes a JPEG of a display-ready image as write_png does, without its alpha: `quality` is 1
+/// (smallest) to 100 (best); from 90 on colour keeps its full resolution. Same all-or-nothing
+/// promise.
+Expected<void> write_jpeg(const std::string& path, const Image& display_encoded,
+                          int quality = kJpegQuality);
+
 }  // namespace lambent

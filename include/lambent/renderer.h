@@ -20,6 +20,12 @@ struct RsmSettings;
 struct FrameSettings {
   int width = 1280;  ///< Pixels, 1 to 16384.
   int height = 720;  ///< Pixels, 1 to 16384.
+  /// Which of the picture's rows are rendered: so many from this one on; 0 rows: all from there on.
+  /// Their pixels have the same bits as in the whole picture, so that one too large for memory can
+  /// be made some rows at a time. Reflective shadow maps are made anew each time, and their stages
+  /// (IndirectSources::rsm_stages) are kept of whole pictures alone.
+  int first_row = 0;
+  int rows = 0;
   /// Primary rays a pixel, >= 1: 1 through its centre, more spread over it. Cost is in proportion.
   int samples = 1;
   /// Points drawn on emissive triangles for a sample's direct light, >= 1. Each costs a shadow ray.
@@ -39,7 +45,8 @@ struct PassTime {
 
 struct RenderedFrame {
   /// Linear radiance and its parts, see docs/overview.md: "" (the whole), direct, indirect,
-  /// irradiance, glossy, emission, albedo, normal, position, depth.
+  /// irradiance, glossy, emission, albedo, normal, position, depth. As high as the rows that were
+  /// rendered.
   LayeredImage image;
   std::vector<PassTime> passes;  ///< In the order of the frame.
   std::uint64_t rays = 0;        ///< Traced: primary, gathered and shadow rays.
@@ -59,13 +66,14 @@ struct IndirectSources {
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the
 /// sources. What shines by its coat alone reflects the field, or without one, the maps' light.
-/// Settings must be in range. Runs on all cores; the same bits on any number of threads.
+/// Settings must be in range, and the camera one that validate accepts in a scene. Runs on all
+/// cores; the same bits on any number of threads.
 RenderedFrame render_frame(const World& world, const IndirectSources& sources, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress = {});
 
 /// Renders what the camera sees: direct light with shadow rays, and indirect light from the field.
-/// A null field gives direct light and emission alone. Settings must be in range. Runs on all
-/// cores; the same bits on any number of threads.
+/// A null field gives direct light and emission alone. Settings must be in range, and the camera
+/// one that validate accepts in a scene. Runs on all cores; the same bits on any number of threads.
 RenderedFrame render_frame(const World& world, const IrradianceField* field, const Camera& camera,
                            const FrameSettings& settings, const ProgressFn& progress = {});
 

@@ -60,11 +60,11 @@ struct Material {
   glm::vec4 base_color{1.0f};  ///< Linear reflectance and coverage, each 0 to 1.
   float metallic = 1.0f;       ///< 0 (dielectric) to 1 (metal).
   float roughness = 1.0f;      ///< Perceptual roughness, 0 to 1; GGX alpha is its square.
-  glm::vec3 emission{0.0f};    ///< Radiance emitted by both sides [W/(m^2 sr)], >= 0.
-  float normal_scale = 1.0f;   ///< Factor on the tilt that the normal map tells; finite.
-  float ior = 1.5f;            ///< Index of refraction, >= 1 (KHR_materials_ior).
+  glm::vec3 emission{0.0f};    ///< Radiance emitted by both sides [W/(m^2 sr)], 0 to 1e10.
+  float normal_scale = 1.0f;   ///< Factor on the tilt that the normal map tells, -1e6 to 1e6.
+  float ior = 1.5f;            ///< Index of refraction, 1 to 1e6 (KHR_materials_ior).
   float specular = 1.0f;  ///< Strength of dielectric reflection, 0 to 1 (KHR_materials_specular).
-  glm::vec3 specular_color{1.0f};            ///< Tint of dielectric F0, >= 0.
+  glm::vec3 specular_color{1.0f};            ///< Tint of dielectric F0, 0 to 1e6.
   AlphaMode alpha_mode = AlphaMode::opaque;  ///< What base_color.a does.
   float alpha_cutoff = 0.5f;  ///< Coverage below which AlphaMode::mask lets rays through.
   /// A probe ray that meets the back of a single-sided surface brings no light.
@@ -85,14 +85,15 @@ struct Material {
 /// Triangles of one material in object space. Every non-empty attribute has one entry a vertex.
 struct Mesh {
   std::string name;
-  std::vector<glm::vec3> positions;  ///< [m], finite.
+  std::vector<glm::vec3> positions;  ///< [m], each coordinate within 1e9.
   std::vector<glm::vec3> normals;    ///< Unit length; never empty after loading.
   /// xyz unit, w = +1 or -1 (bitangent = w * cross(n, t)); may be empty.
   std::vector<glm::vec4> tangents;
-  std::array<std::vector<glm::vec2>, 2> uvs;  ///< Texture coordinate sets; each may be empty.
-  std::vector<glm::vec4> colors;              ///< Linear, multiplied with base_color; may be empty.
-  std::vector<glm::uvec3> triangles;          ///< Vertex indices, each < positions.size().
-  int material = 0;                           ///< Index into Scene::materials.
+  /// Texture coordinate sets; each may be empty. Coordinates are within 1e8.
+  std::array<std::vector<glm::vec2>, 2> uvs;
+  std::vector<glm::vec4> colors;      ///< Linear, multiplied with base_color, 0 to 1e6; or empty.
+  std::vector<glm::uvec3> triangles;  ///< Vertex indices, each < positions.size().
+  int material = 0;                   ///< Index into Scene::materials.
   /// Raise it after an edit of vertices or triangles: World::update looks here alone.
   std::uint32_t revision = 0;
 };
@@ -100,8 +101,10 @@ struct Mesh {
 /// A mesh placed in the world. Meshes are shared, not copied.
 struct Instance {
   std::string name;
-  int mesh = 0;                       ///< Index into Scene::meshes.
-  glm::mat4 world_from_object{1.0f};  ///< Affine, finite; may mirror.
+  int mesh = 0;  ///< Index into Scene::meshes.
+  /// Affine, with an inverse; may mirror. Scales by at most 1e10, and leaves the mesh within 1e9 m
+  /// of the origin along each axis.
+  glm::mat4 world_from_object{1.0f};
   // The three flags that follow shape the light of fields, maps and frames; the reference path
   // tracer shows light as it is.
 
@@ -123,10 +126,10 @@ struct Light {
   enum class Type : std::uint8_t { directional, point, spot };
   std::string name;
   Type type = Type::point;  ///< Each light costs a shadow ray at every shaded point.
-  /// Directional: irradiance on a perpendicular surface [W/m^2]. Else radiant intensity [W/sr].
-  /// >= 0.
+  /// Directional: irradiance on a perpendicular surface [W/m^2], 0 to 1e10. Else radiant intensity
+  /// [W/sr], 0 to 1e12; nowhere does it give more than 1e10 W/m^2.
   glm::vec3 intensity{1.0f};
-  glm::vec3 position_ws{0.0f};  ///< Point and spot [m].
+  glm::vec3 position_ws{0.0f};  ///< Point and spot [m], each coordinate within 1e9.
   /// The way the light travels; unit. Directional and spot.
   glm::vec3 direction_ws{0.0f, 0.0f, -1.0f};
   /// Distance at which KHR_lights_punctual's window reaches 0 [m]; 0: infinite.
@@ -141,11 +144,14 @@ struct Light {
 /// A pinhole camera, perspective or orthographic.
 struct Camera {
   std::string name;
-  glm::mat4 world_from_view{1.0f};    ///< Looks along its -Z, +Y up. No scale.
-  bool orthographic = false;          ///< Parallel rays.
-  float vertical_fov = 0.785398163f;  ///< Full angle [rad], 0 to pi, perspective only; 45 degrees.
-  float vertical_extent = 1.0f;       ///< Full height of the view [m], > 0, orthographic only.
-  float aspect = 0.0f;  ///< Width over height that the file asks for; 0: the image's own.
+  /// Looks along its -Z, +Y up. No scale; stands within 1e12 m of the origin along each axis.
+  glm::mat4 world_from_view{1.0f};
+  bool orthographic = false;  ///< Parallel rays.
+  /// Full angle [rad], 0.001 to pi - 0.001, perspective only; 45 degrees.
+  float vertical_fov = 0.785398163f;
+  float vertical_extent = 1.0f;  ///< Full height of the view [m], 1e-6 to 2e9, orthographic only.
+  /// Width over height that the file asks for, 1/16384 to 16384; 0: the image's own.
+  float aspect = 0.0f;
 };
 
 /// A camera at `eye` that looks at `target` with +Y up (-Z where it looks straight up or down;
@@ -154,7 +160,9 @@ Camera look_at(const glm::vec3& eye, const glm::vec3& target, float vertical_fov
 
 /// The light from infinity.
 struct Environment {
-  glm::vec3 radiance{0.0f};  ///< Constant sky [W/(m^2 sr)]; multiplies `map` where there is one.
+  /// Constant sky [W/(m^2 sr)]; multiplies `map` where there is one. Factor, map and their product
+  /// are within 0 to 1e10.
+  glm::vec3 radiance{0.0f};
   Image map;  ///< Latitude-longitude radiance, 3 channels, +Y at the top row; empty: constant.
   float rotation = 0.0f;       ///< Of the map about +Y [rad].
   std::uint32_t revision = 0;  ///< Raise it after an edit of the map: World::update looks here.
@@ -211,7 +219,7 @@ Expected<Scene> load_scene(const std::string& path, const LoadOptions& options =
 /// Reads a latitude-longitude environment, .hdr or .exr, into an Environment of unit factor.
 Expected<Environment> load_environment(const std::string& path);
 
-/// Checks what every pass relies on (indices in range, finite numbers, shapes that agree).
+/// Checks what every pass relies on (indices and numbers in range, shapes that agree).
 /// load_scene has done it; call it on scenes made by hand. Fails with the first thing wrong.
 Expected<void> validate(const Scene& scene);
 

@@ -53,9 +53,9 @@ class World {
   /// Updates that changes_since reaches back.
   static constexpr std::size_t kLogLength = 256;
 
-  /// Builds everything. On a device (lambent/vulkan.h) rays are traced there, and passes that can
-  /// run there do; null: on the processor. Throws std::runtime_error where the ray tracer cannot
-  /// start or memory runs out.
+  /// Builds everything. The scene must be one that validate accepts. On a device (lambent/vulkan.h)
+  /// rays are traced there, and passes that can run there do; null: on the processor. Throws
+  /// std::runtime_error where the ray tracer cannot start or memory runs out.
   explicit World(const Scene& scene, std::shared_ptr<vulkan::Device> device = nullptr);
   ~World();
   World(World&&) noexcept;
@@ -107,7 +107,8 @@ class World {
 /// Bounds of the scene's open space: world_bounds less the walls that close it off, so that a field
 /// fitted to it has its outermost probes in front of the walls and not inside. A side counts as
 /// walled where most rays from outside pass through no more than a tenth of the scene before they
-/// reach open space; other sides stay as they are.
+/// reach open space. Where surfaces face out of another side, some air before them is added, so
+/// that probes stand in front of them, too; all else stays as it is.
 Bounds open_bounds(const World& world);
 
 }  // namespace lambent

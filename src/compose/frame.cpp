@@ -6,6 +6,7 @@
 #include "compose/frame_passes.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
+#include "scene/validate.h"
 
 namespace lambent {
 namespace {
@@ -33,13 +34,17 @@ RenderedFrame render_frame(const World& world, const IndirectSources& sources, c
                            const FrameSettings& settings, const ProgressFn& progress) {
   assert(sources.rsm == nullptr || settings.gather_rays == 0);
   assert(settings.width > 0 && settings.height > 0 && settings.samples > 0);
+  assert(flaw_of(camera) == nullptr);
   const std::unique_ptr<FramePasses> passes = make_frame_passes({world, sources, camera, settings});
+  const Band all = rendered_rows(settings);
+  assert(all.first_row >= 0 && all.rows > 0 && all.first_row + all.rows <= settings.height);
+  assert(sources.rsm == nullptr || !sources.rsm_stages || all.rows == settings.height);
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = std::max(1, kBandPixels / settings.width);
 
   if (sources.rsm != nullptr) passes->rsm();
-  for (int row = 0; row < settings.height; row += band_rows) {
-    const Band band{row, std::min(band_rows, settings.height - row)};
+  for (int row = 0; row < all.rows; row += band_rows) {
+    const Band band{all.first_row + row, std::min(band_rows, all.rows - row)};
     for (int sample = 0; sample < settings.samples; ++sample) {
       passes->gbuffer(band, sample);
       passes->direct();
@@ -51,7 +56,7 @@ RenderedFrame render_frame(const World& world, const IndirectSources& sources, c
       passes->compose(share);
       if (progress) {
         const double rows_done = row + band.rows * (sample + 1.0) / settings.samples;
-        progress("frame", rows_done / settings.height);
+        progress("frame", rows_done / all.rows);
       }
     }
   }

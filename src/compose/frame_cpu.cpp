@@ -203,8 +203,9 @@ class FramePassesCpu final : public FramePasses {
   }
 
   void compose(float share) override {
-    const std::size_t first_pixel =
-        static_cast<std::size_t>(band_.first_row) * request_.settings.width;
+    const FrameSettings& settings = request_.settings;
+    const int first_row = band_.first_row - rendered_rows(settings).first_row;
+    const std::size_t first_pixel = static_cast<std::size_t>(first_row) * settings.width;
     accumulate(request_.world, request_.camera, gbuffer_, light_, first_pixel, share, layers_);
     timer_.finish("compose");
   }
@@ -217,10 +218,10 @@ class FramePassesCpu final : public FramePasses {
   }
 
  private:
-  /// The image, of the frame's size.
+  /// The image, of the rendered rows.
   static LayeredImage& prepared(LayeredImage& image, const FrameRequest& request) {
     image.width = request.settings.width;
-    image.height = request.settings.height;
+    image.height = rendered_rows(request.settings).rows;
     return image;
   }
 

@@ -116,7 +116,7 @@ struct ComposeArguments {
   PixelLayersArray layers;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
-  uint first_pixel;
+  uint first_pixel;  ///< Of the band, among the layers' pixels.
   uint count;
   float share;
   uint has_indirect;  ///< 1: there is indirect light.

@@ -21,8 +21,10 @@ FramePassesVulkan::FramePassesVulkan(const FrameRequest& request)
       kernels_(device_.kept<FrameKernels>()),
       turn_(kernels_.in_use),
       timestamps_(device_, kTimedPasses) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(request.settings.width) * request.settings.height;
+  const Band rows = rendered_rows(request.settings);
+  const std::size_t pixels = static_cast<std::size_t>(request.settings.width) * rows.rows;
+  first_layer_pixel_ = static_cast<std::uint32_t>(rows.first_row) *
+                       static_cast<std::uint32_t>(request.settings.width);
   reserve<PixelLayers>(pixels, "layers", kernels_.layers);
   for (Buffer& count : shadow_rays_) {
     count = Buffer(device_, sizeof(uint), vulkan::Memory::readback, "shadow rays");
@@ -137,7 +139,7 @@ void FramePassesVulkan::compose(float share) {
                                         {kernels_.layers.address()},
                                         vec3(view[3]),
                                         normalize(vec3(view[2])),
-                                        first_pixel_,
+                                        first_pixel_ - first_layer_pixel_,
                                         pixels_,
                                         share,
                                         has_indirect ? 1u : 0u};
@@ -151,7 +153,7 @@ void FramePassesVulkan::finish(RenderedFrame& frame) {
   run_steps();
   frame = std::move(frame_);
   frame.image.width = request_.settings.width;
-  frame.image.height = request_.settings.height;
+  frame.image.height = rendered_rows(request_.settings).rows;
   std::vector<PixelLayers> pixels(static_cast<std::size_t>(frame.image.width) * frame.image.height);
   vulkan::read(device_, kernels_.layers, std::span(pixels));
   constexpr std::pair<const char*, vec3 PixelLayers::*> kLayers[] = {

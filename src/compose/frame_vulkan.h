@@ -71,6 +71,7 @@ class FramePassesVulkan final : public FramePasses {
   RsmViewOnDevice small_;  // the view that maps light
   Band band_;
   std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
+  std::uint32_t first_layer_pixel_ = 0;         // of the rendered rows
   std::uint32_t sample_ = 0;
 };
 

@@ -17,6 +17,12 @@ struct Band {
   int rows = 0;
 };
 
+/// Rows that the settings ask for.
+inline Band rendered_rows(const FrameSettings& settings) {
+  const int rows = settings.rows > 0 ? settings.rows : settings.height - settings.first_row;
+  return {settings.first_row, rows};
+}
+
 struct GBuffer {
   std::vector<Surface> surfaces;        ///< Undefined where `hit` is 0.
   std::vector<std::uint8_t> hit;        ///< 1 where the camera sees a surface.

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/image/color_map.h"
-#include "core/image/metrics.h"
+#include "core/image/exposure.h"
 #include "core/parallel.h"
 #include "field/probes/probe_store.h"
 #include "field/schedule/schedule.h"
@@ -192,7 +192,7 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
   }
   const float brightness = settings.aspect == ProbeAspect::irradiance
                                ? 1.0f
-                               : static_cast<float>(1.0 / auto_exposure(picture));
+                               : static_cast<float>(1.0 / display_exposure(picture));
   const auto width = static_cast<std::size_t>(frame.width);
   constexpr float kShare = 1.0f / (kSamplesAcross * kSamplesAcross);
 

@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/atomic_file.h"
 
+#include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
-#include <cstdio>
+#include <climits>
+#include <cstring>
 #include <filesystem>
 #include <random>
 #include <system_error>
+#include <utility>
+#include <vector>
+
+#include "core/file_names.h"
 
 namespace lambent {
 namespace {
@@ -17,99 +27,256 @@ namespace fs = std::filesystem;
 
 /// Names that other programs took are tried past, but not for ever.
 constexpr int kMaxNameAttempts = 100;
+/// Of a file's buffer, and of what is copied at a time [bytes]: few calls to the system.
+constexpr std::size_t kBufferBytes = std::size_t{1} << 18;
+/// Rights of new files, less the user's umask.
+constexpr mode_t kNewFileMode = 0666;
 
-std::string system_cause(const char* what, int error_number) {
-  return std::string(what) + ": " + std::generic_category().message(error_number);
+std::string system_cause(int error_number) {
+  return "cannot write: " + std::generic_category().message(error_number);
 }
 
-/// What the user can mend is bad input; a disk that is full or broken is not the user's doing.
-Error::Kind kind_of(int error_number) {
-  const bool environment = error_number == ENOSPC || error_number == EIO ||
-                           error_number == EDQUOT || error_number == EMFILE ||
-                           error_number == ENFILE;
-  return environment ? Error::Kind::failed : Error::Kind::bad_input;
+int errno_or(int otherwise) {
+  return errno != 0 ? errno : otherwise;
 }
 
-/// Writes and closes `file`. Returns 0 or the errno of what failed; errors of a full disk may only
-/// show on close.
-int write_and_close(std::FILE* file, std::span<const std::byte> bytes) {
-  errno = 0;
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int write_error = written ? 0 : (errno != 0 ? errno : EIO);
-  errno = 0;
-  const int close_error = std::fclose(file) == 0 ? 0 : (errno != 0 ? errno : EIO);
-  return write_error != 0 ? write_error : close_error;
-}
+std::atomic_flag names_in_use = ATOMIC_FLAG_INIT;
 
-/// A new file beside `target`, opened for writing, or null with errno set. Its name goes to `name`.
-std::FILE* open_temporary(const fs::path& target, fs::path& name) {
-  static std::atomic<unsigned> count{std::random_device{}()};
-  for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
-    name = target;
-    name += ".tmp-" + std::to_string(count.fetch_add(1));
-    // C11's "x" refuses a name that exists, so two writers never share a temporary file.
-    std::FILE* file = std::fopen(name.c_str(), "wbx");
-    if (file != nullptr || errno != EEXIST) return file;
+/// While it lives, temporary names appear and vanish in this thread alone: signals wait in it, and
+/// handlers in other threads wait for it, so that none finds a name half made.
+class NameLock {
+ public:
+  NameLock() {
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before_);
+    while (names_in_use.test_and_set(std::memory_order_acquire)) ::usleep(10);
   }
-  return nullptr;
+  ~NameLock() {
+    names_in_use.clear(std::memory_order_release);
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NameLock(const NameLock&) = delete;
+  NameLock& operator=(const NameLock&) = delete;
+
+ private:
+  sigset_t before_{};
+};
+
+/// Temporary names that exist; under NameLock. Never destroyed: a signal may come at the very end.
+std::vector<std::string>& temporary_names() {
+  static auto* names = new std::vector<std::string>;
+  return *names;
+}
+
+void forget_temporary(const std::string& name) {
+  std::erase(temporary_names(), name);
+}
+
+std::string temporary_name(const std::string& target) {
+  static std::atomic<unsigned> count{std::random_device{}()};
+  return target + ".tmp-" + std::to_string(count.fetch_add(1));
+}
+
+/// A descriptor of a new file in the directory that has no name, or -1.
+int open_nameless(const std::string& directory) {
+#ifdef O_TMPFILE
+  // It is named through its entry in /proc
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;
+  return ::open(directory.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kNewFileMode);
+#else
+  (void)directory;
+  return -1;
+#endif
+}
+
+/// A descriptor of a new file beside the target, or -1 with errno set. Its name goes to `name`.
+int open_named(const std::string& target, std::string& name) {
+  const NameLock lock;
+  for (int attempt = 0; attempt < kMaxNameAttempts; ++attempt) {
+    name = temporary_name(target);
+    const int made = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kNewFileMode);
+    if (made >= 0) temporary_names().push_back(name);
+    if (made >= 0 || errno != EEXIST) return made;
+  }
+  return -1;
+}
+
+/// Writes all of it. Returns 0 or errno.
+int write_all(int descriptor, const std::byte* bytes, std::size_t count) {
+  while (count > 0) {
+    const ssize_t done = ::write(descriptor, bytes, count);
+    if (done < 0 && errno == EINTR) continue;
+    if (done <= 0) return errno_or(EIO);
+    bytes += done;
+    count -= static_cast<std::size_t>(done);
+  }
+  return 0;
 }
 
 }  // namespace
 
-Expected<void> write_file_atomically(const std::string& path, std::span<const std::byte> bytes) {
+void discard_unfinished_files() noexcept {
+  // The lock is not released: the process ends
+  while (names_in_use.test_and_set(std::memory_order_acquire)) ::usleep(10);
+  for (const std::string& name : temporary_names()) ::unlink(name.c_str());
+}
+
+tl::unexpected<Error> AtomicFile::failure(int error_number) const {
+  return fail(path_, "", system_cause(error_number), Error::Kind::failed);
+}
+
+Expected<AtomicFile> AtomicFile::open(const std::string& path, Unfinished how) {
   if (path.empty()) return fail("", "", "the name of the file to write is empty");
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) return fail(path, "", "cannot write: is a directory");
+  AtomicFile made;
+  made.path_ = path;
+  const PathEnd end = end_of_path(path);
+  made.target_ = end.path;
+  made.descriptor_ = end.descriptor;
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) return fail(path, "", "cannot write: is a directory");
+  made.replaces_ = end.descriptor < 0 && (!exists || S_ISREG(status.st_mode));
 
-  // Devices and pipes (/dev/null, /dev/stdout) cannot be replaced, only written to.
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    const int failure = file == nullptr ? errno : write_and_close(file, bytes);
-    if (failure != 0)
-      return fail(path, "", system_cause("cannot write", failure), kind_of(failure));
-    return {};
+  int descriptor = -1;
+  if (!made.replaces_) {
+    made.file_ = std::tmpfile();
+    if (made.file_ == nullptr) return made.failure(errno_or(EIO));
+    return made;
   }
+  temporary_names();  // made before a handler could need it
+  const std::string directory = fs::path(made.target_).parent_path().string();
+  if (how == Unfinished::nameless_if_possible) descriptor = open_nameless(directory);
+  if (descriptor < 0) descriptor = open_named(made.target_, made.temporary_);
+  if (descriptor < 0) {
+    made.temporary_.clear();
+    return made.failure(errno_or(EIO));
+  }
+  // A file that is replaced keeps its rights
+  if (exists) (void)!::fchmod(descriptor, status.st_mode & (S_IRWXU | S_IRWXG | S_IRWXO));
+  made.file_ = ::fdopen(descriptor, "wb+");
+  if (made.file_ == nullptr) {
+    const int error_number = errno_or(EIO);
+    ::close(descriptor);
+    return made.failure(error_number);
+  }
+  std::setvbuf(made.file_, nullptr, _IOFBF, kBufferBytes);
+  return made;
+}
 
-  // Follow links first, for a rename would replace the link itself.
-  fs::path target = fs::weakly_canonical(path, error);
-  if (error) target = path;
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      replaces_(other.replaces_),
+      descriptor_(other.descriptor_),
+      file_(std::exchange(other.file_, nullptr)) {}
 
-  fs::path temporary;
-  std::FILE* file = open_temporary(target, temporary);
-  if (file == nullptr) {
-    const int failure = errno;
-    return fail(path, "", system_cause("cannot write", failure), kind_of(failure));
+AtomicFile::~AtomicFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  if (temporary_.empty()) return;
+  const NameLock lock;
+  ::unlink(temporary_.c_str());
+  forget_temporary(temporary_);
+}
+
+Expected<void> AtomicFile::write(std::span<const std::byte> bytes) {
+  errno = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size()) return {};
+  return failure(errno_or(EIO));
+}
+
+Expected<void> AtomicFile::seek(std::uint64_t position) {
+  errno = 0;
+  if (::fseeko(file_, static_cast<off_t>(position), SEEK_SET) == 0) return {};
+  return failure(errno_or(EIO));
+}
+
+/// Copies the content to what cannot be replaced.
+Expected<void> AtomicFile::send() {
+  const int to = descriptor_ >= 0 ? ::dup(descriptor_)
+                                  : ::open(target_.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (to < 0) return failure(errno_or(EIO));
+  std::rewind(file_);
+  std::vector<std::byte> buffer(kBufferBytes);
+  int error_number = 0;
+  while (error_number == 0) {
+    const std::size_t count = std::fread(buffer.data(), 1, buffer.size(), file_);
+    if (count == 0) break;
+    error_number = write_all(to, buffer.data(), count);
   }
-  if (const int failure = write_and_close(file, bytes); failure != 0) {
-    fs::remove(temporary, error);
-    return fail(path, "", system_cause("cannot write", failure), kind_of(failure));
+  if (error_number == 0 && std::ferror(file_) != 0) error_number = EIO;
+  if (::close(to) != 0 && error_number == 0) error_number = errno_or(EIO);
+  if (error_number != 0) return failure(error_number);
+  return {};
+}
+
+/// Puts the complete file in the place of the target. Returns 0 or errno.
+int AtomicFile::give_name(int descriptor) {
+  const NameLock lock;
+  if (!temporary_.empty()) {
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) return errno_or(EIO);
+    forget_temporary(temporary_);
+    temporary_.clear();
+    return 0;
   }
-  fs::rename(temporary, target, error);
-  if (error) {
-    const std::error_code rename_error = error;
-    fs::remove(temporary, error);
-    return fail(path, "", "cannot write: " + rename_error.message(), kind_of(rename_error.value()));
+  const std::string nameless = "/proc/self/fd/" + std::to_string(descriptor);
+  const auto link_to = [&](const std::string& name) {
+    const int done =
+        ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW);
+    return done == 0 ? 0 : errno_or(EIO);
+  };
+  int error_number = link_to(target_);
+  // A link never replaces what is there, a new name does
+  for (int attempt = 0; error_number == EEXIST && attempt < kMaxNameAttempts; ++attempt) {
+    const std::string name = temporary_name(target_);
+    error_number = link_to(name);
+    if (error_number != 0) continue;
+    if (::rename(name.c_str(), target_.c_str()) == 0) return 0;
+    error_number = errno_or(EIO);
+    ::unlink(name.c_str());
+    break;
+  }
+  return error_number;
+}
+
+Expected<void> AtomicFile::commit() {
+  errno = 0;
+  if (std::fflush(file_) != 0) return failure(errno_or(EIO));
+  if (!replaces_) return send();
+  // Some file systems tell only on close that the disk was full: close a second descriptor
+  const int descriptor = ::fileno(file_);
+  const int second = ::dup(descriptor);
+  if (second < 0 || ::close(second) != 0) return failure(errno_or(EIO));
+  if (const int error_number = give_name(descriptor); error_number != 0) {
+    return failure(error_number);
   }
   return {};
 }
 
-Expected<void> check_writable(const std::string& path) {
-  if (path.empty()) return fail("", "", "the name of the file to write is empty");
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::is_directory(status)) return fail(path, "", "cannot write: is a directory");
-  // What is written in place needs no right to its directory, what is replaced no other
-  const bool in_place = fs::exists(status) && !fs::is_regular_file(status);
-  fs::path written = in_place ? fs::path(path) : fs::path(path).parent_path();
-  if (written.empty()) written = ".";
-  if (::access(written.c_str(), W_OK) == 0) return {};
-  const int failure = errno;
-  return fail(path, "", system_cause("cannot write", failure), kind_of(failure));
+Expected<void> write_file_atomically(const std::string& path, std::span<const std::byte> bytes) {
+  Expected<AtomicFile> file = AtomicFile::open(path);
+  if (!file) return tl::unexpected(file.error());
+  if (const Expected<void> written = file->write(bytes); !written) return written;
+  return file->commit();
 }
 
 Expected<void> write_file_atomically(const std::string& path, std::string_view text) {
   return write_file_atomically(path, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+Expected<void> check_writable(const std::string& path) {
+  if (path.empty()) return fail("", "", "the name of the file to write is empty");
+  const PathEnd end = end_of_path(path);
+  if (end.descriptor >= 0) return {};
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) return fail(path, "", "cannot write: is a directory");
+  // What is written in place needs no right to its directory, what is replaced no other
+  const bool in_place = exists && !S_ISREG(status.st_mode);
+  const std::string written = in_place ? end.path : fs::path(end.path).parent_path().string();
+  if (::access(written.c_str(), W_OK) == 0) return {};
+  return fail(path, "", system_cause(errno_or(EIO)), Error::Kind::failed);
 }
 
 }  // namespace lambent

@@ -6,6 +6,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "scene/animation/pose.h"
 #include "scene/attributes.h"
 #include "scene/validate.h"
 
@@ -234,6 +235,24 @@ std::string place(const char* list, std::size_t index) {
   return std::string(list) + "[" + std::to_string(index) + "]";
 }
 
+/// Whether instances that moved, and those of meshes that bent, are where things can be.
+Expected<void> check_reach(const Scene& scene, const SceneSnapshot& before) {
+  std::vector<Bounds> bounds(scene.meshes.size());
+  std::vector<std::uint8_t> bent(scene.meshes.size(), 0);
+  for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+    bent[i] = i >= before.shapes.size() || !same_data(before.shapes[i], scene.meshes[i]);
+    bounds[i] = bent[i] != 0 ? mesh_bounds(scene.meshes[i]) : before.shapes[i].bounds;
+  }
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const bool still = bent[instance.mesh] == 0 && i < before.placements.size() &&
+                       before.placements[i] == placement_of(instance);
+    const char* flaw = still ? nullptr : flaw_of_reach(instance, bounds[instance.mesh]);
+    if (flaw != nullptr) return fail(scene.source.path, place("instances", i), flaw);
+  }
+  return {};
+}
+
 }  // namespace
 
 Bounds world_box(const SceneSnapshot& snapshot, const SceneSnapshot::Placement& placement) {
@@ -262,7 +281,7 @@ SceneSnapshot take_snapshot(const Scene& scene, const SceneSnapshot* before) {
     if (before != nullptr && i < before->shapes.size() && same_data(before->shapes[i], mesh)) {
       shape.bounds = before->shapes[i].bounds;
     } else {
-      for (const glm::vec3& p : mesh.positions) shape.bounds.add(p);
+      shape.bounds = mesh_bounds(mesh);
     }
     snapshot.shapes.push_back(shape);
   }
@@ -305,6 +324,7 @@ Expected<void> validate_edits(const Scene& scene, const SceneSnapshot& before) {
     const char* flaw = flaw_of(instance, scene.meshes.size());
     if (flaw != nullptr) return fail(file, place("instances", i), flaw);
   }
+  if (const Expected<void> reach = check_reach(scene, before); !reach) return reach;
   for (std::size_t i = 0; i < scene.lights.size(); ++i) {
     if (const char* flaw = flaw_of(scene.lights[i])) return fail(file, place("lights", i), flaw);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lambent/world.h"
 
+#include <cassert>
 #include <deque>
 #include <utility>
 
@@ -68,6 +69,7 @@ World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device)
       device_(make_device_world(scene, *emissive_, std::move(device))),
       tracer_(device_ != nullptr ? tracer_of(device_) : make_embree_raytracer(scene)),
       history_(std::make_unique<History>()) {
+  assert(validate(scene));
   history_->snapshot = take_snapshot(scene, nullptr);
 }
 

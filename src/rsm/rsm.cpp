@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
+#include <sstream>
 
 #include "core/stopwatch.h"
 #include "rsm/deinterleave.h"
@@ -29,9 +31,15 @@ constexpr int kIrregularDistances[] = {2, 5, 7};
 template <class T>
 Expected<void> within(const char* name, T value, T low, T high) {
   if (value >= low && value <= high) return {};
-  return fail("", name,
-              std::to_string(value) + " is not between " + std::to_string(low) + " and " +
-                  std::to_string(high));
+  // Not to_string: it writes small numbers as zeros
+  std::ostringstream cause;
+  cause << value << " is not ";
+  if (low == std::numeric_limits<T>::min()) {
+    cause << "above 0, up to " << high;
+  } else {
+    cause << "between " << low << " and " << high;
+  }
+  return fail("", name, cause.str());
 }
 
 std::vector<BlurTap> irregular_taps() {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "lambent/scene.h"
+#include "scene/limits.h"
 
 namespace lambent {
 
@@ -30,6 +31,10 @@ Expected<Environment> load_environment(const std::string& path) {
         if (!std::isfinite(value)) {
           return fail(path, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")",
                       "the radiance is not a finite number");
+        }
+        if (value > kMaxRadiance) {
+          return fail(path, "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ")",
+                      "the radiance is above 1e10 W/(m^2 sr)");
         }
         // Resampling filters leave small negative lobes in published maps
         out[k] = value > 0.0f ? value : 0.0f;

@@ -13,7 +13,7 @@
 namespace lambent {
 namespace {
 
-enum class Format { unknown, png, jpeg, webp };
+enum class Format { unknown, png, jpeg, webp, ktx2 };
 
 Format format_of(std::span<const std::uint8_t> bytes) {
   const auto starts = [&bytes](std::size_t offset, const char* magic, std::size_t length) {
@@ -23,6 +23,7 @@ Format format_of(std::span<const std::uint8_t> bytes) {
   if (starts(0, "\x89PNG\r\n\x1a\n", 8)) return Format::png;
   if (starts(0, "\xff\xd8\xff", 3)) return Format::jpeg;
   if (starts(0, "RIFF", 4) && starts(8, "WEBP", 4)) return Format::webp;
+  if (starts(0, "\xabKTX 20\xbb", 8)) return Format::ktx2;
   return Format::unknown;
 }
 
@@ -47,6 +48,9 @@ Expected<TextureLevel> decode_image(std::span<const std::uint8_t> bytes, const s
                                     const std::string& place) {
   const Format format = format_of(bytes);
   if (format == Format::unknown) return fail(file, place, "the image is not PNG, JPEG or WebP");
+  if (format == Format::ktx2) {
+    return fail(file, place, "the image is KTX2; convert it to PNG, JPEG or WebP");
+  }
   if (bytes.size() > INT_MAX) return fail(file, place, "the image file is absurdly large");
   const int size = static_cast<int>(bytes.size());
   if (format != Format::webp && !is_safe_for_stb(std::as_bytes(bytes))) {

@@ -34,6 +34,12 @@ struct PunctualSample {
 // recommends.
 const float kMinConeCosineRange = 1e-3f;
 
+/// Irradiance beyond which no light without extent goes [W/m^2]: inverse squares grow without bound
+/// near a light, and the square of a sum of such samples must still be a float.
+const float kMaxPunctualIrradiance = 1e10f;
+/// Who is nearer than the root of this stands in the light [m^2]: its inverse is still a float.
+const float kMinSquaredLightDistance = 1e-30f;
+
 /// KHR_lights_punctual, "Inner and Outer Cone Angles": the factor of cosines.
 LAMBENT_FN float cone_scale(float cos_inner, float cos_outer) {
   return 1.0f / max(kMinConeCosineRange, cos_inner - cos_outer);
@@ -63,12 +69,13 @@ LAMBENT_FN PunctualSample sample_punctual(LightRecord light, vec3 position_ws) {
   }
   vec3 offset = light.position_ws - position_ws;
   float squared_distance = dot(offset, offset);
-  if (squared_distance <= 0.0f) return result;
+  if (squared_distance < kMinSquaredLightDistance) return result;
   result.distance = sqrt(squared_distance);
   result.to_light = offset / result.distance;
   float attenuation = range_attenuation(light.range, result.distance);
   if (light.type == kLightSpot) attenuation *= cone_attenuation(light, result.to_light);
-  result.irradiance = light.intensity * (attenuation / squared_distance);
+  result.irradiance =
+      min(light.intensity * (attenuation / squared_distance), vec3(kMaxPunctualIrradiance));
   return result;
 }
 

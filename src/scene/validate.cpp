@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/validate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "scene/animation/pose.h"
+#include "scene/limits.h"
 #include "shared/constants.h"
 
 namespace lambent {
@@ -15,9 +18,6 @@ constexpr float kUnitTolerance = 1e-3f;
 
 bool finite(float v) {
   return std::isfinite(v);
-}
-bool finite(const glm::vec2& v) {
-  return finite(v.x) && finite(v.y);
 }
 bool finite(const glm::vec3& v) {
   return finite(v.x) && finite(v.y) && finite(v.z);
@@ -31,8 +31,14 @@ bool finite(const glm::mat4& m) {
 bool unit(const glm::vec3& v) {
   return finite(v) && std::abs(glm::length(v) - 1.0f) <= kUnitTolerance;
 }
-bool non_negative(const glm::vec3& v) {
-  return finite(v) && v.x >= 0.0f && v.y >= 0.0f && v.z >= 0.0f;
+bool within(const glm::vec3& v, float low, float high) {
+  for (int k = 0; k < 3; ++k) {
+    if (!(v[k] >= low && v[k] <= high)) return false;
+  }
+  return true;
+}
+bool within(const glm::vec2& v, float largest) {
+  return std::abs(v.x) <= largest && std::abs(v.y) <= largest;
 }
 bool in_unit_range(float v) {
   return v >= 0.0f && v <= 1.0f;
@@ -59,8 +65,10 @@ const char* flaw_of(const TextureView& view, std::size_t textures) {
     return "refers to a texture that does not exist";
   }
   if (view.uv_set != 0 && view.uv_set != 1) return "uses texture coordinates other than 0 or 1";
-  if (!finite(view.uv_offset) || !finite(view.uv_scale) || !finite(view.uv_rotation)) {
-    return "transforms texture coordinates by numbers that are not finite";
+  if (!finite(view.uv_rotation)) return "rotates texture coordinates by no finite number";
+  if (!within(view.uv_offset, kMaxTextureCoordinate) ||
+      !within(view.uv_scale, kMaxTextureCoordinate)) {
+    return "transforms texture coordinates by numbers that are not within -1e8 to 1e8";
   }
   return nullptr;
 }
@@ -90,11 +98,15 @@ const char* flaw_of(const Material& m, std::size_t textures) {
   }
   if (!in_unit_range(m.metallic)) return "metallic is not within 0 to 1";
   if (!in_unit_range(m.roughness)) return "roughness is not within 0 to 1";
-  if (!non_negative(m.emission)) return "emission is negative or not finite";
-  if (!finite(m.normal_scale)) return "normal_scale is not finite";
-  if (!finite(m.ior) || m.ior < 1.0f) return "ior is not a number of 1 or more";
+  if (!within(m.emission, 0.0f, kMaxRadiance)) {
+    return "emission is not within 0 to 1e10 W/(m^2 sr)";
+  }
+  if (!(std::abs(m.normal_scale) <= kMaxFactor)) return "normal_scale is not within -1e6 to 1e6";
+  if (!(m.ior >= 1.0f && m.ior <= kMaxFactor)) return "ior is not within 1 to 1e6";
   if (!in_unit_range(m.specular)) return "specular is not within 0 to 1";
-  if (!non_negative(m.specular_color)) return "specular_color is negative or not finite";
+  if (!within(m.specular_color, 0.0f, kMaxFactor)) {
+    return "specular_color is not within 0 to 1e6";
+  }
   if (!finite(m.alpha_cutoff)) return "alpha_cutoff is not finite";
   for (const TextureView* view :
        {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
@@ -116,8 +128,8 @@ const char* flaw_of(const Mesh& mesh, std::size_t materials) {
     return "has not one texture coordinate a vertex";
   }
   if (!fits(mesh.colors.size())) return "has not one color a vertex";
-  if (!all_of(mesh.positions, [](const glm::vec3& p) { return finite(p); })) {
-    return "has a position that is not finite";
+  if (!all_of(mesh.positions, [](const glm::vec3& p) { return is_in_reach(p); })) {
+    return "has a position that is not within 1e9 m of the origin";
   }
   if (!all_of(mesh.normals, unit)) return "has a normal that is not of unit length";
   if (!all_of(mesh.tangents, [](const glm::vec4& t) {
@@ -126,12 +138,14 @@ const char* flaw_of(const Mesh& mesh, std::size_t materials) {
     return "has a tangent that is not of unit length with w = +1 or -1";
   }
   for (const auto& uvs : mesh.uvs) {
-    if (!all_of(uvs, [](const glm::vec2& uv) { return finite(uv); })) {
-      return "has a texture coordinate that is not finite";
+    if (!all_of(uvs, [](const glm::vec2& uv) { return within(uv, kMaxTextureCoordinate); })) {
+      return "has a texture coordinate that is not within -1e8 to 1e8";
     }
   }
-  if (!all_of(mesh.colors, [](const glm::vec4& c) { return finite(c); })) {
-    return "has a color that is not finite";
+  if (!all_of(mesh.colors, [](const glm::vec4& c) {
+        return within(glm::vec3(c), 0.0f, kMaxFactor) && finite(c.w);
+      })) {
+    return "has a color that is not within 0 to 1e6";
   }
   if (!all_of(mesh.triangles, [vertices](const glm::uvec3& t) {
         return t.x < vertices && t.y < vertices && t.z < vertices;
@@ -146,13 +160,28 @@ const char* flaw_of(const Instance& instance, std::size_t meshes) {
     return "refers to a mesh that does not exist";
   }
   if (!affine(instance.world_from_object)) return "has a transform that is not finite and affine";
+  if (largest_scale(instance.world_from_object) > kMaxScale) {
+    return "is scaled by more than 1e10";
+  }
   if (!finite(glm::inverse(instance.world_from_object))) return "has a transform without inverse";
   return nullptr;
 }
 
+const char* flaw_of_reach(const Instance& instance, const Bounds& mesh) {
+  return stays_in_reach(instance.world_from_object, mesh)
+             ? nullptr
+             : "puts its mesh where it is not within 1e9 m of the origin";
+}
+
 const char* flaw_of(const Light& light) {
-  if (!non_negative(light.intensity)) return "has an intensity that is negative or not finite";
-  if (!finite(light.position_ws)) return "has a position that is not finite";
+  const bool directional = light.type == Light::Type::directional;
+  if (!within(light.intensity, 0.0f, directional ? kMaxIrradiance : kMaxIntensity)) {
+    return directional ? "has an irradiance that is not within 0 to 1e10 W/m^2"
+                       : "has an intensity that is not within 0 to 1e12 W/sr";
+  }
+  if (!is_in_reach(light.position_ws)) {
+    return "has a position that is not within 1e9 m of the origin";
+  }
   if (light.type != Light::Type::point && !unit(light.direction_ws)) {
     return "has a direction that is not of unit length";
   }
@@ -172,21 +201,28 @@ const char* flaw_of(const Camera& camera) {
   if (!unit(glm::vec3(m[0])) || !unit(glm::vec3(m[1])) || !unit(glm::vec3(m[2]))) {
     return "has a transform with scale";
   }
-  if (!finite(camera.aspect) || camera.aspect < 0.0f)
-    return "has an aspect ratio that is negative or not finite";
-  if (camera.orthographic) {
-    return finite(camera.vertical_extent) && camera.vertical_extent > 0.0f
-               ? nullptr
-               : "has an extent that is not positive";
+  if (!is_in_reach(glm::vec3(m[3]), kMaxViewpoint)) {
+    return "does not stand within 1e12 m of the origin";
   }
-  if (!(camera.vertical_fov > 0.0f && camera.vertical_fov < kPi)) {
-    return "has a field of view that is not between 0 and pi";
+  const bool shaped = camera.aspect >= 1.0f / kMaxAspect && camera.aspect <= kMaxAspect;
+  if (camera.aspect != 0.0f && !shaped) {
+    return "has an aspect ratio that is neither 0 nor within 1:16384 to 16384:1";
+  }
+  if (camera.orthographic) {
+    return camera.vertical_extent >= kMinViewExtent && camera.vertical_extent <= kMaxViewExtent
+               ? nullptr
+               : "has an extent that is not within 1e-6 to 2e9 m";
+  }
+  if (!(camera.vertical_fov >= kMinFov && camera.vertical_fov <= kMaxFov)) {
+    return "has a field of view that is not within 0.001 to pi - 0.001";
   }
   return nullptr;
 }
 
 const char* flaw_of(const Environment& environment) {
-  if (!non_negative(environment.radiance)) return "radiance is negative or not finite";
+  if (!within(environment.radiance, 0.0f, kMaxRadiance)) {
+    return "radiance is not within 0 to 1e10 W/(m^2 sr)";
+  }
   if (!finite(environment.rotation)) return "rotation is not finite";
   const Image& map = environment.map;
   if (map.empty()) return nullptr;
@@ -195,9 +231,11 @@ const char* flaw_of(const Environment& environment) {
       map.pixels.size() != static_cast<std::size_t>(map.width) * map.height * 3) {
     return "map's pixels do not fill its size";
   }
-  return all_of(map.pixels, [](float v) { return finite(v) && v >= 0.0f; })
+  const float factor =
+      std::max({1.0f, environment.radiance.r, environment.radiance.g, environment.radiance.b});
+  return all_of(map.pixels, [factor](float v) { return v >= 0.0f && v * factor <= kMaxRadiance; })
              ? nullptr
-             : "map has a pixel that is negative or not finite";
+             : "map has a pixel that is not within 0 to 1e10 W/(m^2 sr)";
 }
 
 namespace {
@@ -214,6 +252,20 @@ Expected<void> check_array(const Scene& scene, const char* name, const std::vect
   return {};
 }
 
+// Whether all instances, otherwise without flaw, are where things can be.
+Expected<void> check_reach(const Scene& scene) {
+  std::vector<Bounds> bounds;
+  bounds.reserve(scene.meshes.size());
+  for (const Mesh& mesh : scene.meshes) bounds.push_back(mesh_bounds(mesh));
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    if (const char* flaw = flaw_of_reach(instance, bounds[instance.mesh])) {
+      return fail(scene.source.path, entry("instances", i), flaw);
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 Expected<void> validate(const Scene& scene) {
@@ -224,6 +276,7 @@ Expected<void> validate(const Scene& scene) {
   if (result) result = check_array(scene, "materials", scene.materials, textures);
   if (result) result = check_array(scene, "meshes", scene.meshes, materials);
   if (result) result = check_array(scene, "instances", scene.instances, meshes);
+  if (result) result = check_reach(scene);
   if (result) result = check_array(scene, "lights", scene.lights);
   if (result) result = check_array(scene, "cameras", scene.cameras);
   if (!result) return result;

@@ -9,10 +9,14 @@
 namespace lambent {
 
 const char* flaw_of(const Texture& texture);
-/// `textures`: how many the scene has; likewise below.
+/// `textures`: how many the scene has.
 const char* flaw_of(const Material& material, std::size_t textures);
+/// `materials`: how many the scene has.
 const char* flaw_of(const Mesh& mesh, std::size_t materials);
+/// `meshes`: how many the scene has.
 const char* flaw_of(const Instance& instance, std::size_t meshes);
+/// What is wrong with where an instance, otherwise without flaw, puts a mesh of these bounds.
+const char* flaw_of_reach(const Instance& instance, const Bounds& mesh);
 const char* flaw_of(const Light& light);
 const char* flaw_of(const Camera& camera);
 const char* flaw_of(const Environment& environment);

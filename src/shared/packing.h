@@ -33,7 +33,8 @@ LAMBENT_FN float decode_small_float(uint bits, int mantissa_bits) {
   return bits == 0u ? 0.0f : value;
 }
 
-/// The largest code whose value is not above `value`, which is clamped to [0, max].
+/// The largest code whose value is not above `value`, which is clamped to [0, max]; 0 for what is
+/// not a number.
 LAMBENT_FN uint encode_small_float_down(float value, int mantissa_bits) {
   float clamped = min(value, small_float_max(mantissa_bits));
   uint code =
@@ -78,8 +79,14 @@ LAMBENT_FN vec3 decode_rgb9e5(uint word) {
   return vec3(float(word & 511u), float((word >> 9u) & 511u), float((word >> 18u) & 511u)) * scale;
 }
 
+/// A channel as encode_rgb9e5 takes it: clamped to what can be stored; 0 for what is not a number.
+LAMBENT_FN float storable_in_rgb9e5(float value) {
+  return value > 0.0f ? min(value, kRgb9e5Max) : 0.0f;
+}
+
 LAMBENT_FN uint encode_rgb9e5(vec3 value, vec3 u) {
-  vec3 v = clamp(value, vec3(0.0f), vec3(kRgb9e5Max));
+  vec3 v =
+      vec3(storable_in_rgb9e5(value.x), storable_in_rgb9e5(value.y), storable_in_rgb9e5(value.z));
   float largest = max(v.x, max(v.y, v.z));
   // The exponent of the largest channel, read off its bits; one more where rounding up would
   // overflow 9 bits.

@@ -44,8 +44,9 @@ TEST_F(FieldFiles, BakeRunsUntilTheLightHasSettled) {
   const ProgramResult result =
       run_program("bake cornell -o " + field + kShape + "--stats " + stats);
   ASSERT_EQ(result.status, 0) << result.errors;
-  EXPECT_THAT(result.output, HasSubstr("settled after "));
-  EXPECT_THAT(result.output, HasSubstr("60 probes"));
+  EXPECT_THAT(result.errors, HasSubstr("60 probes, "));
+  EXPECT_THAT(result.errors, HasSubstr("; settled after "));
+  EXPECT_EQ(result.output, "");
   const auto json = nlohmann::json::parse(bytes_of(stats));
   EXPECT_TRUE(json["settled"]);
   EXPECT_LT(json["field_change_last_update"], 0.002);
@@ -61,9 +62,8 @@ TEST_F(FieldFiles, BakeWritesTheSameFileOnAnyNumberOfThreads) {
 TEST_F(FieldFiles, BakeSaysWhatIsWrong) {
   for (const std::string& arguments :
        {std::string("bake cornell"), "bake none -o " + field,
-        "bake cornell -o " + directory.file("no/a.field"), "bake cornell --updates 0 -o " + field,
-        "bake cornell --time 1 -o " + field, "bake cornell --camera 0 -o " + field,
-        "bake cornell --probes 1x1x1 -o " + field}) {
+        "bake cornell --updates 0 -o " + field, "bake cornell --time 1 -o " + field,
+        "bake cornell --camera 0 -o " + field, "bake cornell --probes 1x1x1 -o " + field}) {
     const ProgramResult result = run_program(arguments);
     EXPECT_EQ(result.status, 2) << arguments;
     EXPECT_THAT(result.errors, HasSubstr("lambent: ")) << arguments;
@@ -79,7 +79,7 @@ TEST_F(FieldFiles, RenderStartsFromThem) {
   const ProgramResult result =
       run_program("render cornell --updates 0 --field " + baked() + " -o " + exr + picture);
   ASSERT_EQ(result.status, 0) << result.errors;
-  EXPECT_EQ(result.errors, "");
+  EXPECT_EQ(result.errors.rfind("lambent: wrote ", 0), 0u) << result.errors;  // no warning
   EXPECT_EQ(bytes_of(exr), direct);
 
   const ProgramResult other =
@@ -156,7 +156,7 @@ TEST_F(FieldFiles, ExportWritesBothAtlasesGuttersIncluded) {
       EXPECT_GE(*square.at(x, y) * 1.01f, *mean.at(x, y) * *mean.at(x, y));
     }
   }
-  EXPECT_EQ(run_program("field export " + field + " -o " + directory.file("no/a")).status, 2);
+  EXPECT_EQ(run_program("field export " + field + " -o /dev/null/a").status, 1);
 }
 
 TEST_F(FieldFiles, ProbesShowInPictures) {

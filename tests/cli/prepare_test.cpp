@@ -25,7 +25,7 @@ TEST_F(Prepare, WritesTheSceneWithItsLightsAndTheCameraAsked) {
   const ProgramResult outcome =
       run_program("prepare cornell --sun=0,-1,0 --eye 1,2,3 --target 4,2,3 -o " + path);
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
-  EXPECT_THAT(outcome.output, HasSubstr("38 triangles"));
+  EXPECT_THAT(outcome.errors, HasSubstr("38 triangles"));
   const auto scene = lambent::load_prepared(path);
   ASSERT_TRUE(scene) << scene.error().message();
   EXPECT_EQ(scene->lights.back().type, lambent::Light::Type::directional);

@@ -89,17 +89,18 @@ struct BadUse {
 };
 
 TEST_F(RenderRsm, RefusesWhatMakesNoSenseAndSaysWhy) {
-  for (const BadUse& use : {BadUse{"--method field --rsm-size 64", "--rsm-size"},
-                            BadUse{"--method rsm --rsm-size 0", "resolution"},
-                            BadUse{"--method rsm --rsm-size 100000", "resolution"},
-                            BadUse{"--method rsm --rsm-texels 1000000000", "texels"},
-                            BadUse{"--method rsm --sub-images 4 --sub-maps 3", "sub_maps"},
-                            BadUse{"--method rsm --probes 4x4x4", "--probes"},
-                            BadUse{"--method rsm --bounces 2", "--bounces"},
-                            BadUse{"--method rsm+field --gather 4", "--gather"},
-                            BadUse{"--method rsm+field --rsm-from-camera", "--rsm-from-camera"},
-                            BadUse{"--method rsm --rsm-pattern square", "--rsm-pattern"},
-                            BadUse{"--method rsm --rsm-pattern disk --rsm-texels 0", "texels"}}) {
+  for (const BadUse& use :
+       {BadUse{"--method field --rsm-size 64", "--rsm-size"},
+        BadUse{"--method rsm --rsm-size 0", "--rsm-size"},
+        BadUse{"--method rsm --rsm-size 100000", "--rsm-size"},
+        BadUse{"--method rsm --rsm-texels 1000000000", "--rsm-texels"},
+        BadUse{"--method rsm --sub-images 4 --sub-maps 3", "--sub-maps 3"},
+        BadUse{"--method rsm --probes 4x4x4", "--probes"},
+        BadUse{"--method rsm --bounces 2", "--bounces"},
+        BadUse{"--method rsm+field --gather 4", "--gather"},
+        BadUse{"--method rsm+field --rsm-from-camera", "--rsm-from-camera"},
+        BadUse{"--method rsm --rsm-pattern square", "--rsm-pattern"},
+        BadUse{"--method rsm --rsm-pattern disk --rsm-texels 0", "--rsm-texels"}}) {
     const ProgramResult result = render(std::string("cornell-spot --size 8x8 ") + use.arguments);
     EXPECT_EQ(result.status, 2) << use.arguments;
     EXPECT_THAT(result.errors, HasSubstr(use.named)) << use.arguments;

@@ -169,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadUse{"time_without_animation", "cornell --time 1", "no animation"},
         BadUse{"time_not_a_number", "atrium --time nan", "--time"},
-        BadUse{"unknown_animation", "atrium --time 1 --animation night", "0 door, 1 day"},
+        BadUse{"unknown_animation", "atrium --time 1 --animation night", "0 'door', 1 'day'"},
         BadUse{"animation_of_what_is_still", "atrium --animation day", "--time"},
         BadUse{"no_frames", "atrium --frames 0", "--frames"},
         BadUse{"negative_frames", "atrium --frames=-3", "--frames"},

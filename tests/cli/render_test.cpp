@@ -172,7 +172,7 @@ TEST_P(BadRender, IsStatusTwoWithACauseAndLeavesNoFile) {
 INSTANTIATE_TEST_SUITE_P(
     Arguments, BadRender,
     ::testing::Values(
-        BadUse{"no_scene", "", "scene"}, BadUse{"unknown_flag", "cornell --quality 9", "--quality"},
+        BadUse{"no_scene", "", "SCENE"}, BadUse{"unknown_flag", "cornell --quality 9", "--quality"},
         BadUse{"unknown_method", "cornell --method rsm2", "--method"},
         BadUse{"unknown_backend", "cornell --backend cuda", "--backend"},
         BadUse{"device_without_vulkan", "cornell --device 0", "--device"},
@@ -209,7 +209,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"few_rays", "cornell --rays 3", "--rays"},
         BadUse{"many_rays", "cornell --rays 100000", "--rays"},
         BadUse{"full_hysteresis", "cornell --hysteresis 1", "--hysteresis"},
-        BadUse{"odd_tile", "cornell --irradiance-texels 5", "irradiance texels"},
+        BadUse{"odd_tile", "cornell --irradiance-texels 5", "--irradiance-texels"},
         BadUse{"unknown_format", "cornell --irradiance-format rgb8", "--irradiance-format"},
         BadUse{"bounds_inside_out", "cornell --bounds 1,1,1,0,0,0", "--bounds"},
         BadUse{"volume_inside_out", "cornell --volume 1,1,1,0,0,0", "--volume"},
@@ -232,19 +232,22 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"missing_environment", "cornell --environment nowhere.hdr", "nowhere.hdr"},
         BadUse{"no_threads", "cornell --threads 0", "--threads"},
         BadUse{"samples_not_a_number", "cornell --samples many", "--samples"},
-        BadUse{"field_of_view_of_180", "cornell --eye 1,2,3 --target 0,0,0 --fov 180", "--fov"},
-        BadUse{"unwritable_statistics", "cornell --stats /nowhere/at/all.json", "/nowhere"}),
+        BadUse{"field_of_view_of_180", "cornell --eye 1,2,3 --target 0,0,0 --fov 180", "--fov"}),
     [](const auto& tested) { return std::string(tested.param.name); });
 
 TEST_F(Render, OutputsThatCannotBeWrittenFailBeforeAnyWork) {
-  for (const std::string& output :
-       {std::string("/nowhere/at/all.exr"), directory.path().string() + "/folder.exr/x.png",
-        directory.file("picture.jpg"), directory.file("none")}) {
-    const ProgramResult result = render("cornell --size 4096x4096 --samples 1024", output);
+  const std::string large = "cornell --size 4096x4096 --samples 1024";
+  for (const std::string& output : {directory.file("picture.gif"), directory.file("none")}) {
+    const ProgramResult result = render(large, output);
     EXPECT_EQ(result.status, 2) << output;
     EXPECT_THAT(last_line(result.errors), HasSubstr(output));
   }
-  EXPECT_EQ(run_program("render cornell").status, 2);
+  for (const std::string& arguments :
+       {large + " -o /dev/null/all.exr", large + " --stats /dev/null/all.json -o " + exr}) {
+    const ProgramResult result = run_program("render " + arguments);
+    EXPECT_EQ(result.status, 1) << arguments;
+    EXPECT_THAT(last_line(result.errors), HasSubstr("/dev/null/all."));
+  }
   const ProgramResult layers = render("cornell --layers", png);
   EXPECT_EQ(layers.status, 2);
   EXPECT_THAT(last_line(layers.errors), HasSubstr("--layers"));

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "support/temporary_directory.h"
 
@@ -20,12 +22,13 @@ struct ProgramResult {
   std::string errors;  ///< stderr
 };
 
-/// Runs `lambent` with these arguments (as a shell reads them) and waits for it.
-inline ProgramResult run_program(const std::string& arguments) {
+/// Runs `lambent` with these arguments (as a shell reads them) and waits for it. `before` is what
+/// the shell does first, such as "ulimit -f 4;".
+inline ProgramResult run_program(const std::string& arguments, const std::string& before = "") {
   ProgramResult result;
   const TemporaryDirectory directory("stderr");
   const std::string errors = directory.file("stderr.txt");
-  std::FILE* pipe = popen((LAMBENT_PROGRAM " " + arguments + " 2>" + errors).c_str(), "r");
+  std::FILE* pipe = popen((before + LAMBENT_PROGRAM " " + arguments + " 2>" + errors).c_str(), "r");
   if (pipe == nullptr) return result;
   std::array<char, 4096> buffer;
   std::size_t count = 0;
@@ -37,6 +40,21 @@ inline ProgramResult run_program(const std::string& arguments) {
   std::ifstream file(errors);
   result.errors.assign(std::istreambuf_iterator<char>(file), {});
   return result;
+}
+
+/// Starts `lambent` with these arguments and goes on beside it.
+inline pid_t start_program(const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child == 0) {
+    std::vector<char*> argv = {const_cast<char*>(LAMBENT_PROGRAM)};
+    for (const std::string& argument : arguments) {
+      argv.push_back(const_cast<char*>(argument.c_str()));
+    }
+    argv.push_back(nullptr);
+    execv(LAMBENT_PROGRAM, argv.data());
+    _exit(127);
+  }
+  return child;
 }
 
 }  // namespace lambent::testing

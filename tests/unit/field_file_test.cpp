@@ -220,9 +220,9 @@ TEST(FieldFile, RefusesNumbersThatNoFieldHas) {
   exact.volumes[0] = made_volume(IrradianceFormat::float32, DistanceFormat::rg32f);
   const std::size_t tiles = volume + kVolumeHeaderBytes + 12 * kRecordBytes;
   EXPECT_EQ(refusal_with(tiles, 0x3F800000u, exact), "");
-  EXPECT_THAT(refusal_with(tiles, kNan, exact), HasSubstr("not finite"));
+  EXPECT_THAT(refusal_with(tiles, kNan, exact), HasSubstr("not within -1e18 to 1e18"));
   EXPECT_THAT(refusal_with(tiles + 4 * exact.volumes[0].irradiance.size(), kInfinity, exact),
-              HasSubstr("not finite"));
+              HasSubstr("not within -1e18 to 1e18"));
 }
 
 TEST(FieldCorpus, HoldsFilesThatAreReadAndFilesThatAreRefused) {

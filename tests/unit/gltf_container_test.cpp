@@ -68,14 +68,17 @@ TEST_F(GltfFile, MissingFilesAreNamed) {
   EXPECT_THAT(error, HasSubstr("none.bin): no such file"));
 }
 
-TEST_F(GltfFile, MissingImagesAreNamed) {
+TEST_F(GltfFile, MissingImagesAreNamedWithTheirMaterials) {
   Json root = triangle_with({{"byteLength", 36}, {"uri", kTriangleUri}});
   root["images"] = Json::parse(R"([{"uri": "unused.png"}, {"uri": "none.png"}])");
   root["textures"] = Json::parse(R"([{"source": 1}])");
-  root["materials"] = Json::parse(R"([{"emissiveTexture": {"index": 0}}])");
-  const std::string error = error_of(load_scene(write("a.gltf", root.dump())));
-  EXPECT_THAT(error, HasSubstr("images[1]"));
-  EXPECT_THAT(error, HasSubstr("none.png): no such file"));
+  root["materials"] = Json::parse(R"([{"name": "wall", "normalTexture": {"index": 0}}])");
+  const Expected<Scene> scene = load_scene(write("a.gltf", root.dump()));
+  ASSERT_TRUE(scene) << error_of(scene);
+  ASSERT_THAT(scene->source.warnings, SizeIs(1));
+  EXPECT_THAT(scene->source.warnings[0], HasSubstr("1 texture could not be read"));
+  EXPECT_THAT(scene->source.warnings[0], HasSubstr("images[1]"));
+  EXPECT_THAT(scene->source.warnings[0], HasSubstr("none.png): no such file, in material 'wall'"));
 }
 
 TEST_F(GltfFile, TruncatedBuffersAreNamed) {
@@ -137,6 +140,8 @@ TEST(GltfJson, GarbageIsAnError) {
   EXPECT_NE(error_of(load_text("null")), "");
   EXPECT_NE(error_of(load_text("[]")), "");
   EXPECT_NE(error_of(load_text("\xff\xfe\x00")), "");
+  EXPECT_THAT(error_of(load_text("{\n\n \"a\": 1,,}")), HasSubstr("at line 3, column 9"));
+  EXPECT_THAT(error_of(load_text("x")), HasSubstr("at line 1, column 1"));
   EXPECT_THAT(error_of(load_text("{}")), HasSubstr("asset: is required but missing"));
   EXPECT_THAT(error_of(load_text(R"({"asset": {"version": "1.0"}})")), HasSubstr("version 1.0"));
   EXPECT_THAT(error_of(load_text(R"({"asset": {"version": "2.0"}, "x": 1e999})")),
@@ -193,7 +198,8 @@ TEST(GltfJson, HostileNumbersNameTheirPlace) {
       {"/nodes/0/mesh", 4, "nodes[0].mesh: is 4"},
       {"/nodes/0/scale", Json::array({1, 2}), "nodes[0].scale: must be a list of 3 numbers"},
       {"/nodes/0/scale", Json::array({1, 2, "x"}), "nodes[0].scale[2]: must be a number"},
-      {"/nodes/0/translation", Json::array({1e39, 0, 0}), "nodes[0].translation[0]"},
+      {"/nodes/0/translation", Json::array({1e39, 0, 0}),
+       "nodes[0].translation[0]: is 1e+39, which is not within -3e+38 to 3e+38"},
       {"/scenes/0/nodes/0", 8, "scenes[0].nodes[0]: is 8"},
       {"/scene", 3, "scene: is 3, but there are only 1 scenes"},
   };
@@ -214,6 +220,8 @@ TEST(GltfExtensions, RequiredAndUnknownIsAnErrorThatNamesIt) {
   const char* basis =
       R"({"asset": {"version": "2.0"}, "extensionsRequired": ["KHR_texture_basisu"]})";
   EXPECT_THAT(error_of(load_text(basis)), HasSubstr("KHR_texture_basisu"));
+  EXPECT_THAT(error_of(load_text(basis)),
+              HasSubstr("KTX2, which is not read; convert them to PNG"));
 }
 
 TEST(GltfExtensions, OptionalAndUnknownIsAWarning) {

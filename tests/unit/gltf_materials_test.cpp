@@ -167,23 +167,109 @@ TEST(GltfTextures, AreLeftOutWithAWarningWhereNoImageOfTheirsCanBeRead) {
   GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
   builder.root["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 0;
   builder.root["textures"][0].erase("source");
-  builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
+  builder.append("materials", Json::parse(R"({
+    "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0}})"));
   const Expected<Scene> scene = builder.load();
   ASSERT_TRUE(scene) << error_of(scene);
   EXPECT_TRUE(scene->textures.empty());
   EXPECT_EQ(scene->materials.at(0).emission_texture.texture, -1);
-  EXPECT_THAT(scene->source.warnings,
-              Contains(HasSubstr("without an image of a supported format")));
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("only as KTX2 (KHR_texture_basisu)")));
+  // It would glow all over, where its map had let it glow in places
+  EXPECT_EQ(scene->materials.at(0).emission, glm::vec3(0.0f));
 }
 
-TEST(GltfTextures, CorruptImagesAreErrorsThatNameThem) {
-  const Json material = Json::parse(R"({"emissiveTexture": {"index": 0}})");
+// A material that reads one texture in every way; without it, its factors say what it is.
+const char* const kAllFromOne = R"({
+  "name": "all", "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 0},
+  "normalTexture": {"index": 0},
+  "pbrMetallicRoughness": {
+    "baseColorFactor": [0.5, 0.25, 0.125, 1], "metallicFactor": 0.25,
+    "baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}}})";
+
+TEST(GltfTextures, CorruptImagesLeaveTheFactorsAndAreNamed) {
   std::vector<std::uint8_t> truncated = test::png_of(1, 1, kGrey);
   truncated.resize(truncated.size() / 2);
-  for (const auto& file : {truncated, std::vector<std::uint8_t>{'n', 'o', 't', '!'}}) {
+  const std::vector<std::uint8_t> no_image = {'n', 'o', 't', '!'};
+  const std::vector<std::uint8_t> ktx2 = {0xab, 'K', 'T', 'X', ' ', '2', '0', 0xbb, '\r', '\n'};
+  const std::pair<std::vector<std::uint8_t>, const char*> cases[] = {
+      {truncated, "images[0]: the image is corrupt"},
+      {no_image, "images[0]: the image is not PNG, JPEG or WebP"},
+      {ktx2, "images[0]: the image is KTX2; convert it"}};
+  for (const auto& [file, words] : cases) {
     GltfBuilder builder = with_image(file);
-    builder.append("materials", material);
-    EXPECT_THAT(error_of(builder.load()), HasSubstr("images[0]: the image is"));
+    // A good image after the bad one keeps its place
+    builder.append("images", {{"bufferView", builder.view(test::png_of(1, 1, kGrey))}});
+    builder.append("textures", {{"source", 1}});
+    builder.append("materials", Json::parse(kAllFromOne));
+    builder.append("materials", Json::parse(R"({
+      "emissiveFactor": [1, 0, 0], "emissiveTexture": {"index": 1}})"));
+    const Expected<Scene> scene = builder.load();
+    ASSERT_TRUE(scene) << error_of(scene);
+    const Material& m = scene->materials.at(0);
+    EXPECT_EQ(m.base_color, glm::vec4(0.5f, 0.25f, 0.125f, 1.0f));
+    EXPECT_EQ(m.metallic, 0.25f);
+    EXPECT_EQ(m.emission, glm::vec3(0.0f));
+    for (const TextureView& view : {m.base_color_texture, m.metallic_roughness_texture,
+                                    m.normal_texture, m.emission_texture}) {
+      EXPECT_EQ(view.texture, -1);
+    }
+    ASSERT_THAT(scene->textures, SizeIs(1));
+    EXPECT_EQ(scene->materials.at(1).emission_texture.texture, 0);
+    EXPECT_EQ(scene->materials.at(1).emission, glm::vec3(1, 0, 0));
+    // Read as color and as data, it is one texture to people
+    ASSERT_THAT(scene->source.warnings, SizeIs(1));
+    EXPECT_THAT(scene->source.warnings[0], HasSubstr("1 texture could not be read"));
+    EXPECT_THAT(scene->source.warnings[0], HasSubstr(words));
+    EXPECT_THAT(scene->source.warnings[0], HasSubstr("in material 'all'"));
+  }
+}
+
+TEST(GltfTextures, ManyMissingOnesAreOneWarning) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  constexpr int kMissing = 300;
+  for (int i = 0; i < kMissing; ++i) {
+    builder.append("images", {{"uri", "\x1b[31m" + std::to_string(i) + ".png"}});
+    builder.append("textures", {{"source", i}});
+    builder.append("materials", {{"emissiveTexture", {{"index", i}}}});
+  }
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  ASSERT_THAT(scene->source.warnings, SizeIs(1));
+  const std::string& warning = scene->source.warnings[0];
+  EXPECT_THAT(warning, HasSubstr("300 textures could not be read"));
+  EXPECT_THAT(warning, HasSubstr("0.png"));
+  EXPECT_THAT(warning, HasSubstr("and 297 more"));
+  EXPECT_LT(warning.size(), 1000u);
+  // Names come from files: they must not command a terminal
+  EXPECT_EQ(warning.find('\x1b'), std::string::npos);
+}
+
+TEST(GltfMaterials, TooBrightOnesAreReducedAndKeepTheirHue) {
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.append("materials", Json::parse(R"({"emissiveFactor": [1, 0.5, 0], "extensions": {
+    "KHR_materials_emissive_strength": {"emissiveStrength": 1e38}}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_EQ(scene->materials.at(0).emission, glm::vec3(1e10f, 5e9f, 0.0f));
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("reduced to 1e10 W/(m^2 sr)")));
+}
+
+TEST(GltfMaterials, FactorsOutOfRangeNameTheirPlace) {
+  const std::pair<const char*, const char*> cases[] = {
+      {R"({"normalTexture": {"index": 0, "scale": 1e30}})",
+       "materials[0].normalTexture.scale: is 1e+30, which is not within -1000000 to 1000000"},
+      {R"({"extensions": {"KHR_materials_ior": {"ior": 1e38}}})",
+       "KHR_materials_ior.ior: is 1e+38"},
+      {R"({"emissiveTexture": {"index": 0, "extensions": {
+        "KHR_texture_transform": {"scale": [1e30, 1]}}}})",
+       "KHR_texture_transform.scale[0]: is 1e+30, which is not within -100000000 to 100000000"},
+  };
+  for (const auto& [material, words] : cases) {
+    GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+    builder.append("materials", Json::parse(material));
+    EXPECT_THAT(error_of(builder.load()), HasSubstr(words));
   }
 }
 
@@ -193,7 +279,10 @@ TEST(GltfTextures, AbsurdSizesFailBeforeAnyAllocation) {
   png[18] = 0x80;
   GltfBuilder builder = with_image(png);
   builder.append("materials", Json::parse(R"({"emissiveTexture": {"index": 0}})"));
-  EXPECT_THAT(error_of(builder.load()), HasSubstr("exceeds 16384"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_TRUE(scene->textures.empty());
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("exceeds 16384")));
 }
 
 TEST(GltfTextures, MissingTextureCoordinatesAreAWarning) {

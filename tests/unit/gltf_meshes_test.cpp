@@ -145,6 +145,41 @@ TEST(GltfMeshes, PositionsThatAreNotNumbersNameTheAccessor) {
   EXPECT_THAT(error_of(builder.load()), HasSubstr("accessors[0]: element 1"));
 }
 
+TEST(GltfMeshes, CoordinatesOutOfRangeNameTheVertex) {
+  for (const float far : {2e9f, -1e15f, 1e19f, 3e38f}) {
+    GltfBuilder builder;
+    const int positions = builder.accessor<float>({0, 0, 0, far, 0, 0, 0, far, 0}, "VEC3");
+    builder.show({{"attributes", {{"POSITION", positions}}}});
+    EXPECT_THAT(error_of(builder.load()),
+                HasSubstr("meshes[0].primitives[0]: vertex 1 has a coordinate that is not within "
+                          "-1e9 to 1e9 m"))
+        << far;
+  }
+}
+
+TEST(GltfMeshes, LargeTrianglesHaveArea) {
+  GltfBuilder builder;
+  const int positions =
+      builder.accessor<float>({-1e9f, -1e9f, 0, 1e9f, -1e9f, 0, 1e9f, 1e9f, 1e9f}, "VEC3");
+  builder.show({{"attributes", {{"POSITION", positions}}}});
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_EQ(triangle_count(*scene), 1u);
+}
+
+TEST(GltfMeshes, TextureCoordinatesOutOfRangeBecomeZero) {
+  GltfBuilder builder;
+  Json primitive = builder.triangle();
+  primitive["attributes"]["TEXCOORD_0"] =
+      builder.accessor<float>({1e30f, 1, 0.5f, -1e30f, 0.25f, 0.75f}, "VEC2");
+  builder.show(primitive);
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_THAT(scene->meshes.at(0).uvs[0],
+              testing::ElementsAre(glm::vec2(0), glm::vec2(0), glm::vec2(0.25f, 0.75f)));
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("2 texture coordinates beyond 1e8")));
+}
+
 TEST(GltfMeshes, AttributesMustHaveOneElementAVertex) {
   GltfBuilder builder;
   Json triangle = builder.triangle();

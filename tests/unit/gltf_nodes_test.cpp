@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "lambent/world.h"
+#include "raytracing/raytracer.h"
+#include "raytracing/surface.h"
 #include "unit/gltf_builder.h"
 
 namespace lambent {
@@ -62,14 +65,78 @@ TEST(GltfNodes, NegativeScaleIsKept) {
   EXPECT_LT(glm::determinant(scene->instances.at(0).world_from_object), 0.0f);
 }
 
-TEST(GltfNodes, FlattenedInstancesAreLeftOut) {
+/// The error or the last warning of a triangle in a node with these properties.
+std::string words_about(Json node) {
+  GltfBuilder builder;
+  node["mesh"] = builder.append("meshes", {{"primitives", Json::array({builder.triangle()})}});
+  builder.show_node(std::move(node));
+  const Expected<Scene> scene = builder.load();
+  if (!scene) return error_of(scene);
+  return scene->source.warnings.empty() ? std::string() : scene->source.warnings.back();
+}
+
+TEST(GltfNodes, FlatInstancesAreDrawnFlat) {
+  // The triangle's plane, z = 0, is kept and seen from the front
   GltfBuilder builder;
   const int mesh = builder.append("meshes", {{"primitives", Json::array({builder.triangle()})}});
+  builder.show_node({{"mesh", mesh}, {"scale", {1, 1, 0}}});
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  EXPECT_THAT(scene->source.warnings, SizeIs(0));
+  ASSERT_THAT(scene->instances, SizeIs(1));
+  const World world(*scene);
+  const Ray ray{{0.25f, 0.25f, 1.0f}, 0.0f, {0.0f, 0.0f, -1.0f}};
+  const Hit hit = world.tracer().closest_hit(ray);
+  ASSERT_FALSE(hit.missed());
+  EXPECT_NEAR(hit.distance, 1.0f, 1e-5f);
+  expect_near(surface_at(*scene, ray, hit, 0.0f).normal_ws, {0, 0, 1});
+}
+
+TEST(GltfNodes, NormalsOfAFlattenedMeshStandOnItsPlane) {
+  // A slope that is flattened to the ground
+  GltfBuilder builder;
+  const int positions = builder.accessor<float>({0, 0, 0, 0, 1, 1, 1, 0.5f, 0}, "VEC3");
+  const int mesh = builder.append(
+      "meshes", {{"primitives", Json::array({{{"attributes", {{"POSITION", positions}}}}})}});
   builder.show_node({{"mesh", mesh}, {"scale", {1, 0, 1}}});
   const Expected<Scene> scene = builder.load();
   ASSERT_TRUE(scene) << error_of(scene);
-  EXPECT_TRUE(scene->instances.empty());
-  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("flattened")));
+  const World world(*scene);
+  const Ray ray{{0.3f, 1.0f, 0.3f}, 0.0f, {0.0f, -1.0f, 0.0f}};
+  const Hit hit = world.tracer().closest_hit(ray);
+  ASSERT_FALSE(hit.missed());
+  EXPECT_NEAR(hit.distance, 1.0f, 1e-3f);
+  const Surface surface = surface_at(*scene, ray, hit, 0.0f);
+  EXPECT_GT(surface.normal_ws.y, 0.999f);
+  EXPECT_GT(surface.geometric_normal_ws.y, 0.999f);
+}
+
+TEST(GltfNodes, WhatCannotBeDrawnIsTold) {
+  EXPECT_EQ(words_about({{"scale", {1, 0, 0}}}),
+            "1 instances scaled to a line or a point were left out, first in nodes[0].");
+  EXPECT_THAT(words_about({{"scale", {1e-30, 1e-30, 1e-30}}}), HasSubstr("a line or a point"));
+  EXPECT_THAT(words_about({{"scale", {1e20, 1e20, 1e20}}}),
+              HasSubstr("nodes[0]: the mesh is scaled by more than 1e10"));
+  EXPECT_THAT(words_about({{"scale", {2e9, 1, 1}}}),
+              HasSubstr("nodes[0]: the mesh reaches beyond 1e9 m"));
+  EXPECT_THAT(words_about({{"translation", {0, 1e19, 0}}}),
+              HasSubstr("nodes[0]: the mesh reaches beyond 1e9 m"));
+  EXPECT_EQ(words_about({{"translation", {0, 9e8, 0}}}), "");
+}
+
+TEST(GltfNodes, RootsThatAreChildrenStandWhereTheirParentsPutThem) {
+  GltfBuilder builder;
+  const int mesh = builder.append("meshes", {{"primitives", Json::array({builder.triangle()})}});
+  builder.show_node({{"children", {1}}, {"translation", {5, 0, 0}}});
+  builder.show_node({{"mesh", mesh}, {"translation", {0, 2, 0}}});
+  for (const Json& roots : {Json{0, 1}, Json{1}}) {
+    builder.root["scenes"][0]["nodes"] = roots;
+    const Expected<Scene> scene = builder.load();
+    ASSERT_TRUE(scene) << error_of(scene);
+    ASSERT_THAT(scene->instances, SizeIs(1));
+    expect_near(place(scene->instances[0], glm::vec3(0.0f)), {5, 2, 0});
+    EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("roots of the scene are children")));
+  }
 }
 
 TEST(GltfNodes, GpuInstancesStandRelativeToTheirNode) {
@@ -145,129 +212,6 @@ TEST(GltfNodes, TransformsThatOverflowAreErrors) {
   builder.append("nodes", {{"children", {1}}, {"scale", {1e30, 1, 1}}});
   builder.append("nodes", {{"scale", {1e30, 1, 1}}});
   EXPECT_THAT(error_of(builder.load()), HasSubstr("nodes[1]: the transform is not finite"));
-}
-
-// One light, turned so that its -z points along +x, and moved.
-Expected<Scene> with_light(const Json& light) {
-  GltfBuilder builder;
-  builder.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({light});
-  builder.show_node({{"name", "node"},
-                     {"translation", {1, 2, 3}},
-                     {"rotation", {0, -kHalf, 0, kHalf}},
-                     {"scale", {5, 5, 5}},
-                     {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  return builder.load();
-}
-
-TEST(GltfLights, TravelAlongTheirNodesNegativeZ) {
-  const Expected<Scene> scene =
-      with_light({{"type", "directional"}, {"color", {1, 0.5, 0.25}}, {"intensity", 4}});
-  ASSERT_TRUE(scene) << error_of(scene);
-  const Light& light = scene->lights.at(0);
-  EXPECT_EQ(light.type, Light::Type::directional);
-  EXPECT_EQ(light.name, "node");
-  EXPECT_EQ(light.intensity, glm::vec3(4, 2, 1));
-  expect_near(light.direction_ws, {1, 0, 0});
-}
-
-TEST(GltfLights, SpotsHaveCones) {
-  const Expected<Scene> scene = with_light(Json::parse(R"({"type": "spot", "range": 7,
-      "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}})"));
-  ASSERT_TRUE(scene) << error_of(scene);
-  const Light& light = scene->lights.at(0);
-  EXPECT_EQ(light.type, Light::Type::spot);
-  expect_near(light.position_ws, {1, 2, 3});
-  EXPECT_EQ(light.range, 7.0f);
-  EXPECT_EQ(light.inner_cone_angle, 0.25f);
-  EXPECT_EQ(light.outer_cone_angle, 0.5f);
-}
-
-TEST(GltfLights, UnknownTypesAreErrors) {
-  EXPECT_THAT(error_of(with_light({{"type", "area"}})),
-              HasSubstr("extensions.KHR_lights_punctual.lights[0].type"));
-}
-
-TEST(GltfCameras, LoseScaleAndMirroring) {
-  GltfBuilder builder;
-  builder.append("cameras", Json::parse(R"({"type": "perspective", "name": "c",
-      "perspective": {"yfov": 0.5, "znear": 0.1, "aspectRatio": 1.5}})"));
-  builder.show_node({{"camera", 0}, {"translation", {1, 2, 3}}, {"scale", {-3, 2, 5}}});
-  const Expected<Scene> scene = builder.load();
-  ASSERT_TRUE(scene) << error_of(scene);
-  const Camera& camera = scene->cameras.at(0);
-  EXPECT_EQ(camera.name, "c");
-  EXPECT_EQ(camera.vertical_fov, 0.5f);
-  EXPECT_EQ(camera.aspect, 1.5f);
-  glm::mat4 expected(1.0f);
-  expected[3] = glm::vec4(1, 2, 3, 1);
-  EXPECT_EQ(camera.world_from_view, expected);
-}
-
-TEST(GltfCameras, OrthographicOnesHaveAnExtent) {
-  GltfBuilder builder;
-  builder.append("cameras", Json::parse(R"({"type": "orthographic",
-      "orthographic": {"xmag": 3, "ymag": 1.5, "znear": 0.1, "zfar": 9}})"));
-  builder.show_node({{"camera", 0}});
-  const Expected<Scene> scene = builder.load();
-  ASSERT_TRUE(scene) << error_of(scene);
-  EXPECT_TRUE(scene->cameras.at(0).orthographic);
-  EXPECT_EQ(scene->cameras[0].vertical_extent, 3.0f);
-  EXPECT_EQ(scene->cameras[0].aspect, 2.0f);
-}
-
-TEST(GltfCameras, OrthographicOnesWithoutAShapeAreErrors) {
-  for (const auto& [xmag, ymag] : {std::pair{0.0, 1.0}, {1.0, 0.0}, {1e38, 1e-38}}) {
-    GltfBuilder builder;
-    builder.append("cameras",
-                   {{"type", "orthographic"},
-                    {"orthographic", {{"xmag", xmag}, {"ymag", ymag}, {"znear", 0}, {"zfar", 9}}}});
-    builder.show_node({{"camera", 0}});
-    EXPECT_THAT(error_of(builder.load()), HasSubstr("cameras[0]")) << xmag << " " << ymag;
-  }
-}
-
-TEST(GltfSky, IsReadFromTheExtrasOfTheChosenScene) {
-  GltfBuilder builder;
-  builder.show(builder.triangle());
-  builder.root["scenes"][0]["extras"]["lambent_sky_radiance"] = {0.25, 0.5, 2};
-  builder.append("scenes", {{"nodes", {0}}, {"extras", "of somebody else's"}});
-  const Expected<Scene> first = builder.load();
-  ASSERT_TRUE(first) << error_of(first);
-  EXPECT_EQ(first->environment.radiance, glm::vec3(0.25f, 0.5f, 2.0f));
-  EXPECT_THAT(first->source.warnings, SizeIs(0));
-
-  LoadOptions options;
-  options.scene = 1;
-  const Expected<Scene> second = builder.load(options);
-  ASSERT_TRUE(second) << error_of(second);
-  EXPECT_EQ(second->environment.radiance, glm::vec3(0.0f));
-}
-
-TEST(GltfSky, WhatIsNoRadianceStaysBlackAndIsTold) {
-  for (const char* sky : {"1", "[1, 2]", "[1, 2, \"3\"]", "[1, 2, -3]", "[1, 2, 1e200]", "null",
-                          "[1, 2, null]", "{}"}) {
-    GltfBuilder builder;
-    builder.show(builder.triangle());
-    builder.root["scenes"][0]["extras"]["lambent_sky_radiance"] = Json::parse(sky);
-    const Expected<Scene> scene = builder.load();
-    ASSERT_TRUE(scene) << error_of(scene);
-    EXPECT_EQ(scene->environment.radiance, glm::vec3(0.0f)) << sky;
-    EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("lambent_sky_radiance"))) << sky;
-  }
-}
-
-TEST(LookAt, LooksAtItsTargetWithPositiveYUp) {
-  const Camera camera = look_at({1, 2, 3}, {1, 2, -7}, 1.0f);
-  expect_near(-glm::vec3(camera.world_from_view[2]), {0, 0, -1});
-  expect_near(glm::vec3(camera.world_from_view[1]), {0, 1, 0});
-  expect_near(glm::vec3(camera.world_from_view[0]), {1, 0, 0});
-  expect_near(glm::vec3(camera.world_from_view[3]), {1, 2, 3});
-}
-
-TEST(LookAt, StraightDownHasAFrameToo) {
-  const Camera camera = look_at({0, 5, 0}, {0, 0, 0}, 1.0f);
-  expect_near(-glm::vec3(camera.world_from_view[2]), {0, -1, 0});
-  EXPECT_NEAR(glm::determinant(glm::mat3(camera.world_from_view)), 1.0f, 1e-5f);
 }
 
 TEST(GltfNodes, FlagsOfInstancesStandInTheirExtras) {

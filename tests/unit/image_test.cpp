@@ -223,6 +223,58 @@ TEST(Jpeg, IsReadAndItsTruncationsAreErrors) {
   expect_truncations_fail(directory.file("a.jpg"), directory.file("cut.jpg"));
 }
 
+TEST(Jpeg, IsWrittenAsItIsShown) {
+  const testing::TemporaryDirectory directory;
+  Image shown(67, 45, 3);  // no multiple of a block's 8 pixels
+  for (int y = 0; y < shown.height; ++y) {
+    for (int x = 0; x < shown.width; ++x) {
+      float* pixel = shown.at(x, y);
+      pixel[0] = static_cast<float>(x) / 66.0f;
+      pixel[1] = static_cast<float>(y) / 44.0f;
+      pixel[2] = x < 33 ? 0.2f : 0.8f;
+    }
+  }
+  for (const int quality : {92, 60}) {
+    ASSERT_TRUE(write_jpeg(directory.file("a.jpg"), shown, quality));
+    const auto read = read_image(directory.file("a.jpg"));
+    ASSERT_TRUE(read) << read.error().message();
+    ASSERT_EQ(read->width, 67);
+    ASSERT_EQ(read->height, 45);
+    double error = 0.0;
+    for (std::size_t i = 0; i < shown.pixels.size(); ++i) {
+      error += std::abs(srgb_from_linear(read->layers[0].image.pixels[i]) - shown.pixels[i]);
+    }
+    // On average, within one and four of 256 levels
+    EXPECT_LT(error / static_cast<double>(shown.pixels.size()), (quality > 90 ? 1 : 4) / 256.0);
+  }
+}
+
+TEST(Jpeg, TakesGreyAndAlphaAndWhatIsNoNumber) {
+  const testing::TemporaryDirectory directory;
+  Image grey(8, 8, 1), with_alpha(8, 8, 4);
+  for (float& value : grey.pixels) value = 0.5f;
+  for (float& value : with_alpha.pixels) value = std::numeric_limits<float>::quiet_NaN();
+  ASSERT_TRUE(write_jpeg(directory.file("grey.jpg"), grey));
+  ASSERT_TRUE(write_jpeg(directory.file("alpha.jpg"), with_alpha));
+  const auto half = read_image(directory.file("grey.jpg"));
+  ASSERT_TRUE(half);
+  for (int c = 0; c < 3; ++c) {
+    EXPECT_NEAR(half->find("")->at(3, 3)[c], linear_from_srgb(0.5f), 0.005f);
+  }
+  EXPECT_NEAR(read_image(directory.file("alpha.jpg"))->find("")->at(3, 3)[0], 0.0f, 0.005f);
+}
+
+TEST(Jpeg, WhatNoJpegHoldsIsRefused) {
+  const testing::TemporaryDirectory directory;
+  const std::string path = directory.file("a.jpg");
+  EXPECT_FALSE(write_jpeg(path, Image(8, 8, 2)));
+  EXPECT_FALSE(write_jpeg(path, Image(0, 8, 3)));
+  EXPECT_FALSE(write_jpeg(path, Image(65501, 1, 3)));
+  EXPECT_FALSE(write_jpeg(path, Image(8, 8, 3), 0));
+  EXPECT_FALSE(write_jpeg(path, Image(8, 8, 3), 101));
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
 TEST(Jpeg, ImpossibleHuffmanTablesAreRefusedBeforeDecoding) {
   const std::vector<std::uint8_t> grey(16 * 16 * 3, 128);
   std::vector<std::byte> bytes;

@@ -102,6 +102,30 @@ TEST(Rgb9e5, EveryCodeDecodesAndEncodesToItself) {
   }
 }
 
+TEST(Rgb9e5, EveryInputHasACode) {
+  constexpr float kHostile[] = {NAN,    -NAN,    INFINITY, -INFINITY, 3.4e38f, -3.4e38f,
+                                1e-45f, -1e-45f, 65408.0f, 65409.0f,  0.0f};
+  for (const float a : kHostile) {
+    for (const float b : kHostile) {
+      for (const float u : kDithers) {
+        const vec3 decoded = decode_rgb9e5(encode_rgb9e5(vec3(a, b, 1.0f), vec3(u)));
+        EXPECT_TRUE(decoded.x >= 0.0f && decoded.x <= kRgb9e5Max) << a << " " << b;
+        EXPECT_TRUE(decoded.y >= 0.0f && decoded.y <= kRgb9e5Max) << a << " " << b;
+        if (std::isnan(a)) {
+          EXPECT_EQ(decoded.x, 0.0f) << b;
+        }
+        // Channels beside one that is no number keep what they hold
+        if (std::isnan(a) && !(b > 1.0f)) {
+          EXPECT_EQ(decoded.z, 1.0f) << b;
+        }
+        const vec3 small = decode_r11g11b10f(encode_r11g11b10f(vec3(a, b, 1.0f), vec3(u)));
+        EXPECT_TRUE(std::isfinite(small.x) && small.x >= 0.0f) << a;
+        EXPECT_TRUE(std::isfinite(small.y) && small.y >= 0.0f) << b;
+      }
+    }
+  }
+}
+
 TEST(Rgb9e5, DitherIsUnbiasedAndNeverOffByMoreThanAStep) {
   for (const float value : levels(1e-6f, 6.5e4f)) {
     const vec3 color(value, 0.31f * value, 0.007f * value);

@@ -54,6 +54,16 @@ TEST_F(LoadEnvironment, RadianceThatIsNotANumberNamesThePixel) {
   EXPECT_EQ(environment.error().place, "pixel (1, 0)");
 }
 
+TEST_F(LoadEnvironment, RadianceOutOfRangeNamesThePixel) {
+  for (const float bright : {2e10f, 1e38f}) {
+    write({1, 2, 3, 4, 5, bright});
+    const Expected<Environment> environment = load_environment(path_);
+    ASSERT_FALSE(environment);
+    EXPECT_EQ(environment.error().place, "pixel (1, 0)");
+    EXPECT_THAT(environment.error().cause, HasSubstr("above 1e10 W/(m^2 sr)"));
+  }
+}
+
 TEST_F(LoadEnvironment, MissingAndBrokenFilesAreErrors) {
   EXPECT_FALSE(load_environment(testing::TempDir() + "none.exr"));
   std::ofstream(path_) << "no picture";

@@ -59,7 +59,20 @@ TEST(Validate, NamesTheFirstThingWrong) {
       {"instances[0]", [](Scene& s) { s.instances[0].mesh = -1; }},
       {"instances[0]", [](Scene& s) { s.instances[0].world_from_object[1].y = 0.0f; }},
       {"instances[0]", [](Scene& s) { s.instances[0].world_from_object[0].w = 1.0f; }},
+      {"instances[0]", [](Scene& s) { s.instances[0].world_from_object[3].y = 2e9f; }},
+      {"instances[0]", [](Scene& s) { s.instances[0].world_from_object *= 1e11f; }},
+      {"instances[0]",
+       [](Scene& s) {
+         for (int axis = 0; axis < 3; ++axis) s.instances[0].world_from_object[axis] *= 1e11f;
+       }},
       {"lights[0]", [](Scene& s) { s.lights[0].intensity.b = -1.0f; }},
+      {"lights[0]", [](Scene& s) { s.lights[0].intensity.b = 2e12f; }},
+      {"lights[0]", [](Scene& s) { s.lights[0].position_ws.x = 2e9f; }},
+      {"lights[0]",
+       [](Scene& s) {
+         s.lights[0].type = Light::Type::directional;
+         s.lights[0].intensity.b = 2e10f;
+       }},
       {"lights[0]",
        [](Scene& s) {
          s.lights[0].type = Light::Type::directional;
@@ -71,6 +84,15 @@ TEST(Validate, NamesTheFirstThingWrong) {
          s.lights[0].inner_cone_angle = 1.0f;
        }},
       {"cameras[0]", [](Scene& s) { s.cameras[0].vertical_fov = 0.0f; }},
+      {"cameras[0]", [](Scene& s) { s.cameras[0].vertical_fov = 3.1415f; }},
+      {"cameras[0]", [](Scene& s) { s.cameras[0].vertical_fov = kNan; }},
+      {"cameras[0]", [](Scene& s) { s.cameras[0].world_from_view[3].z = 1e19f; }},
+      {"cameras[0]", [](Scene& s) { s.cameras[0].aspect = 1e30f; }},
+      {"cameras[0]",
+       [](Scene& s) {
+         s.cameras[0].orthographic = true;
+         s.cameras[0].vertical_extent = 1e10f;
+       }},
       {"cameras[0]", [](Scene& s) { s.cameras[0].world_from_view[0] *= 2.0f; }},
       {"cameras[0]", [](Scene& s) { s.cameras[0].aspect = -1.0f; }},
       {"cameras[0]",
@@ -79,6 +101,18 @@ TEST(Validate, NamesTheFirstThingWrong) {
          s.cameras[0].aspect = kNan;
        }},
       {"environment", [](Scene& s) { s.environment.radiance.r = kNan; }},
+      {"environment", [](Scene& s) { s.environment.radiance.r = 2e10f; }},
+      {"environment", [](Scene& s) { s.environment.map.pixels[4] = 2e10f; }},
+      {"environment",
+       [](Scene& s) {
+         s.environment.map.pixels[4] = 1e6f;
+         s.environment.radiance.r = 1e5f;
+       }},
+      {"materials[0]", [](Scene& s) { s.materials[0].emission.r = 2e10f; }},
+      {"materials[0]", [](Scene& s) { s.materials[0].normal_scale = 1e30f; }},
+      {"materials[0]", [](Scene& s) { s.materials[0].specular_color.r = 1e30f; }},
+      {"materials[0]", [](Scene& s) { s.materials[0].emission_texture.uv_scale.x = 1e30f; }},
+      {"meshes[0]", [](Scene& s) { s.meshes[0].positions[0].x = 2e9f; }},
       {"environment", [](Scene& s) { s.environment.map.pixels[4] = -1.0f; }},
       {"environment", [](Scene& s) { s.environment.map.pixels.pop_back(); }},
   };

@@ -6,7 +6,6 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfVersion.h>
 
@@ -47,24 +46,6 @@ class MemoryInput final : public Imf::IStream {
 
  private:
   ByteView bytes_;
-  std::uint64_t position_ = 0;
-};
-
-class MemoryOutput final : public Imf::OStream {
- public:
-  explicit MemoryOutput(std::vector<std::byte>& bytes) : Imf::OStream(""), bytes_(bytes) {}
-
-  void write(const char c[], int n) override {
-    const std::size_t count = static_cast<std::size_t>(n);
-    if (position_ + count > bytes_.size()) bytes_.resize(position_ + count);
-    std::memcpy(bytes_.data() + position_, c, count);
-    position_ += count;
-  }
-  std::uint64_t tellp() override { return position_; }
-  void seekp(std::uint64_t position) override { position_ = position; }
-
- private:
-  std::vector<std::byte>& bytes_;
   std::uint64_t position_ = 0;
 };
 
@@ -181,23 +162,6 @@ void read_part(Imf::InputPart& part, const std::string& prefix, LayeredImage& re
   std::move(layers.begin(), layers.end(), std::back_inserter(result.layers));
 }
 
-/// The names of a layer's channels as write_exr documents them.
-std::vector<std::string> channel_names(const Layer& layer) {
-  const std::string prefix = layer.name.empty() ? "" : layer.name + ".";
-  switch (layer.image.channels) {
-    case 1:
-      return {prefix + "Y"};
-    case 2:
-      return {prefix + "U", prefix + "V"};
-    case 3:
-      return {prefix + "R", prefix + "G", prefix + "B"};
-    case 4:
-      return {prefix + "R", prefix + "G", prefix + "B", prefix + "A"};
-    default:
-      return {};
-  }
-}
-
 }  // namespace
 
 bool is_exr(ByteView bytes) {
@@ -220,7 +184,7 @@ Expected<LayeredImage> decode_exr(const std::string& path, ByteView bytes) try {
       return tl::unexpected(ok.error());
     if (header.dataWindow() != window) return fail(path, place, "parts differ in size");
   }
-  if (const auto ok = check_image_size(path, width, height, channels); !ok) {
+  if (const auto ok = check_image_size(path, width, height, channels, kMaxExrFloats); !ok) {
     return tl::unexpected(ok.error());
   }
 
@@ -243,49 +207,6 @@ Expected<LayeredImage> decode_exr(const std::string& path, ByteView bytes) try {
   throw;
 } catch (const std::exception& error) {
   return fail(path, "", exr_cause(error));
-}
-
-Expected<std::vector<std::byte>> encode_exr(const std::string& path, const LayeredImage& image) {
-  Imf::Header header(std::max(image.width, 1), std::max(image.height, 1));
-  header.compression() = Imf::ZIP_COMPRESSION;
-  Imf::FrameBuffer frame;
-  std::int64_t channels = 0;
-  for (const Layer& layer : image.layers) {
-    const std::string place = "layer \"" + layer.name + "\"";
-    const std::vector<std::string> names = channel_names(layer);
-    if (names.empty()) return fail(path, place, "an EXR layer has 1 to 4 channels");
-    const std::size_t floats = static_cast<std::size_t>(image.width) * image.height * names.size();
-    if (layer.image.width != image.width || layer.image.height != image.height ||
-        layer.image.pixels.size() != floats) {
-      return fail(path, place, "layers differ in size");
-    }
-    const std::size_t pixel_bytes = sizeof(float) * names.size();
-    for (std::size_t c = 0; c < names.size(); ++c) {
-      if (header.channels().findChannel(names[c]) != nullptr) {
-        return fail(path, place, "two layers share a name");
-      }
-      header.channels().insert(names[c], Imf::Channel(Imf::FLOAT));
-      // OpenEXR's slices are not const, though writing only reads them.
-      char* base = reinterpret_cast<char*>(const_cast<float*>(layer.image.pixels.data() + c));
-      frame.insert(names[c], Imf::Slice(Imf::FLOAT, base, pixel_bytes, pixel_bytes * image.width));
-    }
-    channels += layer.image.channels;
-  }
-  if (const auto ok = check_image_size(path, image.width, image.height, channels); !ok) {
-    return tl::unexpected(ok.error());
-  }
-
-  std::vector<std::byte> bytes;
-  try {
-    MemoryOutput stream(bytes);
-    Imf::OutputFile file(stream, header, /*numThreads=*/0);
-    file.setFrameBuffer(frame);
-    file.writePixels(image.height);
-  } catch (const std::exception& error) {
-    return fail(path, "", std::string("cannot encode the EXR: ") + error.what(),
-                Error::Kind::failed);
-  }
-  return bytes;
 }
 
 }  // namespace lambent

@@ -2,28 +2,50 @@
 // Images from and to files of any format.
 #include <new>
 
-#include "core/atomic_file.h"
 #include "core/file_bytes.h"
 #include "core/image/formats.h"
+#include "core/memory.h"
 
 namespace lambent {
 
-Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
-                                std::int64_t channels) {
-  const std::string shape = std::to_string(width) + "x" + std::to_string(height) + " pixels, " +
-                            std::to_string(channels) + " channels";
+namespace {
+
+/// Smaller images [bytes] are not worth asking the system how much memory there is.
+constexpr std::uint64_t kLargeBytes = std::uint64_t{1} << 28;
+
+std::string shape_of(std::int64_t width, std::int64_t height, std::int64_t channels) {
+  return std::to_string(width) + "x" + std::to_string(height) + " pixels, " +
+         std::to_string(channels) + " channels";
+}
+
+}  // namespace
+
+Expected<void> check_image_sides(const std::string& path, std::int64_t width, std::int64_t height,
+                                 std::int64_t channels) {
+  const std::string shape = shape_of(width, height, channels);
   if (width <= 0 || height <= 0 || channels <= 0) return fail(path, "", "empty image: " + shape);
-  if (width > kMaxImageSide || height > kMaxImageSide) {
-    return fail(path, "",
-                "image too large: " + shape + ", the limit is " + std::to_string(kMaxImageSide) +
-                    " pixels a side");
-  }
+  if (width <= kMaxImageSide && height <= kMaxImageSide) return {};
+  return fail(path, "",
+              "image too large: " + shape + ", the limit is " + std::to_string(kMaxImageSide) +
+                  " pixels a side");
+}
+
+Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
+                                std::int64_t channels, std::uint64_t max_floats) {
+  if (const auto fine = check_image_sides(path, width, height, channels); !fine) return fine;
   const std::uint64_t texels =
       static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-  if (static_cast<std::uint64_t>(channels) > kMaxImageFloats / texels) {
+  if (static_cast<std::uint64_t>(channels) > max_floats / texels) {
     return fail(path, "",
-                "image too large: " + shape + ", the limit is " + std::to_string(kMaxImageFloats) +
-                    " numbers");
+                "image too large: " + shape_of(width, height, channels) + ", the limit is " +
+                    std::to_string(max_floats) + " numbers");
+  }
+  const std::uint64_t bytes = texels * static_cast<std::uint64_t>(channels) * sizeof(float);
+  if (bytes > kLargeBytes && bytes > available_memory()) {
+    return fail(path, "",
+                shape_of(width, height, channels) + " need " + bytes_text(bytes) +
+                    " of memory, and " + bytes_text(available_memory()) + " are available",
+                Error::Kind::failed);
   }
   return {};
 }
@@ -39,18 +61,6 @@ Expected<LayeredImage> read_image(const std::string& path) {
     return fail(path, "", "not enough memory for the image", Error::Kind::failed);
   }
   return fail(path, "", bytes->empty() ? "the file is empty" : "not an EXR, HDR, PNG or JPEG file");
-}
-
-Expected<void> write_exr(const std::string& path, const LayeredImage& image) {
-  const Expected<std::vector<std::byte>> bytes = encode_exr(path, image);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return write_file_atomically(path, *bytes);
-}
-
-Expected<void> write_png(const std::string& path, const Image& display_encoded) {
-  const Expected<std::vector<std::byte>> bytes = encode_png(path, display_encoded);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return write_file_atomically(path, *bytes);
 }
 
 }  // namespace lambent

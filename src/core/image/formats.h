@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One reader and one writer per image format, between bytes and images; image.cpp picks.
+// One reader per image format, from bytes to images; image_files.cpp picks.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,19 @@ inline constexpr int kMaxImageSide = 1 << 16;
 /// layers.
 inline constexpr std::uint64_t kMaxImageFloats = std::uint64_t{1} << 29;
 
-/// Fails, naming `path`, unless an image of that shape is within the limits and not empty.
+/// The same of EXR files, which a few bytes cannot make large (16 GiB, a 16k frame of 5 RGB
+/// layers).
+inline constexpr std::uint64_t kMaxExrFloats = std::uint64_t{1} << 32;
+
+/// Fails, naming `path`, unless an image of that shape is not empty and its sides are within the
+/// limit: all that is asked of what is written.
+Expected<void> check_image_sides(const std::string& path, std::int64_t width, std::int64_t height,
+                                 std::int64_t channels);
+
+/// Fails, naming `path`, unless an image of that shape is not empty, within the limits, and fits
+/// into memory.
 Expected<void> check_image_size(const std::string& path, std::int64_t width, std::int64_t height,
-                                std::int64_t channels);
+                                std::int64_t channels, std::uint64_t max_floats = kMaxImageFloats);
 
 bool is_exr(ByteView bytes);
 bool is_hdr(ByteView bytes);
@@ -34,7 +44,7 @@ Expected<LayeredImage> decode_hdr(const std::string& path, ByteView bytes);
 /// 8-bit sRGB colour becomes linear; alpha is linear already. One, three or four channels.
 Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView bytes);
 
-Expected<std::vector<std::byte>> encode_exr(const std::string& path, const LayeredImage& image);
-Expected<std::vector<std::byte>> encode_png(const std::string& path, const Image& display_encoded);
+/// Rounds to the nearest of 256 levels between 0 and 1; NaN becomes 0.
+std::uint8_t quantise(float value);
 
 }  // namespace lambent

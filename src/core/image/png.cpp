@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // PNG and JPEG: 8 bits a channel, sRGB.
-#include <algorithm>
-#include <cmath>
 #include <string_view>
 
 #include "core/byte_decoding.h"
@@ -21,19 +19,12 @@ std::string_view text_of(ByteView bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-void append_bytes(void* context, void* data, int size) {
-  auto& bytes = *static_cast<std::vector<std::byte>*>(context);
-  const auto* first = static_cast<const std::byte*>(data);
-  bytes.insert(bytes.end(), first, first + size);
-}
+}  // namespace
 
-/// Rounds to the nearest of 256 levels; NaN becomes 0.
 std::uint8_t quantise(float value) {
   constexpr float kWhite = 255.0f;
   return value > 0.0f ? static_cast<std::uint8_t>(std::lround(std::min(value, 1.0f) * kWhite)) : 0;
 }
-
-}  // namespace
 
 bool is_png_or_jpeg(ByteView bytes) {
   return text_of(bytes).starts_with(kPngMagic) || text_of(bytes).starts_with(kJpegMagic);
@@ -57,23 +48,6 @@ Expected<LayeredImage> decode_png_or_jpeg(const std::string& path, ByteView byte
     image.pixels[i] = alpha ? static_cast<float>(value) / 255.0f : linear[value];
   }
   return result;
-}
-
-Expected<std::vector<std::byte>> encode_png(const std::string& path, const Image& image) {
-  if (const auto ok = check_image_size(path, image.width, image.height, image.channels); !ok) {
-    return tl::unexpected(ok.error());
-  }
-  if (image.channels != 1 && image.channels != 3 && image.channels != 4) {
-    return fail(path, "", "a PNG has 1, 3 or 4 channels, not " + std::to_string(image.channels));
-  }
-  std::vector<std::uint8_t> quantised(image.pixels.size());
-  std::transform(image.pixels.begin(), image.pixels.end(), quantised.begin(), quantise);
-  std::vector<std::byte> bytes;
-  if (stbi_write_png_to_func(append_bytes, &bytes, image.width, image.height, image.channels,
-                             quantised.data(), image.width * image.channels) == 0) {
-    return fail(path, "", "not enough memory to encode the PNG", Error::Kind::failed);
-  }
-  return bytes;
 }
 
 }  // namespace lambent

@@ -34,9 +34,14 @@ vec3 read_vec3(ByteReader& in) {
   return v;
 }
 
-bool all_finite(std::span<const uint> words) {
+// Stored numbers beyond this are no field's: light is below 1e14 W/m^2 (that of the brightest sky,
+// after all bounces), and the square of a mean distance must be a float.
+constexpr float kMaxStored = 1e18f;
+
+// Written so that NaN fails.
+bool all_storable(std::span<const uint> words) {
   return std::all_of(words.begin(), words.end(),
-                     [](uint word) { return std::isfinite(uintBitsToFloat(word)); });
+                     [](uint word) { return std::abs(uintBitsToFloat(word)) <= kMaxStored; });
 }
 
 class Reader {
@@ -166,7 +171,7 @@ class Reader {
 
     for (int axis = 0; axis < 3; ++axis) {
       const float spacing = grid.spacing[axis];
-      if (!std::isfinite(grid.origin_ws[axis]) || !(spacing >= kMinSpacing) ||
+      if (!(std::abs(grid.origin_ws[axis]) <= kMaxOrigin) || !(spacing >= kMinSpacing) ||
           !(spacing <= kMaxSpacing)) {
         return bad(place_, "stands at a place, or with a spacing, that makes no sense");
       }
@@ -202,9 +207,10 @@ class Reader {
     in_.u32s(volume.irradiance);
     volume.distance.resize(header->distance_words);
     in_.u32s(volume.distance);
-    if ((volume.irradiance_format == IrradianceFormat::float32 && !all_finite(volume.irradiance)) ||
-        (volume.distance_format == DistanceFormat::rg32f && !all_finite(volume.distance))) {
-      return bad(place_, "holds light or distances that are not finite numbers");
+    if ((volume.irradiance_format == IrradianceFormat::float32 &&
+         !all_storable(volume.irradiance)) ||
+        (volume.distance_format == DistanceFormat::rg32f && !all_storable(volume.distance))) {
+      return bad(place_, "holds light or distances that are not within -1e18 to 1e18");
     }
     return volume;
   }

@@ -5,6 +5,7 @@
 
 #include "field/probes/volumes.h"
 #include "lambent/field.h"
+#include "scene/limits.h"
 
 namespace lambent {
 namespace {
@@ -65,11 +66,10 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
   const bool given = settings.volume != Bounds{};
   Bounds bounds = given ? settings.volume : scene_bounds;
   if (!given && bounds.empty()) bounds = {glm::vec3(0.0f), glm::vec3(kSmallestScene)};
-  if (!is_finite(bounds.min) || !is_finite(bounds.max)) {
-    return bad_setting("volume", "the corners must be finite numbers");
+  if (!is_in_reach(bounds.min) || !is_in_reach(bounds.max)) {
+    return bad_setting("volume", "the corners must be within 1e9 m of the origin");
   }
   const glm::vec3 size = bounds.max - bounds.min;
-  if (!is_finite(size)) return bad_setting("volume", "is too large for its size to be a number");
   if (glm::any(glm::lessThan(size, glm::vec3(0.0f)))) {
     return bad_setting("volume", "its upper corner lies below its lower corner");
   }
@@ -77,8 +77,8 @@ Expected<FieldGrid> fit_grid(const FieldSettings& settings, const Bounds& scene_
   if (counted && glm::any(glm::lessThan(settings.probe_count, glm::ivec3(kMinProbesPerAxis)))) {
     return bad_setting("probes", "a field needs at least 2 probes along each axis");
   }
-  if (!std::isfinite(settings.probe_spacing) || settings.probe_spacing < 0.0f) {
-    return bad_setting("probe spacing", "must be a finite number of metres above 0");
+  if (!(settings.probe_spacing >= 0.0f && settings.probe_spacing <= kMaxCoordinate)) {
+    return bad_setting("probe spacing", "must be above 0 and at most 1e9 m");
   }
   if (settings.probe_budget < kMinProbes) return bad_setting("probe budget", "must be at least 8");
 

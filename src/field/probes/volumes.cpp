@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "raytracing/boxes.h"
+#include "scene/limits.h"
 
 namespace lambent {
 namespace {
@@ -60,8 +61,8 @@ Bounds bounds_of(const ProbeVolume& volume) {
 }
 
 Expected<Volume> plan_volume(const ProbeVolume& asked, const Bounds& scene_bounds) {
-  if (!is_finite(asked.centre) || !is_finite(asked.size)) {
-    return bad_volume(asked, "its place and size must be finite numbers");
+  if (!is_in_reach(asked.centre) || !is_in_reach(asked.size)) {
+    return bad_volume(asked, "its place and size must be within 1e9 m");
   }
   if (!is_rotation(asked.axes)) return bad_volume(asked, "its axes are no rotation");
   if (!scene_bounds.empty() && !overlap(bounds_of(asked), scene_bounds)) {
@@ -95,12 +96,11 @@ Expected<void> check_cascades(const FieldSettings& settings) {
       glm::any(glm::lessThan(settings.probe_count, ivec3(kMinCascadeProbes)))) {
     return fail("", "probes", "a cascade needs at least 4 probes along each axis");
   }
-  if (!std::isfinite(settings.probe_spacing) || settings.probe_spacing < 0.0f) {
-    return fail("", "probe spacing", "must be a finite number of metres above 0");
-  }
   const float finest = finest_spacing(settings);
-  if (finest < kMinSpacing || std::ldexp(finest, settings.cascades - 1) > kMaxSpacing) {
-    return fail("", "probe spacing", "has cascades whose cells' size is no number");
+  const float coarsest = std::ldexp(finest, settings.cascades - 1);
+  // Written so that NaN fails
+  if (!(settings.probe_spacing >= 0.0f) || finest < kMinSpacing || coarsest > kMaxSpacing) {
+    return fail("", "probe spacing", "must be 1e-15 m to 1e9 m, also of the coarsest cascade");
   }
   return {};
 }
@@ -243,6 +243,9 @@ std::vector<int> recycled_probes(const ProbeGrid& before, const ProbeGrid& next)
 
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
                                            const Bounds& scene_bounds) {
+  if (!scene_bounds.empty() && (!is_in_reach(scene_bounds.min) || !is_in_reach(scene_bounds.max))) {
+    return fail("", "scene bounds", "must be within 1e9 m of the origin");
+  }
   // Sort authored volumes by priority, and those of equal priority with the finest first
   struct Asked {
     int priority;

@@ -8,6 +8,7 @@
 #include "field/probes/probe_grid.h"
 #include "lambent/error.h"
 #include "lambent/field.h"
+#include "scene/limits.h"
 
 namespace lambent {
 
@@ -15,8 +16,13 @@ inline constexpr int kMaxCascades = 16;
 // The most volumes of a field. More are most likely a typing error or a broken file.
 inline constexpr std::uint32_t kMaxVolumes = 64;
 
-// Beyond these spacings [m], the size of a cell or its square overflows or underflows.
-inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = 1e15f;
+// Below the first of these spacings [m], the square of a cell's size underflows. The second is as
+// wide as the range of coordinates.
+inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = kMaxCoordinate;
+
+// No volume starts farther from the world's origin along an axis [m]: some millions of the widest
+// cells, which is how far cascades scroll with a viewer.
+inline constexpr float kMaxOrigin = 1e16f;
 
 /// Whether all three coordinates are numbers.
 bool is_finite(const vec3& v);

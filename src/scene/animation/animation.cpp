@@ -5,22 +5,20 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <optional>
 #include <span>
+#include <unordered_map>
 
 #include "lambent/scene.h"
 #include "scene/animation/deform.h"
 #include "scene/animation/pose.h"
+#include "scene/limits.h"
 #include "shared/constants.h"
 
 namespace lambent {
 namespace {
 
 using Target = Channel::Target;
-
-// Fields of view that a camera can have; curves may overshoot [rad].
-const float kMinFov = 1e-3f, kMaxFov = kPi - 1e-3f;
-constexpr float kMinExtent = 1e-6f;  // of an orthographic view [m]
 
 /// What a list of the rig is driven in: one bit a target.
 class Driven {
@@ -47,11 +45,6 @@ glm::vec3 not_negative(const glm::vec3& v) {
   return glm::max(v, glm::vec3(0.0f));
 }
 
-/// A product of numbers that are not negative, as large as a float can be.
-glm::vec3 finite_product(const glm::vec3& color, float factor) {
-  return glm::min(color * factor, glm::vec3(std::numeric_limits<float>::max()));
-}
-
 /// Poses a scene. The rig's copy holds the values of the moment in place of those at rest.
 class Pose {
  public:
@@ -69,12 +62,8 @@ class Pose {
 
   void set() {
     find_moving_nodes();
-    for (const RigInstance& placed : rig_.instances) {
-      if (moving_[placed.node] == 0) continue;
-      scene_.instances[placed.instance].world_from_object =
-          invertible_or_speck(world_from_node(placed.node) * placed.node_from_object);
-    }
     bend_meshes();
+    place_instances();
     set_lights();
     set_cameras();
     set_materials();
@@ -135,7 +124,7 @@ class Pose {
         cameras_[i].vertical_fov = glm::clamp(value[0], kMinFov, kMaxFov);
         break;
       case Target::camera_vertical_extent:
-        cameras_[i].vertical_extent = std::max(2.0f * value[0], kMinExtent);
+        cameras_[i].vertical_extent = glm::clamp(2.0f * value[0], kMinViewExtent, kMaxViewExtent);
         break;
     }
   }
@@ -163,7 +152,26 @@ class Pose {
 
   glm::mat4 world_from_node(int node) const { return glm::mat4(world_from_node_[node]); }
 
+  void place_instances() {
+    std::vector<std::optional<Bounds>> bounds(scene_.meshes.size());
+    for (const RigInstance& placed : rig_.instances) {
+      if (moving_[placed.node] == 0) continue;
+      Instance& instance = scene_.instances[placed.instance];
+      std::optional<Bounds>& mesh = bounds[instance.mesh];
+      if (!mesh) mesh = mesh_bounds(scene_.meshes[instance.mesh]);
+      instance.world_from_object =
+          drawable_or_speck(world_from_node(placed.node) * placed.node_from_object, *mesh);
+    }
+  }
+
   void bend_meshes() {
+    if (rig_.meshes.empty()) return;
+    std::unordered_map<int, std::vector<int>> instances_of;
+    for (const RigMesh& mesh : rig_.meshes) instances_of[mesh.mesh];
+    for (std::size_t i = 0; i < scene_.instances.size(); ++i) {
+      const auto bent = instances_of.find(scene_.instances[i].mesh);
+      if (bent != instances_of.end()) bent->second.push_back(static_cast<int>(i));
+    }
     for (const RigMesh& mesh : rig_.meshes) {
       std::vector<glm::mat4> world_from_bind;
       if (mesh.skin >= 0) {
@@ -172,7 +180,7 @@ class Pose {
           world_from_bind.push_back(world_from_node(skin.joints[j]) * skin.joint_from_bind[j]);
         }
       }
-      bend(scene_, mesh, nodes_[mesh.node].weights, world_from_bind);
+      bend(scene_, mesh, nodes_[mesh.node].weights, world_from_bind, instances_of[mesh.mesh]);
     }
   }
 
@@ -184,7 +192,9 @@ class Pose {
       Light& light = scene_.lights[now.light];
       if (now.node >= 0 && moving_[now.node] != 0) place(light, world_from_node(now.node));
       if (driven.in(i, Target::light_color) || driven.in(i, Target::light_intensity)) {
-        light.intensity = finite_product(now.color, now.intensity);
+        light.intensity =
+            limited(glm::dvec3(now.color) * static_cast<double>(now.intensity),
+                    light.type == Light::Type::directional ? kMaxIrradiance : kMaxIntensity);
       }
       if (driven.in(i, Target::light_range)) light.range = now.range;
       if (driven.in(i, Target::light_inner_cone_angle) ||
@@ -220,7 +230,9 @@ class Pose {
       if (driven.in(i, Target::material_roughness)) material.roughness = now.roughness;
       if (driven.in(i, Target::material_emissive_factor) ||
           driven.in(i, Target::material_emissive_strength)) {
-        material.emission = finite_product(now.emissive_factor, now.emissive_strength);
+        material.emission =
+            limited(glm::dvec3(now.emissive_factor) * static_cast<double>(now.emissive_strength),
+                    kMaxRadiance);
       }
     }
   }

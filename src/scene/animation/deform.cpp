@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "scene/animation/pose.h"
+#include "scene/limits.h"
 #include "scene/mesh_repair.h"
 
 namespace lambent {
@@ -66,8 +68,14 @@ void bend_vertices(const RigMesh& rig, std::span<const float> morph_weights,
   }
 }
 
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+/// Whether a bent mesh is within the range of coordinates, wherever it stands.
+bool stays_in_reach(const Scene& scene, const Mesh& bent, std::span<const int> instances) {
+  const auto near = [](const glm::vec3& p) { return is_in_reach(p); };
+  if (!std::all_of(bent.positions.begin(), bent.positions.end(), near)) return false;
+  const Bounds bounds = mesh_bounds(bent);
+  return std::all_of(instances.begin(), instances.end(), [&](int i) {
+    return stays_in_reach(scene.instances[i].world_from_object, bounds);
+  });
 }
 
 /// Scales normals to unit length; those without direction stay as they were.
@@ -106,15 +114,15 @@ glm::mat3 normal_matrix(const glm::mat3& m) {
 }
 
 void bend(Scene& scene, const RigMesh& rig, std::span<const float> morph_weights,
-          std::span<const glm::mat4> world_from_bind) {
+          std::span<const glm::mat4> world_from_bind, std::span<const int> instances) {
   Mesh& mesh = scene.meshes[rig.mesh];
   if (mesh.positions.size() != rig.positions.size()) return;
   Mesh bent = mesh;
   parallel_chunks(rig.positions.size(), kVerticesATask, [&](std::size_t begin, std::size_t end) {
     bend_vertices(rig, morph_weights, world_from_bind, begin, end, bent);
   });
-  // A pose that leaves the numbers is left out
-  if (!std::all_of(bent.positions.begin(), bent.positions.end(), finite)) return;
+  // A pose that leaves the range of coordinates is left out
+  if (!stays_in_reach(scene, bent, instances)) return;
 
   if (rig.normals.empty()) flatten_normals(bent);
   repair_bent_normals(mesh.normals, bent);

@@ -2,16 +2,11 @@
 // Based on: Khronos Group, glTF 2.0 specification, sec. 3.7.2.2 "Morph Targets" and 3.7.3 "Skins".
 #include "scene/gltf/deform.h"
 
-#include <cmath>
-
 #include "scene/animation/deform.h"
+#include "scene/limits.h"
 
 namespace lambent::gltf {
 namespace {
-
-bool finite(const glm::vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 template <class Vector>
 Expected<void> displace(const Document& document, const std::map<std::string, int>& target,
@@ -31,11 +26,11 @@ Expected<void> displace(const Document& document, const std::map<std::string, in
   return {};
 }
 
-Expected<void> check_finite(const Document& document, const std::string& place, const Mesh& mesh) {
+Expected<void> check_reach(const Document& document, const std::string& place, const Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-    if (!finite(mesh.positions[i])) {
+    if (!is_in_reach(mesh.positions[i])) {
       return document.fail_at(
-          place, "vertex " + std::to_string(i) + " is moved to a position that is not finite");
+          place, "vertex " + std::to_string(i) + " is moved beyond 1e9 m from the origin");
     }
   }
   return {};
@@ -57,7 +52,7 @@ Expected<void> bend_by_morph_targets(const Document& document, const tinygltf::P
     bent = true;
   }
   if (!bent) return {};
-  return check_finite(document, place, mesh);
+  return check_reach(document, place, mesh);
 }
 
 Expected<void> bend_by_joints(const Document& document, const std::string& place,
@@ -93,7 +88,7 @@ Expected<void> bend_by_joints(const Document& document, const std::string& place
       mesh.tangents[i] = glm::vec4(linear * glm::vec3(mesh.tangents[i]), mesh.tangents[i].w);
     }
   }
-  return check_finite(document, place, mesh);
+  return check_reach(document, place, mesh);
 }
 
 }  // namespace lambent::gltf

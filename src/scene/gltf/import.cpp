@@ -16,6 +16,7 @@
 #include "scene/gltf/nodes.h"
 #include "scene/gltf/textures.h"
 #include "scene/gltf/volumes.h"
+#include "scene/limits.h"
 
 namespace lambent {
 namespace gltf {
@@ -33,14 +34,13 @@ class Importer {
     TextureLibrary textures(document_);
     LAMBENT_TRY(materials, import_materials(document_, options_, textures));
     scene_.materials = std::move(materials);
+    scene_.textures = textures.decode(scene_.materials);
     LAMBENT_TRY(tree, build_node_tree(document_, options_.scene));
     MotionImporter motion(document_, tree);
     motion_ = &motion;
     for (const int node : tree.visible) LAMBENT_CHECK(import_node(tree, node));
     if (tree.scene >= 0) scene_.environment.radiance = document_.scene_skies[tree.scene];
     drop_unused_default_material();
-    LAMBENT_TRY(decoded, textures.decode());
-    scene_.textures = std::move(decoded);
     motion.finish(scene_);
     describe_source();
     LAMBENT_CHECK(validate(scene_));
@@ -178,15 +178,22 @@ class Importer {
                                const glm::mat4& world_from_node, const glm::mat4& node_from_object,
                                bool dynamic) {
     const glm::mat4 world_from_object = world_from_node * node_from_object;
-    if (!invertible(world_from_object) && !motion_->moves(node)) {
-      document_.repaired("instances flattened to nothing were left out", meshes.size(),
-                         entry("nodes", node));
+    const std::string place = entry("nodes", node);
+    if (largest_scale(world_from_object) > kMaxScale) {
+      return document_.fail_at(place, "the mesh is scaled by more than 1e10");
+    }
+    for (const int mesh : meshes) {
+      if (stays_in_reach(world_from_object, bounds_of(mesh))) continue;
+      return document_.fail_at(place, "the mesh reaches beyond 1e9 m from the origin");
+    }
+    if (!drawable(world_from_object) && !motion_->moves(node)) {
+      document_.repaired("instances scaled to a line or a point were left out", meshes.size(),
+                         place);
       return {};
     }
     if (scene_.instances.size() + meshes.size() > kMaxInstances) {
       return document_.fail_at(
-          entry("nodes", node),
-          "the scene has more than " + std::to_string(kMaxInstances) + " instances");
+          place, "the scene has more than " + std::to_string(kMaxInstances) + " instances");
     }
     const NodeFlags& flags = document_.node_flags[node];
     const bool skinned = document_.model.nodes[node].skin >= 0;
@@ -197,7 +204,7 @@ class Importer {
       Instance instance;
       instance.name = document_.model.nodes[node].name;
       instance.mesh = mesh;
-      instance.world_from_object = invertible_or_speck(world_from_object);
+      instance.world_from_object = drawable_or_speck(world_from_object, bounds_of(mesh));
       instance.casts_gi = flags.casts_gi;
       instance.receives_gi = flags.receives_gi;
       instance.ignored_by_probes = flags.ignored_by_probes;
@@ -251,6 +258,14 @@ class Importer {
     return {};
   }
 
+  // Bounds of a mesh of the scene, computed once.
+  const Bounds& bounds_of(int mesh) {
+    while (bounds_.size() < scene_.meshes.size()) {
+      bounds_.push_back(mesh_bounds(scene_.meshes[bounds_.size()]));
+    }
+    return bounds_[mesh];
+  }
+
   void drop_unused_default_material() {
     const int fallback = static_cast<int>(scene_.materials.size()) - 1;
     for (const Mesh& mesh : scene_.meshes) {
@@ -282,6 +297,7 @@ class Importer {
   Document& document_;
   const LoadOptions& options_;
   std::vector<std::optional<std::vector<int>>> meshes_;  // by glTF mesh; none: not yet imported
+  std::vector<Bounds> bounds_;                           // by mesh of the scene
   MotionImporter* motion_ = nullptr;
   Scene scene_;
 };

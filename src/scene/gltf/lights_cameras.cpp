@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/animation/pose.h"
+#include "scene/limits.h"
 #include "shared/constants.h"
 
 namespace lambent::gltf {
@@ -30,7 +31,17 @@ Expected<Light> import_light(Document& document, int index, int node,
     document.repaired("negative light colors were set to 0", 1, place);
     color = glm::max(color, glm::vec3(0.0f));
   }
-  light.intensity = color * static_cast<float>(source.intensity);
+  const bool directional = light.type == Light::Type::directional;
+  const float most = directional ? kMaxIrradiance : kMaxIntensity;
+  const glm::dvec3 intensity = glm::dvec3(color) * source.intensity;
+  const bool too_bright = glm::any(glm::greaterThan(intensity, glm::dvec3(most)));
+  document.repaired(directional ? "directional lights were reduced to 1e10 W/m^2"
+                                : "lights were reduced to 1e12 W/sr",
+                    too_bright ? 1 : 0, place);
+  light.intensity = limited(intensity, most);
+  if (!is_in_reach(glm::vec3(world_from_node[3]))) {
+    return document.fail_at(entry("nodes", node), "the light is beyond 1e9 m from the origin");
+  }
   lambent::place(light, world_from_node);
   light.range = static_cast<float>(source.range);
   if (light.type == Light::Type::spot) {
@@ -44,8 +55,7 @@ Expected<Light> import_light(Document& document, int index, int node,
   return light;
 }
 
-Expected<Camera> import_camera(const Document& document, int node,
-                               const glm::mat4& world_from_node) {
+Expected<Camera> import_camera(Document& document, int node, const glm::mat4& world_from_node) {
   const int index = document.model.nodes[node].camera;
   const tinygltf::Camera& source = document.model.cameras[index];
   const std::string place = entry("cameras", index);
@@ -63,6 +73,18 @@ Expected<Camera> import_camera(const Document& document, int node,
     camera.aspect = static_cast<float>(xmag / ymag);
   } else {
     return document.fail_at(place, "describes neither a perspective nor an orthographic camera");
+  }
+  const bool shaped = camera.aspect >= 1.0f / kMaxAspect && camera.aspect <= kMaxAspect;
+  if (camera.aspect != 0.0f && !shaped) {
+    document.repaired("cameras' aspect ratios beyond 16384 were ignored", 1, place);
+    camera.aspect = 0.0f;
+  }
+  const float extent = camera.orthographic ? camera.vertical_extent : kMinViewExtent;
+  if (!(extent >= kMinViewExtent && extent <= kMaxViewExtent)) {
+    return document.fail_at(place + ".orthographic.ymag", "is not within 5e-7 to 1e9 m");
+  }
+  if (!is_in_reach(glm::vec3(world_from_node[3]))) {
+    return document.fail_at(entry("nodes", node), "the camera is beyond 1e9 m from the origin");
   }
   lambent::place(camera, world_from_node);
   return camera;

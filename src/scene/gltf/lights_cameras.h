@@ -11,7 +11,6 @@ Expected<Light> import_light(Document& document, int light, int node,
                              const glm::mat4& world_from_node);
 
 /// The camera of `node`, without the node's scale.
-Expected<Camera> import_camera(const Document& document, int node,
-                               const glm::mat4& world_from_node);
+Expected<Camera> import_camera(Document& document, int node, const glm::mat4& world_from_node);
 
 }  // namespace lambent::gltf

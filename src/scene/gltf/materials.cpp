@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "scene/limits.h"
+
 namespace lambent::gltf {
 namespace {
 
@@ -80,17 +82,23 @@ class MaterialReader {
   }
 
   Expected<void> read_emission() {
-    glm::vec3 emission = vec3_of(source_.emissiveFactor, glm::vec3(0.0f));
-    if (glm::any(glm::lessThan(emission, glm::vec3(0.0f)))) {
+    glm::dvec3 emission = vec3_of(source_.emissiveFactor, glm::vec3(0.0f));
+    if (glm::any(glm::lessThan(emission, glm::dvec3(0.0)))) {
       document_.repaired("negative emissive factors were set to 0", 1, place_);
-      emission = glm::max(emission, glm::vec3(0.0f));
+      emission = glm::max(emission, glm::dvec3(0.0));
     }
     const auto* strength = find_extension(source_.extensions, "KHR_materials_emissive_strength");
     if (strength) {
-      emission *= static_cast<float>(number_or(*strength, "emissiveStrength", 1.0));
+      emission *= number_or(*strength, "emissiveStrength", 1.0);
     }
-    material_.emission = emission;
-    return take(source_.emissiveTexture, kColor, material_.emission_texture);
+    const bool too_bright = glm::any(glm::greaterThan(emission, glm::dvec3(kMaxRadiance)));
+    document_.repaired("emissions were reduced to 1e10 W/(m^2 sr)", too_bright ? 1 : 0, place_);
+    material_.emission = limited(emission, kMaxRadiance);
+    LAMBENT_CHECK(take(source_.emissiveTexture, kColor, material_.emission_texture));
+    // A map restricts emission to lamps and screens: without it all of the surface would glow
+    const bool lost = source_.emissiveTexture.index >= 0 && material_.emission_texture.texture < 0;
+    if (lost) material_.emission = glm::vec3(0.0f);
+    return {};
   }
 
   Expected<void> read_specular() {
@@ -101,7 +109,7 @@ class MaterialReader {
       const tinygltf::Value& color = specular->Get("specularColorFactor");
       for (int k = 0; k < 3; ++k) {
         material_.specular_color[k] =
-            std::max(0.0f, static_cast<float>(color.Get(k).GetNumberAsDouble()));
+            std::clamp(static_cast<float>(color.Get(k).GetNumberAsDouble()), 0.0f, kMaxFactor);
       }
     }
     LAMBENT_CHECK(take(*specular, "specularTexture", kData, material_.specular_texture));

@@ -8,6 +8,7 @@
 #include "scene/gltf/deform.h"
 #include "scene/gltf/document/accessors.h"
 #include "scene/gltf/document/draco.h"
+#include "scene/limits.h"
 #include "scene/mesh_repair.h"
 
 namespace lambent::gltf {
@@ -171,6 +172,27 @@ Expected<void> read_vertices(PrimitiveReader& reader, Mesh& mesh) {
   return {};
 }
 
+// What vertices may hold beyond the ranges of limits.h: coordinates are an error, since nothing can
+// stand in for a place; texture coordinates become 0, as where there are none.
+Expected<void> check_ranges(Document& document, const std::string& place, Mesh& mesh) {
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (is_in_reach(mesh.positions[i])) continue;
+    return document.fail_at(place, "vertex " + std::to_string(i) +
+                                       " has a coordinate that is not within -1e9 to 1e9 m");
+  }
+  std::size_t far = 0;
+  for (auto& uvs : mesh.uvs) {
+    for (glm::vec2& uv : uvs) {
+      const glm::vec2 size = glm::abs(uv);
+      if (size.x <= kMaxTextureCoordinate && size.y <= kMaxTextureCoordinate) continue;
+      uv = glm::vec2(0.0f);
+      ++far;
+    }
+  }
+  document.repaired("texture coordinates beyond 1e8 were set to 0", far, place);
+  return {};
+}
+
 Expected<std::vector<SkinInfluences>> read_influences(const PrimitiveReader& reader) {
   std::vector<SkinInfluences> sets;
   for (int set = 0;; ++set) {
@@ -290,6 +312,7 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
     document.repaired("primitives without positions were left out", 1, place);
     return std::nullopt;
   }
+  LAMBENT_CHECK(check_ranges(document, place, mesh));
   LAMBENT_TRY(indices, reader.indices());
   mesh.triangles = triangles_of(reader.mode(), indices);
 

@@ -80,8 +80,20 @@ Expected<int> chosen_scene(const Document& document, int scene) {
   return scene;
 }
 
+// The specification allows only nodes without parents as roots. One that has a parent still stands
+// where its parents put it, as if the scene named the whole of what is below it.
 std::vector<int> roots_of(Document& document, int scene, const std::vector<int>& parents) {
-  if (scene >= 0) return document.model.scenes[scene].nodes;
+  if (scene >= 0) {
+    const std::vector<int>& roots = document.model.scenes[scene].nodes;
+    for (const int root : roots) {
+      if (parents[root] < 0) continue;
+      document.repaired(
+          "roots of the scene are children of other nodes and stand where these put "
+          "them",
+          1, entry("nodes", root));
+    }
+    return roots;
+  }
   document.warn("The file has no scene; all of its nodes are shown.");
   std::vector<int> roots;
   for (std::size_t i = 0; i < parents.size(); ++i) {

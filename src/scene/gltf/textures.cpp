@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 
 #include "scene/image_decode.h"
 
@@ -62,6 +63,37 @@ Expected<Texture> decode_use(const Document& document, int image, bool srgb) {
   return texture;
 }
 
+// Material or const Material; likewise their views.
+template <class AMaterial>
+auto views_of(AMaterial& m) {
+  return std::array{&m.base_color_texture, &m.metallic_roughness_texture,
+                    &m.normal_texture,     &m.emission_texture,
+                    &m.specular_texture,   &m.specular_color_texture};
+}
+
+// Things named one by one in a warning, few enough to be read; the rest is counted.
+constexpr std::size_t kNamed = 3;
+
+// The materials with a texture for which reads_texture(its index) is true, for people.
+template <class Reads>
+std::string users_of(const std::vector<Material>& materials, Reads reads_texture) {
+  std::size_t users = 0;
+  std::string named;
+  for (std::size_t i = 0; i < materials.size(); ++i) {
+    const auto views = views_of(materials[i]);
+    const bool reads = std::any_of(views.begin(), views.end(), [&](const TextureView* view) {
+      return view->texture >= 0 && reads_texture(view->texture);
+    });
+    if (!reads) continue;
+    ++users;
+    if (users > kNamed) continue;
+    named += (users > 1 ? ", " : "") +
+             (materials[i].name.empty() ? entry("materials", i) : "'" + materials[i].name + "'");
+  }
+  if (users > kNamed) named += " and " + std::to_string(users - kNamed) + " more";
+  return (users == 1 ? "material " : "materials ") + named;
+}
+
 }  // namespace
 
 Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
@@ -70,8 +102,14 @@ Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
   const tinygltf::Texture& source = document_->model.textures[texture];
   const int image = image_of(source);
   if (image < 0) {
-    document_->repaired("textures without an image of a supported format were left out", 1,
-                        entry("textures", texture));
+    const bool ktx2 = find_extension(source.extensions, "KHR_texture_basisu") != nullptr;
+    document_->repaired(
+        ktx2 ? "textures were left out, and their materials show their plain factors: they exist "
+               "only as KTX2 (KHR_texture_basisu), which is not read; convert them to PNG, JPEG or "
+               "WebP"
+             : "textures were left out, and their materials show their plain factors: they have no "
+               "image of a supported format",
+        without_image_.insert(texture).second ? 1 : 0, entry("textures", texture));
     return TextureView{};
   }
 
@@ -102,17 +140,56 @@ Expected<TextureView> TextureLibrary::view(int texture, int tex_coord,
   return view;
 }
 
-Expected<std::vector<Texture>> TextureLibrary::decode() const {
+std::vector<Texture> TextureLibrary::decode(std::vector<Material>& materials) {
   std::vector<Expected<Texture>> decoded(uses_.size(), Texture{});
   tbb::parallel_for(std::size_t{0}, uses_.size(), [&](std::size_t i) {
     decoded[i] = decode_use(*document_, uses_[i].image, uses_[i].srgb);
   });
+  warn_of_missing(decoded, materials);
+
   std::vector<Texture> textures;
-  for (Expected<Texture>& texture : decoded) {
-    if (!texture) return tl::unexpected(std::move(texture).error());
-    textures.push_back(std::move(*texture));
+  std::vector<int> index_of(decoded.size(), -1);
+  for (std::size_t i = 0; i < decoded.size(); ++i) {
+    if (!decoded[i]) continue;
+    index_of[i] = static_cast<int>(textures.size());
+    textures.push_back(std::move(*decoded[i]));
+  }
+  for (Material& material : materials) {
+    const bool had_emission_map = material.emission_texture.texture >= 0;
+    for (TextureView* view : views_of(material)) {
+      if (view->texture < 0) continue;
+      view->texture = index_of[view->texture];
+      if (view->texture < 0) *view = TextureView{};
+    }
+    if (had_emission_map && material.emission_texture.texture < 0) {
+      material.emission = glm::vec3(0.0f);
+    }
   }
   return textures;
+}
+
+void TextureLibrary::warn_of_missing(const std::vector<Expected<Texture>>& decoded,
+                                     const std::vector<Material>& materials) {
+  std::set<int> missing_images;
+  std::string named;
+  for (std::size_t i = 0; i < decoded.size(); ++i) {
+    // An image that is read as color and as data is one texture to people
+    const int image = uses_[i].image;
+    if (decoded[i] || !missing_images.insert(image).second) continue;
+    if (missing_images.size() > kNamed) continue;
+    const Error& error = decoded[i].error();
+    named += (missing_images.size() > 1 ? "; " : "") + error.place + ": " + error.cause + ", in " +
+             users_of(materials, [&](int texture) { return uses_[texture].image == image; });
+  }
+  const std::size_t missing = missing_images.size();
+  if (missing == 0) return;
+  if (missing > kNamed) named += "; and " + std::to_string(missing - kNamed) + " more";
+  document_->warn(
+      std::to_string(missing) +
+      (missing == 1 ? " texture could not be read and is" : " textures could not be read and are") +
+      " left out; materials show their plain factors, and emit nothing where the "
+      "emission map is missing: " +
+      named + ".");
 }
 
 }  // namespace lambent::gltf

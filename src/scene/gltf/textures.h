@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <set>
+
 #include "lambent/scene.h"
 #include "scene/gltf/document/document.h"
 
@@ -13,22 +15,26 @@ class TextureLibrary {
 
   /// How a material reads a glTF texture. Uses of one image share a texture, but colour (`srgb`)
   /// and data do not. `texture`, `tex_coord` and `extensions` are those of a textureInfo; `place`
-  /// is its material, for warnings. Empty, with a warning, where the texture has no image that we
-  /// can read.
+  /// is its material, for warnings. Empty, with a warning, where the texture has no image of a
+  /// format that is read.
   Expected<TextureView> view(int texture, int tex_coord, const tinygltf::ExtensionMap& extensions,
                              bool srgb, const std::string& place);
 
-  /// Decodes everything asked for, with MIPs, in parallel. In the order in which views were asked
-  /// for.
-  Expected<std::vector<Texture>> decode() const;
+  /// Decodes everything asked for, with MIPs, in parallel; views of `materials` come to refer to
+  /// the result. One warning names what cannot be read: the materials then show their factors
+  /// alone, but for emission, which a map restricts to lamps and screens: without it there is none.
+  std::vector<Texture> decode(std::vector<Material>& materials);
 
  private:
   struct Use {
     int image;
     bool srgb;
   };
+  void warn_of_missing(const std::vector<Expected<Texture>>& decoded,
+                       const std::vector<Material>& materials);
   Document* document_;
   std::vector<Use> uses_;
+  std::set<int> without_image_;  // textures of the file
 };
 
 }  // namespace lambent::gltf

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "scene/limits.h"
+
 namespace lambent::gltf {
 namespace {
 
@@ -16,8 +18,6 @@ constexpr const char* kKey = "lambent_probe_volume";
 constexpr double kMaxBatchProbes = 1048576.0;
 // Priorities need not be larger, and fit an int.
 constexpr double kMaxPriority = 1e6;
-// Coordinates need not be larger [m], and fit a 32-bit float, squared.
-constexpr double kMaxMetres = 1e15;
 // Columns of a transform whose cosine is larger are sheared.
 constexpr float kMaxShear = 1e-3f;
 
@@ -47,13 +47,14 @@ const char* read_volume(const json& extras, ProbeVolume& volume) {
   for (const auto& [key, value] : extras.items()) {
     double number = 0.0;
     if (key == "size") {
-      if (!read_vector(value, 0.0, kMaxMetres, volume.size)) return "has no three numbers as size";
+      if (!read_vector(value, 0.0, kMaxCoordinate, volume.size))
+        return "has no three numbers as size";
     } else if (key == "probes") {
       if (!read_vector(value, 2.0, kMaxBatchProbes, volume.probe_count)) {
         return "has no three whole numbers of 2 or more as probes";
       }
     } else if (key == "spacing") {
-      if (!read_number(value, 0.0, kMaxMetres, number) || !(number > 0.0)) {
+      if (!read_number(value, 0.0, kMaxCoordinate, number) || !(number > 0.0)) {
         return "has no number above 0 as spacing";
       }
       volume.probe_spacing = static_cast<float>(number);
@@ -105,9 +106,12 @@ void place_volume(Document& document, int node, const glm::mat4& world_from_node
     const float cosine = glm::dot(volume.axes[axis], volume.axes[(axis + 1) % 3]);
     sheared = sheared || std::abs(cosine) > kMaxShear;
   }
-  if (flat || sheared) {
-    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: the node is " +
-                  (flat ? "scaled to nothing." : "sheared."));
+  const bool far = !is_in_reach(volume.centre) || !is_in_reach(volume.size);
+  if (flat || sheared || far) {
+    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: " +
+                  (flat      ? "the node is scaled to nothing."
+                   : sheared ? "the node is sheared."
+                             : "it reaches beyond 1e9 m from the origin."));
     return;
   }
   scene.volumes.push_back(std::move(volume));

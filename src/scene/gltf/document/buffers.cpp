@@ -83,6 +83,13 @@ bool has_scheme(std::string_view uri) {
 
 }  // namespace
 
+std::string path_of_uri(const std::string& folder, const std::string& uri) {
+  if (has_scheme(uri) || uri.starts_with("//")) return {};
+  const std::string path = decode_percent(uri);
+  if (path.empty() || path.find('\0') != std::string::npos) return {};
+  return (std::filesystem::path(folder) / path).string();
+}
+
 Expected<Bytes> read_uri(const Document& document, const std::string& uri,
                          const std::string& place) {
   if (uri.rfind("data:", 0) == 0) {

@@ -11,6 +11,7 @@
 #include "scene/gltf/document/meshopt.h"
 #include "scene/gltf/document/schema.h"
 #include "scene/gltf/volumes.h"
+#include "scene/limits.h"
 
 namespace lambent::gltf {
 namespace {
@@ -98,6 +99,15 @@ bool nested_too_deeply(ByteSpan text) {
   return false;
 }
 
+/// "line 2, column 13" of the byte of that number, from 1.
+std::string line_and_column(ByteSpan text, std::size_t number) {
+  const ByteSpan before = text.first(std::min(number > 0 ? number - 1 : 0, text.size()));
+  const auto lines = std::count(before.begin(), before.end(), '\n');
+  const auto line_start = std::find(before.rbegin(), before.rend(), '\n');
+  return "line " + std::to_string(lines + 1) + ", column " +
+         std::to_string(line_start - before.rbegin() + 1);
+}
+
 Expected<json> parse_json(ByteSpan text, const std::string& file) {
   if (text.empty()) return fail(file, "", "the file is empty");
   if (text.size() > kMaxJsonBytes) return fail(file, "JSON", "the JSON is absurdly large");
@@ -106,6 +116,10 @@ Expected<json> parse_json(ByteSpan text, const std::string& file) {
     // Some exporters pad with zeros instead of spaces
     while (!text.empty() && text.back() == 0) text = text.first(text.size() - 1);
     return json::parse(text.begin(), text.end());
+  } catch (const json::parse_error& error) {
+    return fail(file, "JSON", "is not well-formed at " + line_and_column(text, error.byte));
+  } catch (const json::out_of_range&) {
+    return fail(file, "JSON", "holds a number that is too large to read");
   } catch (const json::exception& error) {
     return fail(file, "JSON", error.what());
   }
@@ -122,13 +136,14 @@ std::vector<std::string> strings_of(const json& root, const char* key) {
 
 // The constant sky that our own writer leaves in a scene's extras; glTF has no word for it.
 Expected<glm::vec3> read_sky(const json& sky) {
-  constexpr double kAnyRadiance = 3.0e38;  // Fits a 32-bit float
   if (!sky.is_array() || sky.size() != 3) return fail("", "", "is not a list of three numbers");
   glm::vec3 radiance(0.0f);
   for (int c = 0; c < 3; ++c) {
     if (!sky[c].is_number()) return fail("", "", "is not a list of three numbers");
     const double value = sky[c].get<double>();
-    if (!(value >= 0.0 && value <= kAnyRadiance)) return fail("", "", "is out of range");
+    if (!(value >= 0.0 && value <= kMaxRadiance)) {
+      return fail("", "", "is not within 0 to 1e10 W/(m^2 sr)");
+    }
     radiance[c] = static_cast<float>(value);
   }
   return radiance;
@@ -301,6 +316,16 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   if (!same_sizes(document, root)) return document.fail_at("JSON", "the structure is malformed");
   LAMBENT_CHECK(decompress_views(document));
   return document;
+}
+
+void Document::warn(std::string sentence) {
+  // Names come from files: nothing in them may reach a terminal as a control sequence
+  constexpr unsigned char kFirstPrintable = 0x20, kDelete = 0x7f;
+  for (char& c : sentence) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < kFirstPrintable || byte == kDelete) c = '?';
+  }
+  warnings.push_back(std::move(sentence));
 }
 
 void Document::repaired(const std::string& what, std::size_t count, const std::string& place) {

@@ -74,7 +74,7 @@ struct Document {
   tl::unexpected<Error> fail_at(std::string place, std::string cause) const {
     return fail(file, std::move(place), std::move(cause));
   }
-  void warn(std::string sentence) { warnings.push_back(std::move(sentence)); }
+  void warn(std::string sentence);
   /// Counts `count` repairs of one kind; warn_of_repairs makes one warning of each kind.
   void repaired(const std::string& what, std::size_t count, const std::string& place);
   void warn_of_repairs();
@@ -99,6 +99,9 @@ Expected<ByteSpan> view_bytes(const Document& document, int view);
 /// What a URI stands for: the bytes of a data URI, or of a file relative to the document's folder.
 Expected<Bytes> read_uri(const Document& document, const std::string& uri,
                          const std::string& place);
+
+/// The file that a relative URI means; empty where it means none, as a data URI does.
+std::string path_of_uri(const std::string& folder, const std::string& uri);
 
 /// The extension `name` among `extensions`, or null.
 const tinygltf::Value* find_extension(const tinygltf::ExtensionMap& extensions, const char* name);

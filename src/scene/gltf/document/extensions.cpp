@@ -8,6 +8,7 @@ namespace lambent::gltf {
 namespace {
 
 constexpr const char* kIgnoredLobe = "materials are rendered without it";
+constexpr const char* kBasisu = "KHR_texture_basisu";
 
 // clang-format off
 constexpr Extension kKnown[] = {
@@ -31,7 +32,7 @@ constexpr Extension kKnown[] = {
     {"KHR_materials_variants",              false, "the default variant is shown"},
     {"KHR_materials_volume",                false, "surfaces have no volume behind them"},
     {"KHR_mesh_quantization",               true,  nullptr},
-    {"KHR_texture_basisu",                  false, "textures use their plain image"},
+    {kBasisu,                               false, "textures use their plain image"},
     {"KHR_texture_transform",               true,  nullptr},
     {"KHR_xmp_json_ld",                     true,  nullptr},
 };
@@ -53,6 +54,12 @@ std::span<const Extension> known_extensions() {
 Expected<void> check_extensions(Document& document) {
   for (const std::string& name : document.model.extensionsRequired) {
     const Extension* known = find_known(name);
+    if (name == kBasisu) {
+      return document.fail_at("extensionsRequired",
+                              "the file requires " + name +
+                                  ": its textures exist only as KTX2, which is not read; convert "
+                                  "them to PNG, JPEG or WebP and drop the extension");
+    }
     if (!known || !known->required) {
       return document.fail_at("extensionsRequired", "the file requires the extension " + name +
                                                         ", which is not supported");

@@ -3,9 +3,13 @@
 // each extension. One row a property; properties that are not listed are not read.
 #include "scene/gltf/document/schema.h"
 
+#include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
+
+#include "scene/limits.h"
 
 namespace lambent::gltf {
 namespace {
@@ -22,7 +26,8 @@ enum class Kind {
   ids,             // an object whose members are whole numbers
   whole,           // an integer from `low` to `high`
   number,          // from `low` to `high`
-  numbers,         // a list of `high` finite numbers; any number of them where `high` is 0
+  numbers,         // a list of `high` finite numbers; any number of them where `high` is 0. Their
+                   // absolute values are at most `low`, where that is not 0
   string,
   strings,
   boolean,
@@ -44,6 +49,8 @@ constexpr double kAnyFloat = 3.0e38;             // Fits a 32-bit float.
 constexpr double kTiny = 1e-30;                  // "Greater than zero".
 constexpr double kQuarterTurn = 1.5707964;  // pi/2 rounded up to what files hold as 32-bit floats.
 constexpr bool kRequired = true;
+constexpr double kSmallestFov = 1e-3;      // kMinFov before it is rounded to a float.
+constexpr double kLargestFov = 3.1405926;  // kMaxFov before that.
 
 constexpr Rule kRules[] = {
     {"root", "asset", Kind::object, "asset", 0, 0, kRequired},
@@ -146,17 +153,17 @@ constexpr Rule kRules[] = {
     {"metallicRoughness", "metallicRoughnessTexture", Kind::object, "textureInfo"},
     {"textureInfo", "index", Kind::index, "/textures", 0, 0, kRequired},
     {"textureInfo", "texCoord", Kind::whole, "", 0, kAnyInt},
-    {"textureInfo", "scale", Kind::number, "", -kAnyFloat, kAnyFloat},
+    {"textureInfo", "scale", Kind::number, "", -kMaxFactor, kMaxFactor},
     {"textureInfo", "extensions", Kind::object, "textureInfoExtensions"},
     {"textureInfoExtensions", "KHR_texture_transform", Kind::object, "textureTransform"},
-    {"textureTransform", "offset", Kind::numbers, "", 0, 2},
+    {"textureTransform", "offset", Kind::numbers, "", kMaxTextureCoordinate, 2},
     {"textureTransform", "rotation", Kind::number, "", -kAnyFloat, kAnyFloat},
-    {"textureTransform", "scale", Kind::numbers, "", 0, 2},
+    {"textureTransform", "scale", Kind::numbers, "", kMaxTextureCoordinate, 2},
     {"textureTransform", "texCoord", Kind::whole, "", 0, kAnyInt},
     {"materialExtensions", "KHR_materials_emissive_strength", Kind::object, "emissiveStrength"},
     {"emissiveStrength", "emissiveStrength", Kind::number, "", 0, kAnyFloat},
     {"materialExtensions", "KHR_materials_ior", Kind::object, "ior"},
-    {"ior", "ior", Kind::number, "", 0, kAnyFloat},
+    {"ior", "ior", Kind::number, "", 0, kMaxFactor},
     {"materialExtensions", "KHR_materials_specular", Kind::object, "specular"},
     {"specular", "specularFactor", Kind::number, "", 0, 1},
     {"specular", "specularColorFactor", Kind::numbers, "", 0, 3},
@@ -186,7 +193,7 @@ constexpr Rule kRules[] = {
     {"camera", "type", Kind::string, "", 0, 0, kRequired},
     {"camera", "perspective", Kind::object, "perspective"},
     {"camera", "orthographic", Kind::object, "orthographic"},
-    {"perspective", "yfov", Kind::number, "", kTiny, 3.1415926, kRequired},
+    {"perspective", "yfov", Kind::number, "", kSmallestFov, kLargestFov, kRequired},
     {"perspective", "aspectRatio", Kind::number, "", kTiny, kAnyFloat},
     {"perspective", "znear", Kind::number, "", 0, kAnyFloat, kRequired},
     {"orthographic", "xmag", Kind::number, "", -kAnyFloat, kAnyFloat, kRequired},
@@ -206,6 +213,14 @@ constexpr Rule kRules[] = {
     {"spot", "innerConeAngle", Kind::number, "", 0, kQuarterTurn},
     {"spot", "outerConeAngle", Kind::number, "", kTiny, kQuarterTurn},
 };
+
+// A bound as people write it: whole numbers without an exponent.
+std::string text_of(double bound) {
+  char text[32];
+  const bool whole = bound == std::floor(bound) && std::abs(bound) <= kAnySize;
+  std::snprintf(text, sizeof text, whole ? "%.0f" : "%.6g", bound);
+  return text;
+}
 
 class Checker {
  public:
@@ -267,12 +282,14 @@ class Checker {
     if (!value.is_number()) return wrong(place, "must be a number");
     const double number = value.get<double>();
     if (number >= rule.low && number <= rule.high) return {};
-    return wrong(place, "is " + value.dump() + ", which is out of range");
+    return wrong(place, "is " + value.dump() + ", which is not within " + text_of(rule.low) +
+                            " to " + text_of(rule.high));
   }
 
   Expected<void> check_numbers(const json& value, const Rule& rule,
                                const std::string& place) const {
-    const Rule any = {"", "", Kind::number, "", -kAnyFloat, kAnyFloat, false};
+    const double largest = rule.low != 0.0 ? rule.low : kAnyFloat;
+    const Rule any = {"", "", Kind::number, "", -largest, largest, false};
     const auto length = static_cast<std::size_t>(rule.high);
     if (length != 0 && value.is_array() && value.size() != length) {
       return wrong(place, "must be a list of " + std::to_string(length) + " numbers");

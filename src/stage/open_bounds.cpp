@@ -6,6 +6,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "stage/survey.h"
 
 namespace lambent {
 namespace {
@@ -20,12 +21,18 @@ constexpr float kMinWalledShare = 0.5f;
 constexpr float kStartShare = 0.01f;
 // Further on by this share of the way, a ray has left the surface it met behind.
 constexpr float kPastSurface = 1e-5f;
+// A side that is not walled has surfaces that face out of the bounds where this share of its rays
+// meets one no deeper than this share of the scene. Probes must stand in front of these, too: air
+// as deep as this share of the scene's longest side is added, about a cell of a field of 16 probes
+// along it.
+constexpr float kMinFacingShare = 0.02f, kMaxFacingDepth = 0.04f;
+constexpr float kAirShare = 0.08f;
 // Surfaces that a ray may pass before it counts as lost in a thicket.
 constexpr int kMaxSurfaces = 16;
 
 /// How deep below the starts of rays the solid matter that each meets first ends, of those where it
 /// does. Rays go on through surfaces together.
-std::vector<float> depths_of_wall(const World& world, std::vector<Ray> rays) {
+std::vector<float> depths_of_wall(const World& world, bool room, std::vector<Ray> rays) {
   const Scene& scene = world.scene();
   std::vector<float> depths;
   std::vector<Hit> hits;
@@ -36,9 +43,10 @@ std::vector<float> depths_of_wall(const World& world, std::vector<Ray> rays) {
     for (std::size_t r = 0; r < rays.size(); ++r) {
       const Hit& hit = hits[r];
       if (hit.missed()) continue;
-      // The far side of a wall, or a single sheet that faces inwards, is met from behind
+      // The far side of a wall, or a single sheet that faces inwards, is met from behind; around a
+      // room a sheet with two sides is a wall, and around an object its skin
       const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];
-      if (!hit.front_face || scene.materials[mesh.material].double_sided) {
+      if (!hit.front_face || (room && scene.materials[mesh.material].double_sided)) {
         depths.push_back(hit.distance);
         continue;
       }
@@ -50,11 +58,17 @@ std::vector<float> depths_of_wall(const World& world, std::vector<Ray> rays) {
   return depths;
 }
 
-/// How far the open space keeps from a side of the bounds.
-float wall_thickness(const World& world, const Bounds& bounds, int axis, bool upper) {
+/// Rays that look at a side of the bounds from outside, and how far outside they start.
+struct SideRays {
+  std::vector<Ray> rays;
+  float start = 0.0f;
+};
+
+SideRays rays_at_side(const Bounds& bounds, int axis, bool upper) {
   const glm::vec3 size = bounds.max - bounds.min;
+  const float longest = std::max({size.x, size.y, size.z});
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const float start = kStartShare * size[axis];
+  const float start = kStartShare * (size[axis] > 0.0f ? size[axis] : longest);
   std::vector<Ray> rays(kRaysAlongEdge * kRaysAlongEdge);
   for (int i = 0; i < kRaysAlongEdge * kRaysAlongEdge; ++i) {
     Ray& ray = rays[i];
@@ -65,13 +79,30 @@ float wall_thickness(const World& world, const Bounds& bounds, int axis, bool up
         bounds.min[u] + size[u] * (static_cast<float>(i % kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
     ray.origin[v] =
         bounds.min[v] + size[v] * (static_cast<float>(i / kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
-    ray.t_max = start + kMaxWallShare * size[axis];
+    ray.t_max = start + (size[axis] > 0.0f ? kMaxWallShare * size[axis] : start);
   }
-  std::vector<float> depths = depths_of_wall(world, std::move(rays));
-  for (float& depth : depths) depth -= start;
+  return {std::move(rays), start};
+}
+
+/// How far the open space keeps from a side of the bounds; negative: it reaches out of them.
+float side_inset(const World& world, bool room, const Bounds& bounds, int axis, bool upper) {
+  const glm::vec3 size = bounds.max - bounds.min;
+  const float longest = std::max({size.x, size.y, size.z});
+  const SideRays side = rays_at_side(bounds, axis, upper);
+  std::vector<float> depths = depths_of_wall(world, room, side.rays);
+  for (float& depth : depths) depth -= side.start;
   constexpr auto kEnough =
       static_cast<std::size_t>(kMinWalledShare * kRaysAlongEdge * kRaysAlongEdge);
-  if (depths.size() < kEnough) return 0.0f;
+  if (depths.size() < kEnough) {
+    std::vector<Hit> hits(side.rays.size());
+    world.tracer().closest_hits(side.rays, hits);
+    const float deepest = side.start + kMaxFacingDepth * longest;
+    const auto facing = std::count_if(hits.begin(), hits.end(),
+                                      [&](const Hit& h) { return h.distance <= deepest; });
+    const bool faces_out =
+        static_cast<float>(facing) >= kMinFacingShare * static_cast<float>(hits.size());
+    return faces_out ? -kAirShare * longest : 0.0f;
+  }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   return std::max(*middle, 0.0f);
@@ -82,11 +113,11 @@ float wall_thickness(const World& world, const Bounds& bounds, int axis, bool up
 Bounds open_bounds(const World& world) {
   const Bounds bounds = world_bounds(world.scene());
   if (bounds.empty()) return bounds;
+  const bool room = is_room(world, find_subject(world));
   Bounds open = bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    if (bounds.max[axis] <= bounds.min[axis]) continue;
-    open.min[axis] += wall_thickness(world, bounds, axis, false);
-    open.max[axis] -= wall_thickness(world, bounds, axis, true);
+    open.min[axis] += side_inset(world, room, bounds, axis, false);
+    open.max[axis] -= side_inset(world, room, bounds, axis, true);
   }
   return open;
 }

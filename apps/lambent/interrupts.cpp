@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/interrupts.h"
+
+#include <signal.h>
+
+#include <atomic>
+
+#include "core/atomic_file.h"
+
+namespace lambent::cli {
+namespace {
+
+/// Ctrl-C, kill, and a terminal that was closed.
+constexpr int kEndingSignals[] = {SIGINT, SIGTERM, SIGHUP};
+/// What a guard waits for: without a terminal there is nobody left to wait for the frame.
+constexpr int kGuardedSignals[] = {SIGINT, SIGTERM};
+
+std::atomic<bool> guarding = false, noted = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler uses it");
+
+void end_by(int number) {
+  discard_unfinished_files();
+  // Die of the signal itself
+  signal(number, SIG_DFL);
+  sigset_t own;
+  sigemptyset(&own);
+  sigaddset(&own, number);
+  pthread_sigmask(SIG_UNBLOCK, &own, nullptr);
+  raise(number);
+}
+
+void handle(int number) {
+  for (const int guarded : kGuardedSignals) {
+    if (number == guarded && guarding && !noted.exchange(true)) return;
+  }
+  end_by(number);
+}
+
+}  // namespace
+
+void clean_up_on_signals() {
+  struct sigaction action {};
+  action.sa_handler = handle;
+  action.sa_flags = SA_RESTART;
+  sigfillset(&action.sa_mask);
+  for (const int number : kEndingSignals) {
+    struct sigaction before {};
+    sigaction(number, nullptr, &before);
+    // What was started with nohup stays deaf to it
+    if (before.sa_handler != SIG_IGN) sigaction(number, &action, nullptr);
+  }
+  signal(SIGXFSZ, SIG_IGN);
+}
+
+InterruptGuard::InterruptGuard() {
+  noted = false;
+  guarding = true;
+}
+
+InterruptGuard::~InterruptGuard() {
+  guarding = false;
+}
+
+bool InterruptGuard::interrupted() const {
+  return noted;
+}
+
+}  // namespace lambent::cli

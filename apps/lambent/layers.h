@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "lambent/error.h"
+#include "lambent/image.h"
+
+namespace lambent::cli {
+
+/// A layer's name for people: the whole picture's is empty.
+std::string layer_text(const std::string& name);
+
+/// The layer of that name of the image that was read from `path`; an Error that lists those there
+/// are, and offers the nearest, otherwise.
+Expected<const Image*> find_layer(const std::string& path, const LayeredImage& image,
+                                  const std::string& name);
+
+}  // namespace lambent::cli

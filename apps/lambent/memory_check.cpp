@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/memory_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/memory.h"
+#include "lambent/render_output.h"
+
+namespace lambent::cli {
+namespace {
+
+// Floats a pixel [bytes]: a layer of three, and all layers of a frame.
+constexpr std::uint64_t kLayerBytes = 3 * sizeof(float);
+constexpr std::uint64_t kFrameBytes = 9 * kLayerBytes + sizeof(float);
+// A picture that is written or compared, beside the frame: as the display shows it, and copied.
+constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
+// The path tracer's sums of its seven layers and their squares in doubles, and its own layers.
+constexpr std::uint64_t kReferenceBytes = 16 * 3 * sizeof(double) + 10 * kLayerBytes + 4;
+// A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,
+// the picture out of the mosaic, and what is gathered.
+constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);
+// ... of which each of five stages is a layer of the frame where layers are kept.
+constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
+// Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP
+// (measured).
+constexpr std::uint64_t kComparisonBytes = 180;
+// What the bands, the maps and the file's buffers take whatever the size [bytes].
+constexpr std::uint64_t kFixedBytes = std::uint64_t{100} << 20;
+// Fewest rays that a probe may have.
+constexpr std::uint64_t kMinRays = 16;
+
+std::uint64_t pixels_of(const glm::ivec2& size) {
+  return static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y);
+}
+
+std::uint64_t bytes_a_pixel(const RenderOptions& options) {
+  std::uint64_t bytes = kWritingBytes;
+  if (options.method == "reference" || options.verify_samples > 0) bytes += kReferenceBytes;
+  if (options.method != "reference") bytes += kFrameBytes;
+  if (uses_rsm(options.method)) {
+    const auto scale = static_cast<std::uint64_t>(options.rsm.settings.downscale);
+    bytes += kRsmBytes / (scale * scale) + (options.layers ? kRsmStageBytes : 0);
+  }
+  return bytes;
+}
+
+std::string need(std::uint64_t bytes, std::uint64_t available) {
+  return "needs about " + bytes_text(bytes) + " of memory, and " + bytes_text(available) +
+         " are available";
+}
+
+}  // namespace
+
+std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size) {
+  if (!made_in_bands(options, size)) {
+    return kFixedBytes + pixels_of(size) * bytes_a_pixel(options);
+  }
+  const std::uint64_t rows = static_cast<std::uint64_t>(rows_of_a_band(size));
+  const std::uint64_t band = rows * static_cast<std::uint64_t>(size.x) * bytes_a_pixel(options);
+  return kFixedBytes + band + (keeps_all_rows(options, size) ? pixels_of(size) * kLayerBytes : 0);
+}
+
+glm::ivec2 size_that_fits(const RenderOptions& options, const glm::ivec2& size,
+                          std::uint64_t bytes) {
+  constexpr double kStep = 0.98;  // shrinks to a picture of one pixel in under 500 steps
+  glm::dvec2 fitting(size);
+  glm::ivec2 rounded = size;
+  while (picture_bytes(options, rounded) > bytes && (rounded.x > 1 || rounded.y > 1)) {
+    fitting *= kStep;
+    rounded = glm::max(glm::ivec2(fitting), glm::ivec2(1));
+  }
+  return rounded;
+}
+
+Expected<void> check_picture_memory(const RenderOptions& options, const glm::ivec2& size,
+                                    std::uint64_t available) {
+  const std::uint64_t bytes = picture_bytes(options, size);
+  if (bytes <= available) return {};
+  const glm::ivec2 fits = size_that_fits(options, size, available);
+  const std::string text = std::to_string(size.x) + "x" + std::to_string(size.y);
+  std::string cause = text + " with --method " + options.method + " " + need(bytes, available);
+  if (picture_bytes(options, fits) <= available) {
+    cause += "; " + std::to_string(fits.x) + "x" + std::to_string(fits.y) + " would fit";
+  }
+  return fail("--size", "", cause, Error::Kind::failed);
+}
+
+Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, int fields,
+                                  std::uint64_t available) {
+  const auto count = static_cast<std::uint64_t>(fields);
+  const std::uint64_t bytes = count * field.bytes(rays_per_probe);
+  if (bytes <= available) return {};
+  const std::uint64_t each = available / count;
+  const std::uint64_t fitting_probes =
+      each /
+      (field.bytes_per_probe + field.bytes_per_ray * static_cast<std::uint64_t>(rays_per_probe));
+  const std::uint64_t of_probe = each / field.probes;
+  const std::uint64_t fitting_rays = of_probe > field.bytes_per_probe
+                                         ? (of_probe - field.bytes_per_probe) / field.bytes_per_ray
+                                         : 0;
+  std::string cause = std::to_string(field.probes) + " probes of " +
+                      std::to_string(rays_per_probe) + " rays: " + need(bytes, available) + "; ";
+  if (fitting_rays >= kMinRays) cause += "--rays " + std::to_string(fitting_rays) + ", or ";
+  cause += std::to_string(fitting_probes) + " probes would fit";
+  return fail("the field", "", cause, Error::Kind::failed);
+}
+
+Expected<void> check_comparison_memory(const glm::ivec2& size, std::uint64_t available) {
+  const std::uint64_t bytes = pixels_of(size) * kComparisonBytes;
+  if (bytes <= available) return {};
+  return fail("compare", "",
+              std::to_string(size.x) + "x" + std::to_string(size.y) +
+                  " pixels: " + need(bytes, available) + "; " +
+                  std::to_string(available / kComparisonBytes) + " pixels would fit",
+              Error::Kind::failed);
+}
+
+int host_rays(const FieldSettings& settings, const World& world) {
+  return world.on_device() == nullptr ? settings.rays_per_probe : 0;
+}
+
+Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
+                                     const World& world, int fields) {
+  const Bounds bounds = open_bounds(world);
+  const Expected<FieldMemory> memory = planned_memory(settings, bounds);
+  if (!memory) return tl::unexpected(in_options(memory.error(), options));
+  const auto fits =
+      check_field_memory(*memory, host_rays(settings, world), fields, available_memory());
+  if (!fits) return tl::unexpected(fits.error());
+  Expected<IrradianceField> field = IrradianceField::make(settings, bounds);
+  if (!field) return tl::unexpected(in_options(std::move(field.error()), options));
+  return field;
+}
+
+}  // namespace lambent::cli

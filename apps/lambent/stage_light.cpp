@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/stage_light.h"
+
+#include <CLI/CLI.hpp>
+
+#include "lambent/input.h"
+#include "lambent/parse.h"
+#include "lambent/validators.h"
+#include "lambent/world.h"
+#include "scene/limits.h"
+
+namespace lambent::cli {
+namespace {
+
+// A clear afternoon's sun on a surface that faces it [W/m^2].
+constexpr glm::vec3 kDefaultSunIrradiance{20.0f, 18.0f, 15.0f};
+
+// Length of --sun below which its direction would drown in rounding.
+constexpr float kMinDirection = 1e-6f;
+
+bool names_light(const LightOptions& options) {
+  return !options.sun.empty() || !options.sky.empty() || !options.environment.empty();
+}
+
+bool are_within(const glm::vec3& color, float largest) {
+  return glm::all(glm::greaterThanEqual(color, glm::vec3(0.0f))) &&
+         glm::all(glm::lessThanEqual(color, glm::vec3(largest)));
+}
+
+Expected<void> add_sun(const LightOptions& options, Scene& scene) {
+  if (options.sun.empty()) {
+    if (!options.sun_irradiance.empty()) return fail("--sun-irradiance", "", "needs --sun");
+    return {};
+  }
+  const auto direction = parse_vec3("--sun", options.sun);
+  if (!direction) return tl::unexpected(direction.error());
+  // In double, where no vector of floats is too long for its square
+  const glm::dvec3 way(*direction);
+  if (glm::length(way) < kMinDirection) return fail("--sun", "", "the direction has no length");
+  glm::vec3 irradiance = kDefaultSunIrradiance;
+  if (!options.sun_irradiance.empty()) {
+    const auto given = parse_vec3("--sun-irradiance", options.sun_irradiance);
+    if (!given) return tl::unexpected(given.error());
+    irradiance = *given;
+  }
+  if (!are_within(irradiance, kMaxIrradiance)) {
+    return fail("--sun-irradiance", "", "must be 0 to 1e10 W/m^2");
+  }
+  Light sun;
+  sun.name = "sun";
+  sun.type = Light::Type::directional;
+  sun.direction_ws = glm::vec3(glm::normalize(way));
+  sun.intensity = irradiance;
+  scene.lights.push_back(sun);
+  return {};
+}
+
+Expected<void> set_sky(const LightOptions& options, Scene& scene) {
+  if (!options.environment.empty()) {
+    const auto fine = check_image_input(options.environment);
+    if (!fine) return tl::unexpected(fine.error());
+    Expected<Environment> environment = load_environment(options.environment);
+    if (!environment) return tl::unexpected(environment.error());
+    scene.environment = std::move(*environment);
+  }
+  if (options.sky.empty()) return {};
+  if (!options.environment.empty()) return fail("--sky", "", "give either --sky or --environment");
+  const auto sky = parse_vec3("--sky", options.sky);
+  if (!sky) return tl::unexpected(sky.error());
+  if (!are_within(*sky, kMaxRadiance)) return fail("--sky", "", "must be 0 to 1e10 W/(m^2 sr)");
+  scene.environment = {};
+  scene.environment.radiance = *sky;
+  return {};
+}
+
+FirstLight light_of_name(const std::string& name) {
+  return name == "studio"  ? FirstLight::studio
+         : name == "lamps" ? FirstLight::lamps
+         : name == "sun"   ? FirstLight::sun
+                           : FirstLight::scene;
+}
+
+std::string describe(FirstLight light, const Scene& scene) {
+  switch (light) {
+    case FirstLight::studio:
+      return "a studio";
+    case FirstLight::sun:
+      return "sun and sky";
+    case FirstLight::lamps:
+      return scene.lights.size() == 1 ? "a lamp" : std::to_string(scene.lights.size()) + " lamps";
+    case FirstLight::scene:
+      break;
+  }
+  return "the scene's";
+}
+
+}  // namespace
+
+void add_light_options(CLI::App& command, LightOptions& o) {
+  command
+      .add_option("--light", o.light,
+                  "auto: the scene's, else what suits it. scene, studio, sun (and sky), lamps, or "
+                  "none (but what surfaces emit)")
+      ->check(one_of({"auto", "scene", "studio", "sun", "lamps", "none"}))
+      ->capture_default_str()
+      ->type_name("L");
+  command.add_option("--sun", o.sun, "Add a sun whose light travels this way: --sun=0.3,-1,0.2")
+      ->type_name("X,Y,Z");
+  command.add_option("--sun-irradiance", o.sun_irradiance, "Of that sun [W/m^2] (20,18,15)")
+      ->type_name("R,G,B");
+  command.add_option("--sky", o.sky, "Constant sky [W/(m^2 sr)]")->type_name("R,G,B");
+  command.add_option("--environment", o.environment, "Latitude-longitude sky, .hdr or .exr")
+      ->type_name("FILE");
+}
+
+Expected<void> add_asked_light(const LightOptions& options, Scene& scene) {
+  const bool replaces = light_of_name(options.light) != FirstLight::scene;
+  if (replaces && names_light(options)) {
+    return fail("--light", "",
+                "'" + options.light +
+                    "' brings its own lights: leave out --sun, --sky and "
+                    "--environment, or take --light scene or none");
+  }
+  if (options.light == "none") {
+    scene.lights.clear();
+    scene.environment = {};
+  }
+  if (const auto done = add_sun(options, scene); !done) return done;
+  return set_sky(options, scene);
+}
+
+Expected<std::string> add_first_light(const LightOptions& options, const Camera& camera,
+                                      Scene& scene, World& world) {
+  if (options.light == "none" && !names_light(options)) return "none but what surfaces emit";
+  if (names_light(options)) return "as asked";
+  const FirstLight light =
+      options.light == "auto" ? choose_first_light(world, camera) : light_of_name(options.light);
+  if (light == FirstLight::scene) return describe(light, scene);
+  set_first_light(light, world, camera, scene);
+  if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
+  return describe(light, scene);
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where to stand and which light to bring for the first picture of a scene that says neither.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+class World;
+
+struct FirstViewSettings {
+  /// Full vertical angle of the view [rad], 0 to pi; none: 45 degrees for objects, 60 for rooms.
+  std::optional<float> vertical_fov;
+  float aspect = 16.0f / 9.0f;  ///< Width over height of the picture, > 0.
+};
+
+/// A camera that shows a scene.
+struct FirstView {
+  Camera camera;
+  bool inside = false;  ///< It stands in a room, and not before an object.
+};
+
+/// Finds a camera by what it would show: from outside, a three-quarter view of the whole object; or
+/// at eye height in open space, where the scene is a shell around most of what it holds
+/// (docs/cli.md tells the rules). Traces some 20,000 rays. The same world gives the same view.
+FirstView first_view(const World& world, const FirstViewSettings& settings = {});
+
+/// Light for scenes that bring none.
+enum class FirstLight : std::uint8_t {
+  scene,   ///< What the scene brings.
+  studio,  ///< Soft boxes as key, fill and rim, in a neutral surrounding: for objects.
+  sun,     ///< Sun and sky: for open scenes.
+  lamps,   ///< Lamps below the ceiling: for closed rooms.
+};
+
+/// "scene", "studio", "sun" or "lamps".
+std::string_view name_of(FirstLight light);
+
+/// Finds the light that a camera's view asks for: the scene's, where it has lights or a sky or
+/// where its emissive surfaces light what the camera sees; else by where the camera stands.
+/// Traces some 10,000 rays.
+FirstLight choose_first_light(const World& world, const Camera& camera);
+
+/// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;
+/// emissive surfaces stay as they are, and FirstLight::scene changes nothing. `scene` is the
+/// world's; call World::update afterwards.
+void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
+
+}  // namespace lambent

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The exposure that suits a picture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "lambent/image.h"
+
+namespace lambent {
+
+/// How often each luminance is in a picture, collected row by row, so that the exposure of a
+/// picture that memory does not hold can be found.
+class LuminanceHistogram {
+ public:
+  /// Counts the pixels of an image of linear radiance; black ones, and what is no number, do not
+  /// count.
+  void add(const Image& linear);
+
+  /// The factor that brings what is typical of the picture to mid-grey; 1 where all is black.
+  /// The log-average luminance, as of Reinhard et al., "Photographic Tone Reproduction for Digital
+  /// Images", 2002, Eq. 1 and 2, but each pixel counts as no further from the median than some
+  /// stops: a lamp in the picture, or a black corner, does not decide what the rest looks like.
+  double exposure() const;
+
+ private:
+  static constexpr int kBinsPerStop = 8;
+  static constexpr int kMinStop = -64, kMaxStop = 64;  // luminances beyond fall into the end bins
+  static constexpr std::size_t kBins = (kMaxStop - kMinStop) * kBinsPerStop;
+  std::array<std::uint64_t, kBins> counts_{};
+};
+
+/// The exposure of a whole picture.
+double display_exposure(const Image& linear);
+
+}  // namespace lambent

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "lambent/first_picture.h"
+#include "shared/rays.h"
+#include "stage/lamps.h"
+#include "stage/seen.h"
+#include "stage/studio.h"
+#include "stage/survey.h"
+
+namespace lambent {
+namespace {
+
+// Emission lights a view where it reaches this share of what the camera sees.
+constexpr float kMinLitShare = 0.4f;
+// Outdoors and around objects emitters are often signs and screens, whose glow leaves the rest in
+// the dark: there they light a view where the median of what they light is no darker than this,
+// beside those of them that are seen.
+constexpr float kMinEmissionRatio = 0.1f;
+// A camera is indoors where surfaces close this share of the sphere around it,
+constexpr float kMinEnclosure = 0.75f;
+// and a room is closed where less than this share of the sky reaches what is seen.
+constexpr float kMaxSkyIndoors = 0.08f;
+// A building has a court where this share of its enclosed air has no ceiling.
+constexpr float kMinCourt = 0.05f;
+// Sky light in closed rooms with windows, as a share of that outdoors: so that windows are not
+// black.
+constexpr float kSkyThroughWindows = 0.5f;
+
+// Rays down onto a scene's footprint, along each edge.
+constexpr int kRaysAlongEdge = 16;
+// A scene has a ground where rays meet something over this share of its footprint, this share of
+// them at one height, and this share at least above that: things that stand on it. One height is
+// a band as thick as this share of the footprint's longer side.
+constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
+constexpr float kGroundBand = 0.03f;
+// What is flatter than this share of its width is a ground itself; and so is a terrain, which is
+// larger [m] and covers its footprint.
+constexpr float kFlatShare = 0.1f;
+constexpr float kTerrainShare = 0.4f, kMinTerrain = 20.0f;
+
+// Ways that the light of the sun may travel, the customary one first: from above one shoulder of
+// somebody who looks along -Z.
+constexpr std::array kSunWays = {
+    glm::vec3(-0.5f, -1.0f, -0.35f), glm::vec3(0.5f, -1.0f, -0.35f), glm::vec3(-0.5f, -1.0f, 0.35f),
+    glm::vec3(0.5f, -1.0f, 0.35f),   glm::vec3(0.1f, -1.0f, -0.6f),  glm::vec3(0.1f, -1.0f, 0.6f),
+    glm::vec3(-0.8f, -0.8f, 0.1f),   glm::vec3(0.8f, -0.8f, 0.1f),   glm::vec3(0.15f, -1.0f, 0.1f)};
+// The sun should reach this share of what is seen; other ways must reach so much more than the
+// customary one.
+constexpr float kMinSunlit = 0.3f, kMinSunGain = 0.1f;
+
+bool has_lights_or_sky(const Scene& scene) {
+  if (scene.environment.radiance != glm::vec3(0.0f)) return true;
+  return std::any_of(scene.lights.begin(), scene.lights.end(),
+                     [](const Light& light) { return light.intensity != glm::vec3(0.0f); });
+}
+
+/// Whether a scene is a piece of ground with things on it, rather than a thing.
+bool has_ground(const World& world, const Bounds& bounds) {
+  const glm::vec3 size = bounds.max - bounds.min;
+  if (size.y < kFlatShare * std::min(size.x, size.z)) return true;
+  std::vector<Ray> rays;
+  for (int i = 0; i < kRaysAlongEdge * kRaysAlongEdge; ++i) {
+    const float u = (static_cast<float>(i % kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
+    const float v = (static_cast<float>(i / kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
+    rays.push_back({{bounds.min.x + u * size.x, bounds.max.y + size.y, bounds.min.z + v * size.z},
+                    0.0f,
+                    {0.0f, -1.0f, 0.0f}});
+  }
+  std::vector<float> heights;
+  for (const Hit& hit : trace(world, rays)) {
+    if (!hit.missed()) heights.push_back(bounds.max.y + size.y - hit.distance);
+  }
+  constexpr float kRays = kRaysAlongEdge * kRaysAlongEdge;
+  if (static_cast<float>(heights.size()) < kMinFootprint * kRays) return false;
+  const float width = std::min(size.x, size.z);
+  if (width > kMinTerrain && size.y < kTerrainShare * width) return true;
+
+  // Find the band of heights that holds most of them
+  std::sort(heights.begin(), heights.end());
+  const float band = kGroundBand * std::max(size.x, size.z);
+  std::size_t most = 0, above = 0, first = 0;
+  for (std::size_t last = 0; last < heights.size(); ++last) {
+    while (heights[last] - heights[first] > band) ++first;
+    if (last - first + 1 <= most) continue;
+    most = last - first + 1;
+    above = heights.size() - last - 1;
+  }
+  const auto count = static_cast<float>(heights.size());
+  return static_cast<float>(most) >= kMinGround * count &&
+         static_cast<float>(above) >= kMinThings * count;
+}
+
+/// Whether much of the scene's enclosed air is below the open sky.
+bool has_court(const World& world) {
+  const SpaceSurvey survey = survey_space(world, find_subject(world).bounds);
+  const auto open = std::count_if(survey.enclosed.begin(), survey.enclosed.end(),
+                                  [](const OpenPlace& place) { return place.open_above; });
+  return static_cast<float>(open) >= kMinCourt * static_cast<float>(survey.enclosed.size());
+}
+
+/// Share of the seen points that light travelling along `way` reaches.
+float sunlit_share(const World& world, const SeenView& view, const glm::vec3& way) {
+  const glm::vec3 to_sun = -glm::normalize(way);
+  std::vector<Ray> rays;
+  for (const SeenPoint& seen : view.points) {
+    if (glm::dot(seen.point.geometric_normal_ws, to_sun) <= 0.0f) continue;
+    rays.push_back(
+        {offset_ray_origin(seen.point.position_ws, seen.point.geometric_normal_ws), 0.0f, to_sun});
+  }
+  const std::vector<std::uint8_t> shadowed = trace_occlusion(world, rays);
+  const auto lit = static_cast<float>(std::count(shadowed.begin(), shadowed.end(), 0));
+  return view.points.empty() ? 0.0f : lit / static_cast<float>(view.points.size());
+}
+
+/// The customary way of the sun, or the one that reaches most of what is seen.
+glm::vec3 best_sun_way(const World& world, const SeenView& view) {
+  const float customary = sunlit_share(world, view, kSunWays[0]);
+  if (customary >= kMinSunlit) return kSunWays[0];
+  glm::vec3 best = kSunWays[0];
+  float most = customary + kMinSunGain;
+  for (const glm::vec3& way : kSunWays) {
+    const float lit = sunlit_share(world, view, way);
+    if (lit <= most) continue;
+    most = lit;
+    best = way;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::string_view name_of(FirstLight light) {
+  switch (light) {
+    case FirstLight::scene:
+      return "scene";
+    case FirstLight::studio:
+      return "studio";
+    case FirstLight::sun:
+      return "sun";
+    case FirstLight::lamps:
+      return "lamps";
+  }
+  return "";
+}
+
+FirstLight choose_first_light(const World& world, const Camera& camera) {
+  if (has_lights_or_sky(world.scene())) return FirstLight::scene;
+  const SeenView view = pass_moving_surfaces(world, camera);
+  const ViewLight light = measure_view_light(world, view);
+  const bool indoors = enclosure(world, camera) >= kMinEnclosure;
+  if (light.lit_by_emission >= kMinLitShare &&
+      (indoors || light.emission_ratio >= kMinEmissionRatio)) {
+    return FirstLight::scene;
+  }
+  if (indoors) {
+    const bool closed = light.sky_visibility <= kMaxSkyIndoors && !has_court(world);
+    return closed ? FirstLight::lamps : FirstLight::sun;
+  }
+  const Bounds bounds = find_subject(world).bounds;
+  const Bounds all = world_bounds(world.scene());
+  if (bounds.empty()) return FirstLight::studio;
+  return has_ground(world, bounds) || diagonal(all) > 2.0f * diagonal(bounds) ? FirstLight::sun
+                                                                              : FirstLight::studio;
+}
+
+void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {
+  if (light == FirstLight::scene) return;
+  const SeenView view = pass_moving_surfaces(world, camera);
+  const std::uint32_t revision = scene.environment.revision + 1;
+  if (light == FirstLight::studio) {
+    glm::vec3 front(camera.world_from_view[2]);  // the camera looks along its -Z
+    front.y = 0.0f;
+    front = glm::length(front) > 0.0f ? glm::normalize(front) : glm::vec3(0.0f, 0.0f, 1.0f);
+    scene.environment = make_studio(front);
+    scene.lights = {make_key_light(front)};
+  } else if (light == FirstLight::sun) {
+    scene.lights = {make_first_sun(best_sun_way(world, view))};
+    scene.environment = {};
+    scene.environment.radiance = kFirstSky;
+  } else {
+    scene.lights = hang_lamps(world, camera, view);
+    scene.environment = {};
+    if (measure_view_light(world, view).sky_visibility > 0.0f) {
+      scene.environment.radiance = kSkyThroughWindows * kFirstSky;
+    }
+  }
+  scene.environment.revision = revision;
+}
+
+}  // namespace lambent

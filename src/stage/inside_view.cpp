@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <unordered_set>
+#include <vector>
+
+#include "raytracing/direct_light.h"
+#include "shared/constants.h"
+#include "shared/random.h"
+#include "shared/rays.h"
+#include "stage/views.h"
+
+namespace lambent {
+namespace {
+
+// Somebody who stands in a room of these heights [m] has the eyes at this height [m]; in others,
+// whose unit is not the metre or which are models of rooms, at a share of theirs.
+constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f;
+constexpr float kEyeHeight = 1.6f;
+constexpr float kEyeShareOfHeight = 0.45f;
+// Of the height of a room of human scale, where that is less.
+constexpr float kMaxEyeShareOfHeight = 0.6f;
+
+// Places that are looked around from.
+constexpr std::size_t kMaxEyes = 110;
+// Rays around the horizon, and elevations of the rings of rays [rad].
+constexpr int kRingRays = 40;
+constexpr std::array<float, 5> kRings = {-0.42f, -0.2f, 0.0f, 0.2f, 0.42f};
+// Directions in which a view may look.
+constexpr int kViewDirections = 20;
+// Views tilt down a little [rad]: floors show more than ceilings.
+constexpr float kTilt = 0.06f;
+
+// Distances as shares of the diagonal: an eye keeps this far from everything, what is nearer than
+// that fills the view, and depth counts no more beyond that.
+constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
+// Of the choice of lights.
+constexpr std::uint32_t kSeed = 4;
+// Sky counts against a view beyond this share.
+constexpr float kMaxSky = 0.1f;
+// What counts of a view: median depth, what many small triangles tell of detail, and how much of it
+// the scene's own lights reach, against what is near, sky, and backs of surfaces.
+constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
+                kSkyWeight = 1.5f, kBackWeight = 0.8f;
+// A view that shows less depth than this share of the diagonal, or more backs, is none.
+constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
+
+glm::vec3 eye_at(const OpenPlace& place) {
+  const float height = place.ceiling - place.floor;
+  float eye = kEyeShareOfHeight * height;
+  if (height >= kMinRoomHeight && height <= kMaxRoomHeight) {
+    eye = std::min(kEyeHeight, kMaxEyeShareOfHeight * height);
+  }
+  return {place.position_ws.x, place.floor + eye, place.position_ws.z};
+}
+
+/// What rays around an eye meet: kRings.size() rings of kRingRays hits.
+struct Panorama {
+  glm::vec3 eye{0.0f};
+  const Hit* hits = nullptr;
+  const std::uint8_t* lit = nullptr;  ///< 1 for each hit that one of the lights reaches.
+};
+
+/// Where one of the scene's lights stands as seen from a point: an origin and a way for a shadow
+/// ray. Each of the lights is as likely as emissive surfaces together are.
+std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
+                                    RandomStream& random) {
+  const std::vector<Light>& lights = world.scene().lights;
+  const std::size_t sources = lights.size() + (world.emissive().empty() ? 0 : 1);
+  const auto which = static_cast<std::size_t>(next_uniform(random) * static_cast<float>(sources));
+  if (which < lights.size()) {
+    const PunctualSample sample = sample_punctual(lights[which], from);
+    if (sample.irradiance == glm::vec3(0.0f)) return std::nullopt;
+    return Ray{from, 0.0f, sample.to_light, sample.distance};
+  }
+  const vec2 u = next_uniform2(random);
+  const EmitterPoint emitter =
+      sample_emitter_by_power(world, from, {u.x, u.y, next_uniform(random)});
+  if (emitter.radiance == glm::vec3(0.0f)) return std::nullopt;
+  return Ray{from, 0.0f, emitter.to_light, shadow_ray_length(emitter.distance)};
+}
+
+/// 1 for each of the rays' hits that a light reaches; all 0 where the scene has no light.
+std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays,
+                                   std::span<const Hit> hits) {
+  std::vector<std::uint8_t> lit(rays.size(), 0);
+  if (world.scene().lights.empty() && world.emissive().empty()) return lit;
+  std::vector<Ray> to_lights;
+  std::vector<std::size_t> hit_of_ray;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].missed()) continue;
+    RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kSeed);
+    const float distance = hits[i].distance * (1.0f - kShadowRayShortening);
+    const auto ray = ray_to_any_light(world, rays[i].origin + distance * rays[i].direction, random);
+    if (!ray) continue;
+    to_lights.push_back(*ray);
+    hit_of_ray.push_back(i);
+  }
+  const std::vector<std::uint8_t> shadowed = trace_occlusion(world, to_lights);
+  for (std::size_t r = 0; r < to_lights.size(); ++r) lit[hit_of_ray[r]] = shadowed[r] == 0 ? 1 : 0;
+  return lit;
+}
+
+/// How good a view in a direction is, by the rays of the panorama that are in its frame; the higher
+/// the better. Minus infinity: it is none.
+float score_view(const Panorama& panorama, int direction, float half_width, float scale) {
+  std::vector<float> depths;
+  std::unordered_set<std::uint64_t> triangles;
+  float near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
+  const float azimuth = kTwoPi * static_cast<float>(direction) / kViewDirections;
+  for (std::size_t ring = 0; ring < kRings.size(); ++ring) {
+    for (int i = 0; i < kRingRays; ++i) {
+      const float turn = kTwoPi * static_cast<float>(i) / kRingRays - azimuth;
+      if (std::abs(std::remainder(turn, kTwoPi)) > half_width) continue;
+      const std::size_t at = ring * kRingRays + static_cast<std::size_t>(i);
+      const Hit& hit = panorama.hits[at];
+      rays += 1.0f;
+      depths.push_back(hit.distance);
+      if (hit.missed()) {
+        sky += 1.0f;
+        continue;
+      }
+      if (hit.distance < kNear * scale) near += 1.0f;
+      if (!hit.front_face) backs += 1.0f;
+      if (panorama.lit[at] != 0) lit += 1.0f;
+      triangles.insert(std::uint64_t{hit.instance} << 32 | hit.triangle);
+    }
+  }
+  if (rays == 0.0f || sky == rays || backs > kMaxBacks * rays) return -kInfiniteDistance;
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const float depth = std::min(*middle / scale, kDeep);
+  if (depth < kMinDepth) return -kInfiniteDistance;
+  // The first triangles tell more than the last: a window in a wall, more than a leaf in a wood
+  const float detail = std::log1p(static_cast<float>(triangles.size())) / std::log1p(rays);
+  return kDepthWeight * depth / kDeep + kDetailWeight * detail + kLitWeight * lit / rays -
+         kNearWeight * near / rays - kSkyWeight * std::max(sky / rays - kMaxSky, 0.0f) -
+         kBackWeight * backs / rays;
+}
+
+}  // namespace
+
+std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
+                                  const Bounds& bounds, float vertical_fov, float aspect) {
+  const float scale = diagonal(bounds);
+  const std::size_t eyes = std::min(survey.sheltered.size(), kMaxEyes);
+  constexpr std::size_t kPanoramaRays = kRings.size() * kRingRays;
+  std::vector<Ray> rays;
+  rays.reserve(eyes * kPanoramaRays);
+  for (std::size_t e = 0; e < eyes; ++e) {
+    const glm::vec3 eye = eye_at(survey.sheltered[e]);
+    for (const float elevation : kRings) {
+      for (int i = 0; i < kRingRays; ++i) {
+        const float azimuth = kTwoPi * static_cast<float>(i) / kRingRays;
+        rays.push_back({eye, 0.0f, direction_from_angles(azimuth, elevation)});
+      }
+    }
+  }
+  const std::vector<Hit> hits = trace(world, rays);
+  const std::vector<std::uint8_t> lit = find_lit(world, rays, hits);
+
+  const float half_width = std::atan(std::tan(0.5f * vertical_fov) * aspect);
+  float best = -kInfiniteDistance;
+  std::optional<Camera> camera;
+  for (std::size_t e = 0; e < eyes; ++e) {
+    const Panorama panorama{rays[e * kPanoramaRays].origin, &hits[e * kPanoramaRays],
+                            &lit[e * kPanoramaRays]};
+    const float nearest =
+        std::min_element(panorama.hits, panorama.hits + kPanoramaRays,
+                         [](const Hit& a, const Hit& b) { return a.distance < b.distance; })
+            ->distance;
+    if (nearest < kClearance * scale) continue;
+    for (int d = 0; d < kViewDirections; ++d) {
+      const float score = score_view(panorama, d, half_width, scale);
+      if (score <= best) continue;
+      best = score;
+      const float azimuth = kTwoPi * static_cast<float>(d) / kViewDirections;
+      camera = look_at(panorama.eye, panorama.eye + direction_from_angles(azimuth, -kTilt),
+                       vertical_fov);
+    }
+  }
+  return camera;
+}
+
+}  // namespace lambent

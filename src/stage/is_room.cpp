@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <vector>
+
+#include "shared/constants.h"
+#include "shared/rays.h"
+#include "stage/survey.h"
+
+namespace lambent {
+namespace {
+
+// Surface points that is_room judges, rays from each to the outside, and their elevations [rad].
+constexpr int kShellPoints = 256, kShellRays = 4;
+constexpr float kMinShellElevation = 0.09f, kMaxShellElevation = 0.7f;
+// A room is enclosed in this share of its box, at least; where its surfaces have two sides, which
+// may as well be the skin of something hollow, in so much of it.
+constexpr float kMinEnclosed = 0.25f, kMinEnclosedByTwoSided = 0.5f;
+// Somebody outside sees no more than this share of a room's surface from the front.
+constexpr float kMaxShown = 0.6f;
+
+}  // namespace
+
+bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey) {
+  const float needed = glm::mix(kMinEnclosed, kMinEnclosedByTwoSided, survey.two_sided_share);
+  if (survey.enclosed_share < needed) return false;
+  const std::vector<SurfacePoint> points =
+      sample_surfaces(world.scene(), subject.instances, kShellPoints);
+  if (points.empty()) return false;
+
+  // Look from the front of each point towards where somebody outside would stand
+  std::vector<Ray> rays;
+  std::vector<std::size_t> point_of_ray;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    for (int i = 0; i < kShellRays; ++i) {
+      const float share = (static_cast<float>(i) + 0.5f) / kShellRays;
+      const float azimuth = kTwoPi * (share + kGoldenRatio * static_cast<float>(p));
+      const float elevation = glm::mix(kMinShellElevation, kMaxShellElevation, share);
+      const glm::vec3 direction = direction_from_angles(azimuth, elevation);
+      if (glm::dot(direction, points[p].normal_ws) <= 0.0f) continue;
+      rays.push_back(
+          {offset_ray_origin(points[p].position_ws, points[p].normal_ws), 0.0f, direction});
+      point_of_ray.push_back(p);
+    }
+  }
+  const std::vector<std::uint8_t> stopped = trace_occlusion(world, rays);
+  std::vector<char> shown(points.size(), 0);
+  for (std::size_t r = 0; r < rays.size(); ++r) {
+    if (stopped[r] == 0) shown[point_of_ray[r]] = 1;
+  }
+  const auto count = static_cast<float>(std::count(shown.begin(), shown.end(), 1));
+  const float shown_share = count / static_cast<float>(points.size());
+  return shown_share <= kMaxShown;
+}
+
+}  // namespace lambent

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stage/seen.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "raytracing/surface.h"
+#include "scene/attributes.h"
+#include "shared/random.h"
+#include "stage/survey.h"
+
+namespace lambent {
+namespace {
+
+// Points across and up the picture.
+constexpr int kAcross = 24, kUp = 14;
+constexpr float kAspect = 16.0f / 9.0f;
+// Rays that look for emitters and sky at each point, and samples of emitters at it and at each
+// surface that those rays meet.
+constexpr int kRaysPerPoint = 8;
+constexpr int kEmitterSamples = 8, kBounceSamples = 2;
+// Points are lit where they get this share of the median of those that get any: the rest is dark
+// beside them.
+constexpr float kLitShare = 1.0f / 32.0f;
+// Directions of the sphere around the camera.
+constexpr int kSphereRays = 64;
+// Of all random numbers here.
+constexpr std::uint32_t kSeed = 3;
+
+LitPoint lit_point(const Surface& surface) {
+  return {surface.position_ws, surface.geometric_normal_ws, surface.geometric_normal_ws};
+}
+
+float largest(const glm::vec3& v) {
+  return std::max({v.x, v.y, v.z});
+}
+
+/// Irradiance from emissive surfaces, by some samples of them.
+float emitted_irradiance(const World& world, const LitPoint& point, int samples,
+                         RandomStream& random) {
+  if (world.emissive().empty()) return 0.0f;
+  float sum = 0.0f;
+  const float share = 1.0f / static_cast<float>(samples);
+  for (int i = 0; i < samples; ++i) {
+    const EmitterDraw draw = draw_emitter(random, i, share);
+    const EmitterPoint emitter = sample_emitter_by_power(world, point.position_ws, draw.u);
+    const float cosine = glm::dot(point.normal_ws, emitter.to_light);
+    if (emitter.radiance == glm::vec3(0.0f) || cosine <= 0.0f) continue;
+    const LightCandidate light = emitter_candidate(emitter, point.normal_ws, share);
+    if (world.tracer().occluded(shadow_ray(point.position_ws, point.geometric_normal_ws, light))) {
+      continue;
+    }
+    sum += cosine * largest(light.perpendicular_irradiance);
+  }
+  return sum;
+}
+
+/// Irradiance of a point from emitters, directly and after one bounce; counts rays that leave the
+/// scene.
+float irradiance_of(const World& world, const LitPoint& point, RandomStream& random, int& escaped) {
+  float sum = emitted_irradiance(world, point, kEmitterSamples, random);
+  for (int r = 0; r < kRaysPerPoint; ++r) {
+    const glm::vec3 direction =
+        sample_cosine_about(point.geometric_normal_ws, next_uniform2(random));
+    const Ray ray{offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f, direction};
+    const Hit hit = world.tracer().closest_hit(ray);
+    if (hit.missed()) {
+      ++escaped;
+      continue;
+    }
+    if (world.emissive().empty()) continue;
+    const Surface surface = surface_at(world.scene(), ray, hit);
+    const float albedo = largest(surface.reflectance.diffuse);
+    sum += albedo * emitted_irradiance(world, lit_point(surface), kBounceSamples, random) /
+           kRaysPerPoint;
+  }
+  return sum;
+}
+
+}  // namespace
+
+SeenView pass_moving_surfaces(const World& world, const Camera& camera) {
+  const float tan_y = std::tan(0.5f * camera.vertical_fov);
+  const float half_up = camera.orthographic ? 0.5f * camera.vertical_extent : tan_y;
+  const glm::mat3 axes(camera.world_from_view);
+  const glm::vec3 eye(camera.world_from_view[3]);
+  std::vector<Ray> rays;
+  for (int y = 0; y < kUp; ++y) {
+    for (int x = 0; x < kAcross; ++x) {
+      const glm::vec2 at(
+          (2.0f * (static_cast<float>(x) + 0.5f) / kAcross - 1.0f) * half_up * kAspect,
+          (2.0f * (static_cast<float>(y) + 0.5f) / kUp - 1.0f) * half_up);
+      if (camera.orthographic) {
+        rays.push_back({eye + axes * glm::vec3(at, 0.0f), 0.0f, -axes[2]});
+      } else {
+        rays.push_back({eye, 0.0f, glm::normalize(axes * glm::vec3(at, -1.0f))});
+      }
+    }
+  }
+  const std::vector<Hit> hits = trace(world, rays);
+  SeenView view;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (hits[i].missed()) continue;
+    const Surface surface = surface_at(world.scene(), rays[i], hits[i]);
+    view.points.push_back({lit_point(surface), largest(surface.emission)});
+  }
+  view.sky_share = 1.0f - static_cast<float>(view.points.size()) / static_cast<float>(hits.size());
+  return view;
+}
+
+ViewLight measure_view_light(const World& world, const SeenView& view) {
+  const std::size_t count = view.points.size();
+  std::vector<float> irradiances(count, 0.0f);
+  std::vector<int> escaped(count, 0);
+  parallel_chunks(count, 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 0, kSeed);
+      irradiances[i] = irradiance_of(world, view.points[i].point, random, escaped[i]);
+    }
+  });
+
+  std::vector<float> lit;
+  std::size_t reflecting = 0;
+  float emitted = 0.0f;
+  int open = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    open += escaped[i];
+    if (view.points[i].emission > 0.0f) {
+      emitted += view.points[i].emission;
+      continue;
+    }
+    ++reflecting;
+    if (irradiances[i] > 0.0f) lit.push_back(irradiances[i]);
+  }
+  ViewLight light;
+  if (count > 0) {
+    light.sky_visibility = static_cast<float>(open) / static_cast<float>(count * kRaysPerPoint);
+  }
+  if (!lit.empty()) {
+    const auto middle = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() / 2);
+    std::nth_element(lit.begin(), middle, lit.end());
+    const float least = *middle * kLitShare;
+    const auto bright = std::count_if(lit.begin(), lit.end(), [&](float e) { return e >= least; });
+    light.emission_ratio = emitted > 0.0f
+                               ? *middle * kInvPi * static_cast<float>(count - reflecting) / emitted
+                               : kInfiniteDistance;
+    light.lit_by_emission = static_cast<float>(bright) / static_cast<float>(reflecting);
+  }
+  return light;
+}
+
+float enclosure(const World& world, const Camera& camera) {
+  const glm::vec3 eye(camera.world_from_view[3]);
+  std::vector<Ray> rays;
+  for (int i = 0; i < kSphereRays; ++i) {
+    rays.push_back({eye, 0.0f, spherical_fibonacci(static_cast<uint>(i), kSphereRays)});
+  }
+  const std::vector<std::uint8_t> closed = trace_occlusion(world, rays);
+  return static_cast<float>(std::count(closed.begin(), closed.end(), 1)) / kSphereRays;
+}
+
+}  // namespace lambent

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lights for scenes that bring none.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "lambent/scene.h"
+
+namespace lambent {
+
+/// The surrounding of a studio as a latitude-longitude environment: neutral walls, and soft boxes
+/// as key, fill and rim. `front_ws` is the horizontal unit direction from the subject to the
+/// camera.
+Environment make_studio(const glm::vec3& front_ws);
+
+/// What the key's soft box sends to where it is not in the way of itself, as a light without
+/// extent, so that the subject's own shadows are crisp.
+Light make_key_light(const glm::vec3& front_ws);
+
+/// A sun whose light travels along `direction_ws` (any length above 0), as strong as of a clear
+/// afternoon.
+Light make_first_sun(const glm::vec3& direction_ws);
+
+/// The sky that goes with it [W/(m^2 sr)].
+inline constexpr glm::vec3 kFirstSky{1.5f, 2.0f, 2.6f};
+
+}  // namespace lambent

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stage/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/parallel.h"
+#include "shared/random.h"
+#include "shared/rays.h"
+#include "shared/sampling.h"
+
+namespace lambent {
+namespace {
+
+// Rays that one task traces: enough to hide what a task costs.
+constexpr std::size_t kRaysPerTask = 128;
+
+// Seeds of the two random sequences: any numbers, as long as they stay.
+constexpr std::uint32_t kSurfaceSeed = 1;
+constexpr std::uint32_t kSpaceSeed = 2;
+
+// A ground dwarfs what stands on it where that spans less than this share of it; what encloses
+// the rest, less than this: a sky does, a room seldom.
+constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
+// A ground is flatter than this share of its width.
+constexpr float kFlatShare = 0.05f;
+
+// Places that are looked at in a box.
+constexpr int kPlaces = 448;
+// Directions around each, slightly above the horizon, so that low furniture does not close a place.
+constexpr int kWaysAround = 8;
+constexpr float kRise = 0.15f;  // [rad]
+// Ways around that must end at a surface for a place to count as enclosed: all but one.
+constexpr int kMinClosedWays = kWaysAround - 1;
+// For a place to count as sheltered: somebody in an opening has three of them before him.
+constexpr int kMinShelteredWays = 5;
+// Inside solid matter rays meet backs. Winding is authors' accident, so a place is solid only where
+// most of them do, and surfaces with two sides do not count.
+constexpr float kMinFrontShare = 0.35f;
+
+/// Triangle areas of a mesh in object space, summed up.
+std::vector<float> cumulative_areas(const Mesh& mesh) {
+  std::vector<float> sums;
+  sums.reserve(mesh.triangles.size());
+  float sum = 0.0f;
+  for (const glm::uvec3& t : mesh.triangles) {
+    const glm::vec3& a = mesh.positions[t.x];
+    const float area =
+        0.5f * glm::length(glm::cross(mesh.positions[t.y] - a, mesh.positions[t.z] - a));
+    if (std::isfinite(area)) sum += area;
+    sums.push_back(sum);
+  }
+  return sums;
+}
+
+/// By how much an instance scales areas, on average over directions.
+float area_scale(const Instance& instance) {
+  const glm::mat3 m(instance.world_from_object);
+  const float squared = (glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3.0f;
+  return squared;
+}
+
+/// The index of the interval of `sums` that holds `u` (0 to 1) times their total.
+std::size_t pick(std::span<const float> sums, float u) {
+  const auto at = std::upper_bound(sums.begin(), sums.end(), u * sums.back());
+  return std::min(static_cast<std::size_t>(at - sums.begin()), sums.size() - 1);
+}
+
+bool has_two_sides(const Scene& scene, const Hit& hit) {
+  return scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
+}
+
+/// How many of the `kept` smallest parts, the largest ones of these, are grounds and skies that
+/// dwarf the rest; 0: none are. `around[i]` holds the parts order[0] to order[i].
+std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::uint32_t> order,
+                           std::span<const Bounds> around, std::size_t kept) {
+  bool sky = false;
+  for (std::size_t left = kept; left-- > 1;) {
+    const Bounds& rest = around[left - 1];
+    const Bounds& largest = boxes[order[left]];
+    const glm::vec3 size = largest.max - largest.min;
+    const bool flat = size.y <= kFlatShare * std::max(size.x, size.z);
+    const bool encloses = glm::all(glm::lessThanEqual(largest.min, rest.min)) &&
+                          glm::all(glm::greaterThanEqual(largest.max, rest.max));
+    if (!flat && !encloses) return 0;
+    sky = sky || !flat;
+    const float share = diagonal(rest) / diagonal(around[kept - 1]);
+    if (share == 0.0f) return 0;
+    if (share < (sky ? kDwarfedBySky : kDwarfedByGround)) return kept - left;
+  }
+  return 0;
+}
+
+}  // namespace
+
+glm::vec3 direction_from_angles(float azimuth, float elevation) {
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+          std::cos(azimuth) * std::cos(elevation)};
+}
+
+std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
+  std::vector<Hit> hits(rays.size());
+  const std::size_t chunk = std::max(kRaysPerTask, world.tracer().batch_rays());
+  parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    world.tracer().closest_hits(rays.subspan(begin, end - begin),
+                                std::span(hits).subspan(begin, end - begin));
+  });
+  return hits;
+}
+
+std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays) {
+  std::vector<std::uint8_t> occluded(rays.size());
+  const std::size_t chunk = std::max(kRaysPerTask, world.tracer().batch_rays());
+  parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
+    world.tracer().occlusions(rays.subspan(begin, end - begin),
+                              std::span(occluded).subspan(begin, end - begin));
+  });
+  return occluded;
+}
+
+std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
+                                          std::span<const std::uint32_t> instances, int count) {
+  // Sum areas over triangles once a mesh, and over instances
+  std::vector<std::vector<float>> areas(scene.meshes.size());
+  std::vector<std::uint32_t> with_area;
+  std::vector<float> instance_sums;
+  float sum = 0.0f;
+  for (const std::uint32_t i : instances) {
+    const int mesh = scene.instances[i].mesh;
+    if (scene.meshes[mesh].triangles.empty()) continue;
+    if (areas[mesh].empty()) areas[mesh] = cumulative_areas(scene.meshes[mesh]);
+    const float area = areas[mesh].back() * area_scale(scene.instances[i]);
+    if (!(area > 0.0f) || !std::isfinite(sum + area)) continue;
+    sum += area;
+    with_area.push_back(i);
+    instance_sums.push_back(sum);
+  }
+  std::vector<SurfacePoint> points;
+  if (with_area.empty()) return points;
+
+  points.reserve(count);
+  for (int i = 0; i < count; ++i) {
+    RandomStream random = make_random_stream(i, 0, kSurfaceSeed);
+    const float u = next_uniform(random);
+    const bool by_area = i % 2 == 0;
+    const std::size_t which =
+        by_area ? pick(instance_sums, u)
+                : std::min(static_cast<std::size_t>(u * static_cast<float>(with_area.size())),
+                           with_area.size() - 1);
+    const Instance& instance = scene.instances[with_area[which]];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const glm::uvec3 t = mesh.triangles[pick(areas[instance.mesh], next_uniform(random))];
+    const vec2 weights = sample_uniform_triangle(next_uniform2(random));
+    const auto vertex = [&](std::uint32_t v) {
+      return glm::vec3(instance.world_from_object * glm::vec4(mesh.positions[v], 1.0f));
+    };
+    const glm::vec3 a = vertex(t.x), ab = vertex(t.y) - a, ac = vertex(t.z) - a;
+    const glm::vec3 normal = glm::cross(ab, ac);
+    const float length = glm::length(normal);
+    if (!(length > 0.0f)) continue;
+    const float side =
+        glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f ? -1.0f : 1.0f;
+    points.push_back(
+        {a + weights.x * ab + weights.y * ac, normal * (side / length), with_area[which]});
+  }
+  return points;
+}
+
+Subject find_subject(const World& world) {
+  const Scene& scene = world.scene();
+  std::vector<std::uint32_t> order;
+  std::vector<Bounds> boxes(scene.instances.size());
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    boxes[i] = world.instance_bounds(static_cast<int>(i));
+    if (!boxes[i].empty()) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return diagonal(boxes[a]) < diagonal(boxes[b]);
+  });
+  // Boxes around all instances up to each, the smallest first
+  std::vector<Bounds> around(order.size());
+  Bounds sum;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    sum.add(boxes[order[i]].min);
+    sum.add(boxes[order[i]].max);
+    around[i] = sum;
+  }
+
+  std::size_t kept = order.size();
+  while (const std::size_t dwarfing = count_dwarfing(boxes, order, around, kept)) kept -= dwarfing;
+  if (kept == 0) return {};
+  order.resize(kept);
+  return {std::move(order), around[kept - 1]};
+}
+
+SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
+  // Look around, up and down from random places
+  constexpr int kRays = kWaysAround + 2;
+  std::vector<Ray> rays;
+  rays.reserve(static_cast<std::size_t>(kPlaces) * kRays);
+  RandomStream random = make_random_stream(0, 0, kSpaceSeed);
+  for (int i = 0; i < kPlaces; ++i) {
+    const vec2 xy = next_uniform2(random);
+    const glm::vec3 u(xy.x, xy.y, next_uniform(random));
+    const glm::vec3 place = bounds.min + u * (bounds.max - bounds.min);
+    const float turn = next_uniform(random);
+    for (int w = 0; w < kWaysAround; ++w) {
+      const float azimuth = kTwoPi * (static_cast<float>(w) + turn) / kWaysAround;
+      rays.push_back({place, 0.0f, direction_from_angles(azimuth, kRise)});
+    }
+    rays.push_back({place, 0.0f, {0.0f, -1.0f, 0.0f}});
+    rays.push_back({place, 0.0f, {0.0f, 1.0f, 0.0f}});
+  }
+  const std::vector<Hit> hits = trace(world, rays);
+
+  SpaceSurvey survey;
+  float two_sided_sum = 0.0f;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Hit* around = &hits[static_cast<std::size_t>(i) * kRays];
+    const Hit& down = around[kWaysAround];
+    const Hit& up = around[kWaysAround + 1];
+    const auto met =
+        std::count_if(around, around + kRays, [](const Hit& h) { return !h.missed(); });
+    const auto two_sided = std::count_if(around, around + kRays, [&](const Hit& h) {
+      return !h.missed() && has_two_sides(world.scene(), h);
+    });
+    const auto fronts = std::count_if(around, around + kRays, [&](const Hit& h) {
+      return !h.missed() && h.front_face && !has_two_sides(world.scene(), h);
+    });
+    const auto closed =
+        std::count_if(around, around + kWaysAround, [](const Hit& h) { return !h.missed(); });
+    if (closed < kMinShelteredWays || down.missed()) continue;
+    const auto one_sided = static_cast<float>(met - two_sided);
+    if (static_cast<float>(fronts) < kMinFrontShare * one_sided) continue;
+    const glm::vec3& place = rays[static_cast<std::size_t>(i) * kRays].origin;
+    const OpenPlace open{place, place.y - down.distance,
+                         up.missed() ? bounds.max.y : place.y + up.distance, up.missed()};
+    survey.sheltered.push_back(open);
+    if (closed < kMinClosedWays) continue;
+    survey.enclosed.push_back(open);
+    two_sided_sum += static_cast<float>(two_sided) / static_cast<float>(met);
+  }
+  const auto enclosed = static_cast<float>(survey.enclosed.size());
+  survey.enclosed_share = enclosed / kPlaces;
+  if (enclosed > 0.0f) survey.two_sided_share = two_sided_sum / enclosed;
+  return survey;
+}
+
+}  // namespace lambent

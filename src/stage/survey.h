@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What rays tell of a scene that nobody has described: where its surfaces are, and its open space.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "lambent/world.h"
+#include "raytracing/raytracer.h"
+
+namespace lambent {
+
+/// A point of the scene's surfaces.
+struct SurfacePoint {
+  glm::vec3 position_ws{0.0f};            ///< [m]
+  glm::vec3 normal_ws{0.0f, 1.0f, 0.0f};  ///< Of the triangle, on its front side; unit.
+  std::uint32_t instance = 0;             ///< Index into Scene::instances.
+};
+
+/// `count` points of the instances whose index is in `instances`: half of them spread over area,
+/// half dealt to instances alike, so that small parts count. Fewer, or none, where there is no
+/// area.
+std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
+                                          std::span<const std::uint32_t> instances, int count);
+
+/// The nearest hit of each ray, on all cores.
+std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
+
+/// 1 for each ray that is stopped, on all cores.
+std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays);
+
+/// The instances that a picture of the scene is about, and a box around them: all of them but for
+/// grounds and backdrops that dwarf the rest.
+struct Subject {
+  std::vector<std::uint32_t> instances;
+  Bounds bounds;  ///< Empty where the scene has no surface.
+};
+Subject find_subject(const World& world);
+
+/// A place where a person could be: air, with a floor below and surfaces most ways around.
+struct OpenPlace {
+  glm::vec3 position_ws{0.0f};  ///< [m]
+  float floor = 0.0f;           ///< Height of what is below [m].
+  float ceiling = 0.0f;         ///< Height of what is above, else of the bounds' top [m].
+  bool open_above = false;      ///< Nothing is above.
+};
+
+/// What random places in a box are.
+struct SpaceSurvey {
+  /// Air with surfaces around, in a fixed random order.
+  std::vector<OpenPlace> enclosed;
+  /// These, and others that are open to a side or two: where somebody who looks into a room stands.
+  std::vector<OpenPlace> sheltered;
+  float enclosed_share = 0.0f;  ///< Of the box's volume.
+  /// Of the surfaces around enclosed places, how many have two sides, so that which way they are
+  /// wound tells nothing.
+  float two_sided_share = 0.0f;
+};
+SpaceSurvey survey_space(const World& world, const Bounds& bounds);
+
+/// Whether a scene is a shell around most of what it holds: by how much of its box is enclosed air,
+/// and by the share of its surfaces that somebody outside sees from the front.
+bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
+inline bool is_room(const World& world, const Subject& subject) {
+  return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));
+}
+
+/// Length of a box's diagonal [m].
+inline float diagonal(const Bounds& bounds) {
+  return bounds.empty() ? 0.0f : glm::length(bounds.max - bounds.min);
+}
+
+/// A unit direction by its azimuth (from +Z towards +X) and elevation [rad].
+glm::vec3 direction_from_angles(float azimuth, float elevation);
+
+}  // namespace lambent

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "core/image/exposure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace lambent {
+namespace {
+
+Image grey(float value, int size = 16) {
+  Image image(size, size, 3);
+  for (float& channel : image.pixels) channel = value;
+  return image;
+}
+
+TEST(Exposure, BringsAnEvenPictureToMidGrey) {
+  for (const float value : {1e-6f, 0.18f, 1.0f, 1e6f}) {
+    // A bin of the histogram is an eighth of a stop wide
+    EXPECT_NEAR(std::log2(display_exposure(grey(value)) * value / 0.18), 0.0, 0.07) << value;
+  }
+}
+
+TEST(Exposure, IsNotDrivenByASmallBrightEmitter) {
+  Image image = grey(1.0f);
+  const double before = display_exposure(image);
+  for (int c = 0; c < 3; ++c) image.at(3, 3)[c] = 1e6f;
+  EXPECT_NEAR(std::log2(display_exposure(image) / before), 0.0, 0.03);
+}
+
+TEST(Exposure, IsNotDrivenByBlackPixels) {
+  Image image = grey(1.0f);
+  const double before = display_exposure(image);
+  for (int y = 0; y < 7; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      for (int c = 0; c < 3; ++c) image.at(x, y)[c] = 0.0f;
+    }
+  }
+  EXPECT_DOUBLE_EQ(display_exposure(image), before);
+}
+
+TEST(Exposure, PassesOverWhatIsNoNumber) {
+  Image image = grey(1.0f);
+  const double before = display_exposure(image);
+  image.at(0, 0)[0] = std::numeric_limits<float>::quiet_NaN();
+  image.at(1, 0)[1] = std::numeric_limits<float>::infinity();
+  EXPECT_DOUBLE_EQ(display_exposure(image), before);
+}
+
+TEST(Exposure, IsOneForBlackPictures) {
+  EXPECT_EQ(display_exposure(grey(0.0f)), 1.0);
+  EXPECT_EQ(display_exposure(Image()), 1.0);
+}
+
+TEST(Exposure, IsTheSameByBands) {
+  Image image(4, 8, 3);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.1f * (i % 37);
+  LuminanceHistogram histogram;
+  for (int y = 0; y < image.height; ++y) {
+    Image row(4, 1, 3);
+    std::copy_n(image.at(0, y), 12, row.at(0, 0));
+    histogram.add(row);
+  }
+  EXPECT_EQ(histogram.exposure(), display_exposure(image));
+}
+
+}  // namespace
+}  // namespace lambent

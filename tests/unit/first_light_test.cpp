@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which light a scene without any is given.
+#include <gtest/gtest.h>
+
+#include "lambent/first_picture.h"
+#include "scenes/builtin.h"
+#include "stage/seen.h"
+#include "support/box_scenes.h"
+#include "support/hand_made.h"
+
+namespace lambent {
+namespace {
+
+using test::box_mesh;
+using test::scene_of;
+
+FirstLight chosen(const Scene& scene) {
+  const World world(scene);
+  return choose_first_light(world, first_view(world).camera);
+}
+
+Scene unlit(const std::string& name) {
+  Scene scene = scenes::make(name).value();
+  scene.lights.clear();
+  scene.environment = {};
+  return scene;
+}
+
+TEST(FirstLight, IsTheScenesWhereItHasOne) {
+  Scene lit = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  lit.lights.emplace_back();
+  EXPECT_EQ(chosen(lit), FirstLight::scene);
+  Scene sky = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  sky.environment.radiance = glm::vec3(1.0f);
+  EXPECT_EQ(chosen(sky), FirstLight::scene);
+}
+
+TEST(FirstLight, DoesNotTakeALightWithoutIntensityForOne) {
+  Scene dark = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  dark.lights.emplace_back().intensity = glm::vec3(0.0f);
+  EXPECT_EQ(chosen(dark), FirstLight::studio);
+}
+
+TEST(FirstLight, IsAStudioForObjects) {
+  EXPECT_EQ(chosen(scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})})), FirstLight::studio);
+}
+
+TEST(FirstLight, IsSunAndSkyForOpenScenes) {
+  // A ground with things on it, and a court
+  EXPECT_EQ(chosen(scene_of({box_mesh({-9, -1, -9}, {9, 0, 9}), box_mesh({-2, 0, -2}, {0, 3, 0}),
+                             box_mesh({3, 0, 1}, {5, 2, 3})})),
+            FirstLight::sun);
+  EXPECT_EQ(chosen(unlit("atrium")), FirstLight::sun);
+}
+
+TEST(FirstLight, IsLampsInClosedRooms) {
+  EXPECT_EQ(chosen(unlit("two-rooms")), FirstLight::lamps);
+}
+
+TEST(FirstLight, IsWhatLampsEmitWhereTheyLightTheRoom) {
+  EXPECT_EQ(chosen(unlit("cornell")), FirstLight::scene);
+}
+
+TEST(FirstLight, IsNotWhatASmallEmitterOnAnObjectSends) {
+  Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(5.0f)));
+  test::add(scene, test::quad({-0.2f, -0.2f, 1.01f}, {0.4f, 0, 0}, {0, 0.4f, 0}, 1));
+  EXPECT_EQ(chosen(scene), FirstLight::studio);
+}
+
+TEST(FirstLight, IsNotWhatABlackEmissiveMaterialSends) {
+  Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  Texture black;
+  black.levels.push_back({1, 1, {0, 0, 0, 255}});
+  scene.textures.push_back(black);
+  scene.materials[0].emission = glm::vec3(1.0f);
+  scene.materials[0].emission_texture.texture = 0;
+  EXPECT_EQ(chosen(scene), FirstLight::studio);
+}
+
+TEST(FirstLight, IsNotWhatSignsGlow) {
+  // A sign before a wall lights some of it, but the eye would see a white sign and a black wall
+  Scene scene = scene_of({box_mesh({-4, -2, -0.2f}, {4, 2, 0})});
+  scene.materials.push_back(test::lambert(glm::vec3(0.0f), glm::vec3(1.0f)));
+  test::add(scene, test::quad({-0.5f, 1.2f, 0.05f}, {1, 0, 0}, {0, 0.4f, 0}, 1));
+  EXPECT_EQ(chosen(scene), FirstLight::studio);
+}
+
+TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
+  for (const char* name : {"two-rooms", "house"}) {
+    Scene scene = unlit(name);
+    World world(scene);
+    const Camera camera = first_view(world).camera;
+    set_first_light(FirstLight::lamps, world, camera, scene);
+    ASSERT_TRUE(world.update().has_value());
+    const SeenView view = pass_moving_surfaces(world, camera);
+    float reached = 0.0f;
+    for (const SeenPoint& seen : view.points) {
+      bool lit = false;
+      for (const Light& lamp : scene.lights) {
+        const PunctualSample sample = sample_punctual(lamp, seen.point.position_ws);
+        if (glm::dot(sample.to_light, seen.point.normal_ws) <= 0.0f) continue;
+        const LightCandidate light{sample.to_light, sample.distance, sample.irradiance};
+        lit = lit || !world.tracer().occluded(
+                         shadow_ray(seen.point.position_ws, seen.point.geometric_normal_ws, light));
+      }
+      if (lit) reached += 1.0f;
+    }
+    EXPECT_GT(reached, 0.7f * static_cast<float>(view.points.size())) << name;
+  }
+}
+
+TEST(FirstLight, StudioLightsTheSideThatTheCameraSees) {
+  Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  World world(scene);
+  for (const glm::vec3& eye : {glm::vec3(0, 1, 5), glm::vec3(5, 1, 0), glm::vec3(-3, 1, -4)}) {
+    set_first_light(FirstLight::studio, world, look_at(eye, glm::vec3(0.0f), 0.8f), scene);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    EXPECT_LT(glm::dot(scene.lights[0].direction_ws, eye), 0.0f);
+    EXPECT_GT(scene.environment.map.width, 0);
+  }
+}
+
+TEST(FirstLight, LeavesTheSceneAsItIsWhereItsOwnIsChosen) {
+  Scene scene = scenes::make("two-rooms").value();
+  World world(scene);
+  const std::vector<Light> before = scene.lights;
+  set_first_light(FirstLight::scene, world, scene.cameras[0], scene);
+  EXPECT_EQ(scene.lights, before);
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the first picture is taken from, in scenes that nobody described.
+#include <gtest/gtest.h>
+
+#include "lambent/first_picture.h"
+#include "scenes/builtin.h"
+#include "stage/survey.h"
+#include "support/box_scenes.h"
+#include "support/hand_made.h"
+#include "support/view_coverage.h"
+
+namespace lambent {
+namespace {
+
+using test::box_mesh;
+using test::Coverage;
+using test::coverage_of;
+using test::scene_of;
+
+glm::vec3 eye_of(const Camera& camera) {
+  return glm::vec3(camera.world_from_view[3]);
+}
+
+bool holds(const Bounds& bounds, const glm::vec3& p) {
+  return glm::all(glm::greaterThan(p, bounds.min)) && glm::all(glm::lessThan(p, bounds.max));
+}
+
+/// A built-in scene without its cameras.
+Scene without_cameras(const std::string& name) {
+  Scene scene = scenes::make(name).value();
+  scene.cameras.clear();
+  return scene;
+}
+
+TEST(FirstView, ShowsAClosedBoxFromOutside) {
+  const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  const World world(scene);
+  const FirstView view = first_view(world);
+  EXPECT_FALSE(view.inside);
+  const Coverage coverage = coverage_of(world, view.camera);
+  EXPECT_GT(coverage.met, 0.2f);
+  EXPECT_LT(coverage.met, 0.8f);
+  EXPECT_FALSE(coverage.cut);
+  EXPECT_EQ(coverage.backs, 0.0f);
+}
+
+TEST(FirstView, LooksDownOnThingsFromTheFront) {
+  const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  const glm::vec3 eye = eye_of(first_view(World(scene)).camera);
+  EXPECT_GT(eye.z, std::abs(eye.x));
+  EXPECT_GT(eye.y, 0.0f);
+  EXPECT_LT(eye.y, eye.z);
+}
+
+TEST(FirstView, FitsObjectsOfAnyShapeSizeAndPlace) {
+  const glm::vec3 sizes[] = {{1, 1, 1}, {20, 1, 1}, {1, 20, 1}, {1, 1, 20}, {10, 10, 0.1f}};
+  for (const float scale : {1e-4f, 1.0f, 1e4f}) {
+    for (const glm::vec3& size : sizes) {
+      const glm::vec3 low = scale * glm::vec3(30.0f, -10.0f, 5.0f);
+      const Scene scene = scene_of({box_mesh(low, low + scale * size)});
+      const World world(scene);
+      const Coverage coverage = coverage_of(world, first_view(world).camera, 192, 108);
+      EXPECT_FALSE(coverage.cut) << scale << ": " << size.x << " " << size.y << " " << size.z;
+      EXPECT_GT(coverage.met, 0.02f) << scale << ": " << size.x << " " << size.y << " " << size.z;
+    }
+  }
+}
+
+TEST(FirstView, KeepsTheWholeObjectInFramesOfAnyShape) {
+  const Scene scene = scene_of({box_mesh({-1, -1, -1}, {3, 1, 1})});
+  const World world(scene);
+  for (const float aspect : {0.25f, 1.0f, 4.0f}) {
+    const Camera camera = first_view(world, {.vertical_fov = {}, .aspect = aspect}).camera;
+    const Coverage coverage = coverage_of(world, camera, static_cast<int>(96.0f * aspect), 96);
+    EXPECT_FALSE(coverage.cut) << aspect;
+    EXPECT_GT(coverage.met, 0.08f) << aspect;
+  }
+}
+
+TEST(FirstView, SeesAOneSidedSheetFromItsFront) {
+  for (const float facing : {1.0f, -1.0f}) {
+    Scene scene;
+    scene.materials.push_back(test::lambert(glm::vec3(0.5f)));
+    test::add(scene, test::quad({-facing, -1, 0}, {2 * facing, 0, 0}, {0, 2, 0}, 0));
+    const World world(scene);
+    const Coverage coverage = coverage_of(world, first_view(world).camera);
+    EXPECT_GT(coverage.met, 0.15f) << facing;
+    EXPECT_EQ(coverage.backs, 0.0f) << facing;
+  }
+}
+
+TEST(FirstView, LooksDownOnGroundThatIsFlat) {
+  Scene scene;
+  scene.materials.push_back(test::lambert(glm::vec3(0.5f)));
+  test::add(scene, test::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0));
+  const World world(scene);
+  EXPECT_GT(coverage_of(world, first_view(world).camera).met, 0.15f);
+}
+
+TEST(FirstView, FramesTheThingAndNotTheGroundItStandsOn) {
+  Scene scene =
+      scene_of({box_mesh({-1, 0, -1}, {1, 2, 1}), box_mesh({-500, -1, -500}, {500, 0, 500})});
+  const World world(scene);
+  const glm::vec3 eye = eye_of(first_view(world).camera);
+  EXPECT_LT(glm::length(eye), 12.0f);
+}
+
+TEST(FirstView, StandsInARoom) {
+  for (const char* name : {"two-rooms", "two-rooms-sealed", "cornell", "atrium", "house"}) {
+    const Scene scene = without_cameras(name);
+    const World world(scene);
+    const FirstView view = first_view(world);
+    const Bounds bounds = world_bounds(scene);
+    EXPECT_TRUE(view.inside) << name;
+    EXPECT_TRUE(holds(bounds, eye_of(view.camera))) << name;
+    EXPECT_LT(coverage_of(world, view.camera).backs, 0.2f) << name;
+  }
+}
+
+TEST(FirstView, SeesDeepIntoARoom) {
+  for (const char* name : {"cornell", "two-rooms"}) {
+    const Scene scene = without_cameras(name);
+    const World world(scene);
+    const Coverage coverage = coverage_of(world, first_view(world).camera);
+    EXPECT_GT(coverage.median_depth, 0.25f * diagonal(world_bounds(scene))) << name;
+  }
+}
+
+TEST(FirstView, PrefersTheRoomThatIsLit) {
+  const Scene scene = without_cameras("two-rooms-sealed");
+  const World world(scene);
+  const glm::vec3 eye = eye_of(first_view(world).camera);
+  const glm::vec3 lamp = scene.lights.at(0).position_ws;
+  const glm::vec3 way = lamp - eye;
+  EXPECT_FALSE(
+      world.tracer().occluded({eye, 0.0f, glm::normalize(way), glm::length(way) * 0.999f}));
+}
+
+TEST(FirstView, StandsAtEyeHeightWhereARoomIsOfHumanScale) {
+  Scene scene =
+      scene_of({box_mesh({-4, 0, -6}, {4, 3, 6}, true), box_mesh({-1, 0, -1}, {1, 1, 1})});
+  const FirstView view = first_view(World(scene));
+  ASSERT_TRUE(view.inside);
+  EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
+}
+
+TEST(FirstView, IsTheSameEveryTime) {
+  const Scene scene = without_cameras("house");
+  EXPECT_EQ(first_view(World(scene)).camera.world_from_view,
+            first_view(World(scene)).camera.world_from_view);
+}
+
+TEST(FirstView, ExistsWhereNothingCanBeSeen) {
+  const Scene empty;
+  EXPECT_GT(first_view(World(empty)).camera.vertical_fov, 0.0f);
+  // All of a scene in one point
+  Scene point = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  point.instances[0].world_from_object = glm::mat4(0.0f);
+  point.instances[0].world_from_object[3] = {2.0f, 3.0f, 4.0f, 1.0f};
+  const glm::vec3 eye = eye_of(first_view(World(point)).camera);
+  EXPECT_TRUE(std::isfinite(eye.x + eye.y + eye.z));
+}
+
+TEST(FirstView, KeepsTheAngleThatIsAskedFor) {
+  const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
+  EXPECT_EQ(first_view(World(scene), {.vertical_fov = 0.3f}).camera.vertical_fov, 0.3f);
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "lambent/renderer.h"
+#include "lambent/rsm.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+// Rows of a frame are cut into pieces that neither divide its height nor are alike.
+constexpr int kWidth = 37, kHeight = 29;
+constexpr int kPieces[] = {1, 12, 5, 11};
+
+class FrameRows : public ::testing::Test {
+ protected:
+  FrameRows() : field(test::make_field(stage, settings(), 1)) {
+    frame.width = kWidth;
+    frame.height = kHeight;
+    frame.samples = 2;
+    sources.field = &field;
+  }
+
+  static FieldSettings settings() {
+    FieldSettings settings;
+    settings.probe_count = glm::ivec3(3);
+    settings.rays_per_probe = 32;
+    return settings;
+  }
+
+  /// The picture put together from pieces has the same bits in all layers.
+  void expect_same_bits() const {
+    const Camera& camera = stage.scene.cameras.at(0);
+    const RenderedFrame whole = render_frame(stage.world, sources, camera, frame);
+    FrameSettings piece = frame;
+    std::uint64_t rays = 0;
+    for (const int rows : kPieces) {
+      piece.rows = rows;
+      const RenderedFrame part = render_frame(stage.world, sources, camera, piece);
+      rays += part.rays;
+      ASSERT_EQ(part.image.height, rows);
+      ASSERT_EQ(part.image.layers.size(), whole.image.layers.size());
+      for (const Layer& layer : part.image.layers) {
+        const Image& all = *whole.image.find(layer.name);
+        const float* expected = all.at(0, piece.first_row);
+        EXPECT_TRUE(std::equal(layer.image.pixels.begin(), layer.image.pixels.end(), expected))
+            << "layer " << layer.name << ", row " << piece.first_row;
+      }
+      piece.first_row += rows;
+    }
+    ASSERT_EQ(piece.first_row, kHeight);
+    EXPECT_TRUE(sources.rsm != nullptr || rays == whole.rays);
+  }
+
+  test::Stage stage{"cornell"};
+  IrradianceField field;
+  IndirectSources sources;
+  FrameSettings frame;
+};
+
+TEST_F(FrameRows, AreThoseOfTheWholeWhereTheFieldIsLookedUp) {
+  expect_same_bits();
+}
+
+TEST_F(FrameRows, AreThoseOfTheWholeWhereLightIsGathered) {
+  frame.gather_rays = 4;
+  expect_same_bits();
+}
+
+TEST_F(FrameRows, AreThoseOfTheWholeWhereMapsLight) {
+  RsmSettings maps;
+  maps.resolution = 32;
+  maps.texels = 64;
+  sources.field = nullptr;
+  sources.rsm = &maps;
+  expect_same_bits();
+}
+
+TEST_F(FrameRows, ThatAreLeftAreRenderedWhereNoNumberIsGiven) {
+  frame.first_row = 20;
+  const Camera& camera = stage.scene.cameras.at(0);
+  EXPECT_EQ(render_frame(stage.world, sources, camera, frame).image.height, kHeight - 20);
+}
+
+}  // namespace
+}  // namespace lambent
