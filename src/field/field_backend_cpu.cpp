@@ -60,14 +60,15 @@ class FieldPassesCpu final : public FieldPasses {
     for (const TraceGroup& group : update_.groups) {
       const DistanceBlend blend(data_.settings, group.rays->directions);
       lambent::blend_distances(update_.world.scene(), blend, group,
-                               blend_weights.first(group.probes.size()), update_.dither_seed, data_.store);
+                               blend_weights.first(group.probes.size()), update_.dither_seed,
+                               data_.store);
       blend_weights = blend_weights.subspan(group.probes.size());
     }
   }
 
   void visibility() override {
     result.shadow_rays += data_.cell_visibility.update(update_.world.tracer(), data_.store,
-                                                     cells_around(data_.store, update_.probes));
+                                                       cells_around(data_.store, update_.probes));
   }
 
   void lookups() override {
@@ -157,7 +158,8 @@ class FieldBackendCpu final : public FieldBackend {
   SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
                     const WorkingIrradiance& history_ratio,
                     const SolveSettings& settings) override {
-    return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings, data_.light);
+    return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings,
+                         data_.light);
   }
 
   void receive(std::span<const int> probes, WorkingIrradiance& received) override {
@@ -173,7 +175,7 @@ class FieldBackendCpu final : public FieldBackend {
   }
 
   std::vector<float> scatter_importance(std::span<const float> received, float least) override {
-    return send_importance_back(data_.store, data_.traces, received, least);
+    return scatter_from_surfels(data_.store, data_.traces, received, least);
   }
 
   void irradiance(std::span<const FieldQuery> queries, const World* world,

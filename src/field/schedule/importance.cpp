@@ -45,7 +45,7 @@ void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float 
 
 }  // namespace
 
-std::vector<float> send_importance_back(const ProbeStore& store, std::span<const ProbeTrace> traces,
+std::vector<float> scatter_from_surfels(const ProbeStore& store, std::span<const ProbeTrace> traces,
                                         std::span<const float> received, float least) {
   // Work on one probe after the other, so that sums have the same bits on any number of threads
   std::vector<float> sent(store.probes(), 0.0f);
@@ -59,7 +59,7 @@ std::vector<float> send_importance_back(const ProbeStore& store, std::span<const
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces) {
   return probe_importance(store, points, [&](std::span<const float> received, float least) {
-    return send_importance_back(store, traces, received, least);
+    return scatter_from_surfels(store, traces, received, least);
   });
 }
 
