@@ -21,15 +21,15 @@ inline void add_pass_time(std::vector<PassTime>& passes, std::string_view name, 
   }
 }
 
-/// Adds up what the passes of one thing after the other take.
+/// Measures passes that run one after the other.
 class PassTimer {
  public:
-  /// For passes that outlive it.
+  /// The list of passes must outlive it.
   explicit PassTimer(std::vector<PassTime>& passes) : passes_(passes) {}
 
   /// Counts the time since the last call, or since the start, for a pass.
   void finish(std::string_view name) { add_pass_time(passes_, name, watch_.lap()); }
-  /// Leaves that time to others.
+  /// Counts the time since the last call for no pass.
   void skip() { watch_.lap(); }
 
  private:

@@ -102,7 +102,7 @@ class FieldPassesCpu final : public FieldPasses {
 
   void store() override { store_irradiance(update_.probes, update_.dither_seed, data_); }
 
-  // The host has chosen and placed the probes.
+  // The host has scheduled and placed the probes before the update.
   void schedule() override {}
   void placement() override {}
 

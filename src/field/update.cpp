@@ -24,7 +24,7 @@ void run(FieldPasses& passes, const char* name, Pass pass) {
   passes.end();
 }
 
-/// Traces and shades all rays, as many at a time as memory holds.
+/// Traces and shades all rays, batch after batch.
 void find_surfels(FieldPasses& passes) {
   for (int batch = 0; batch < passes.batches(); ++batch) {
     run(passes, field_pass::kTrace, [&] { passes.trace(batch); });
@@ -32,7 +32,7 @@ void find_surfels(FieldPasses& passes) {
   }
 }
 
-/// From surfels to stored light.
+/// Runs all passes from surfels to stored light.
 void light_probes(FieldPasses& passes) {
   run(passes, field_pass::kBlendDistances, [&] { passes.blend_distances(); });
   if (passes.settings().visibility == Visibility::hybrid) {
@@ -167,7 +167,7 @@ void IrradianceField::State::place_all(const World& world, const std::optional<v
   }
 }
 
-/// The rays that an update may trace; 0: no bound.
+/// Computes how many rays an update may trace; 0 means any number.
 std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) const {
   // An exact number of bounces is carried through all probes at once
   if (settings.max_bounces >= 0) return 0;
@@ -176,7 +176,7 @@ std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) c
   return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
 }
 
-/// The probes that an update traces, with their rays.
+/// Chooses the probes that an update traces and draws their rays.
 std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
                                                          const std::optional<vec3>& viewer_ws) {
   const auto update = static_cast<uint>(updates);

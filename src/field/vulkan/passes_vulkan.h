@@ -13,8 +13,8 @@
 
 namespace lambent {
 
-/// Where an update's rays come from, and who shades what they meet: our world, or an engine. What
-/// its passes write is visible to those recorded afterwards.
+/// The source of an update's rays and of their hits and shading: our world, or an engine. What its
+/// passes write is visible to the passes that are recorded afterwards.
 class RaySourceVulkan {
  public:
   virtual ~RaySourceVulkan() = default;
@@ -22,33 +22,35 @@ class RaySourceVulkan {
   virtual int batches() const = 0;
   virtual void schedule(vulkan::Recorder& to) = 0;
   virtual void trace(vulkan::Recorder& to, int batch) = 0;
-  /// Leaves surfels, and the distances that rays saw (FieldResources::record_seen_distances).
+  /// Records what makes surfels, and what makes the distances that rays count as.
   virtual void shade(vulkan::Recorder& to, int batch) = 0;
   virtual void visibility(vulkan::Recorder& to) = 0;
-  /// What lookups ask rays of, with its textures bound; null: nothing.
+  /// The tracer of the rays that lookups ask for, whose textures are bound. Null where lookups
+  /// trace no rays.
   virtual const DeviceTracer* tracer() const = 0;
   virtual void placement(vulkan::Recorder& to) = 0;
 };
 
-/// Takes note of how much the light of an update's probes changed: for a host that schedules, or a
-/// device that does. `before`: what the list's probes held.
+/// Records what becomes of the changes of the probes' light. Where the host schedules, they are
+/// read back; where the device schedules, it learns the probes' noise from them.
 class VariabilityVulkan {
  public:
   virtual ~VariabilityVulkan() = default;
+  /// `before` is the light that the list's probes held before the update.
   virtual void record(vulkan::Recorder& to, const DeviceProbes& list, FloatArray blend_weights,
                       Vec4Array before) = 0;
 };
 
-/// What an update works on.
+/// What the passes of an update work on.
 struct UpdateVulkan {
   FieldResources& field;
   DeviceSolver& solver;
   RaySourceVulkan& source;
   VariabilityVulkan& noise;
   const DeviceProbes& list;
-  const vulkan::Buffer& blend_weights;  ///< Of the list's probes.
+  const vulkan::Buffer& blend_weights;  ///< One per probe of the list.
   float largest_blend_weight = 1.0f;
-  uint dither_seed = 0;  ///< Of the store's dither.
+  uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 
 class FieldPassesVulkan final : public FieldPasses {

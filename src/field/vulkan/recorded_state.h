@@ -57,12 +57,12 @@ struct UpdateMemory {
   void write(const ProbeBatch& batch, const FieldSettings& settings);
   /// The passes of all parts that have finished, since the last call.
   std::vector<PassTime> take_times();
-  /// Takes the time of the next part; null: there are no more.
+  /// Returns what times the next part of the update, or null where all parts have been recorded.
   Timestamps* next_timer() { return parts < timers.size() ? timers[parts++].get() : nullptr; }
 
   DeviceProbes list;
-  std::vector<std::unique_ptr<Timestamps>> timers;  ///< One a part of an update.
-  std::size_t parts = 0;                            ///< Recorded so far.
+  std::vector<std::unique_ptr<Timestamps>> timers;  ///< One per part of an update.
+  std::size_t parts = 0;                            ///< The number of parts recorded so far.
   Buffer directions, set;
 };
 
@@ -106,13 +106,13 @@ struct RecordedField::State {
   std::vector<PassTime> times;  // of the last update that has finished
 };
 
-/// Rays that an engine traces and shades, and a schedule and placement that the device decides on
-/// by what these brought.
+/// The rays of a recorded field. An engine traces and shades them; the device decides on the
+/// schedule and the placement from their results.
 class RecordedField::State::EngineRays final : public RaySourceVulkan, public VariabilityVulkan {
  public:
   explicit EngineRays(State& field) : s_(field) {}
 
-  /// What `trace` finds hits in.
+  /// The acceleration structure in which `trace` finds hits.
   VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
 
   int batches() const override { return 1; }

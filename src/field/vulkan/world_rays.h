@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a field's probes through our own world on a device, and what they meet, shaded.
+// The rays of a field's probes in our own world on a device, their hits and their shading.
 #pragma once
 
 #include <span>
@@ -11,16 +11,16 @@
 
 namespace lambent {
 
-/// Memory of a batch's rays, which one batch uses after the other.
+/// Memory for the rays of one batch at a time.
 struct WorldRayBuffers {
   vulkan::Buffer rays, hits, points, shaded, direct, first_indices;
 };
 
 class WorldRaysVulkan final : public RaySourceVulkan {
  public:
-  /// Makes room for the rays of a list's probes. `cells` are those whose probes `visibility` looks
-  /// across. `sees`: whether `shade` leaves the distances that rays saw. All that is given outlives
-  /// the commands that are recorded.
+  /// Reserves memory for the rays of a list's probes. `cells` are the cells that `visibility` works
+  /// on. With `sees`, `shade` records the distances that rays count as. All arguments must outlive
+  /// the execution of the recorded commands.
   WorldRaysVulkan(FieldResources& field, HitShading& shading, WorldRayBuffers& buffers,
                   const DeviceWorld& world, const DeviceProbes& list, std::span<const int> cells,
                   bool sees);
@@ -33,10 +33,11 @@ class WorldRaysVulkan final : public RaySourceVulkan {
   const DeviceTracer* tracer() const override { return &world_.tracer(); }
   void placement(vulkan::Recorder&) override {}  // the host has placed the probes
 
-  /// Records that the rays which shading and lookups trace are counted; after all passes.
+  /// Records the counting of shadow and visibility rays. It must be called after all passes.
   void record_counts(vulkan::Recorder& to) const;
-  /// Rays of probes, and of all else once what was recorded has run.
+  /// The number of probe rays.
   std::uint64_t probe_rays() const;
+  /// The number of shadow and visibility rays, once the recorded commands have run.
   std::uint64_t other_rays() const;
 
  private:
