@@ -12,6 +12,12 @@
 namespace lambent::cli {
 namespace {
 
+// Passes whose rows statistics have whether or not they ran, by the names of
+// UpdateStatistics::passes.
+constexpr const char* kPasses[] = {"placement",  "edits",   "schedule",   "trace",
+                                   "shade",      "lookups", "solve",      "blend_distances",
+                                   "visibility", "store",   "variability"};
+
 // Light is called settled when an update changes the field by less than this share of it ...
 constexpr double kSettledChange = 0.002;
 // ... or after so many updates.
@@ -58,6 +64,7 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
   FieldProgress reached;
   UpdateStatistics last, sum;
   std::map<std::string, double> pass_ms;
+  for (const char* pass : kPasses) pass_ms[pass] = 0.0;
   while (reached.updates < most && !(until_settled && reached.settled)) {
     last = field.update(world, request);
     ++reached.updates;
