@@ -11,8 +11,8 @@
 
 namespace {
 
-using lambent::testing::ProgramResult;
-using lambent::testing::run_program;
+using lambent::test::ProgramResult;
+using lambent::test::run_program;
 using testing::HasSubstr;
 
 // A triangle, a spot light and a camera; its mesh is named with a terminal escape.
@@ -40,7 +40,7 @@ class Info : public testing::Test {
 
   std::string file() const { return folder_.file("scene.gltf"); }
 
-  lambent::testing::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder_;
 };
 
 TEST_F(Info, SummarizesForPeople) {

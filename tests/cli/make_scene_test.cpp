@@ -10,8 +10,8 @@
 
 namespace {
 
-using lambent::testing::ProgramResult;
-using lambent::testing::run_program;
+using lambent::test::ProgramResult;
+using lambent::test::run_program;
 using testing::HasSubstr;
 
 class MakeScene : public testing::Test {
@@ -19,7 +19,7 @@ class MakeScene : public testing::Test {
   std::string file(const char* name) const { return folder_.file(name); }
   std::size_t files() const { return folder_.entries(); }
 
-  lambent::testing::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder_;
 };
 
 TEST_F(MakeScene, WritesOneFileAndSaysWhatIsInIt) {

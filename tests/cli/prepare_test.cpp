@@ -11,13 +11,13 @@
 
 namespace {
 
-using lambent::testing::ProgramResult;
-using lambent::testing::run_program;
+using lambent::test::ProgramResult;
+using lambent::test::run_program;
 using testing::HasSubstr;
 
 class Prepare : public testing::Test {
  protected:
-  lambent::testing::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder_;
 };
 
 TEST_F(Prepare, WritesTheSceneWithItsLightsAndTheCameraAsked) {

@@ -15,10 +15,10 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::ProgramResult;
-using testing::run_program;
 
 struct Mistake {
   const char* name;
@@ -117,7 +117,7 @@ class Files : public ::testing::Test {
     EXPECT_EQ(result.status, status) << arguments << "\n" << result.errors;
     return result.errors;
   }
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(Files, OfTheWrongKindAreNamedForWhatTheyAre) {
@@ -249,7 +249,7 @@ TEST(Scenes, AreListedForPeopleAndForPrograms) {
 
 TEST(StandardOutput, ThatIsFullIsAFailure) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string image = directory.file("u.exr"), field = directory.file("a.field");
   ASSERT_TRUE(write_exr(image, {16, 16, {{"", Image(16, 16, 3)}}}));
   ASSERT_EQ(run_program("bake cornell --probes 2x2x2 --updates 1 -o " + field).status, 0);
