@@ -3,7 +3,7 @@
 
 #include <new>
 
-#include "core/image/stb.h"
+#include "core/image/codecs/stb.h"
 
 namespace lambent::scenes {
 

@@ -176,11 +176,14 @@ Expected<void> check_field_input(const std::string& path) {
   return check_input(path, Content::field, "a field");
 }
 
+Expected<void> check_scene_input(const std::string& path_or_name) {
+  if (scenes::is_name(path_or_name)) return {};
+  return check_input(path_or_name, Content::scene, "a glTF scene");
+}
+
 Expected<Scene> open_scene_input(const std::string& path_or_name, const LoadOptions& options) {
-  if (!scenes::is_name(path_or_name)) {
-    const auto fine = check_input(path_or_name, Content::scene, "a glTF scene");
-    if (!fine) return tl::unexpected(fine.error());
-  }
+  const auto fine = check_scene_input(path_or_name);
+  if (!fine) return tl::unexpected(fine.error());
   return scenes::open_scene(path_or_name, options);
 }
 

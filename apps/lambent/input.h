@@ -16,8 +16,12 @@ Expected<void> check_image_input(const std::string& path);
 /// check_image_input for a file of lambent bake.
 Expected<void> check_field_input(const std::string& path);
 
+/// check_image_input for a scene: the name of a built-in one, or a glTF file. The nearest name may
+/// also be that of a built-in scene.
+Expected<void> check_scene_input(const std::string& path_or_name);
+
 /// The scene that was asked for by the name of a built-in one or the path of a glTF file. Fails as
-/// check_image_input does; the nearest name may also be that of a built-in scene.
+/// check_scene_input does, and where the file is broken.
 Expected<Scene> open_scene_input(const std::string& path_or_name, const LoadOptions& options = {});
 
 }  // namespace lambent::cli

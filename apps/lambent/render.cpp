@@ -9,6 +9,7 @@
 #include "lambent/console.h"
 #include "lambent/frame_renderer.h"
 #include "lambent/help.h"
+#include "lambent/input.h"
 #include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
@@ -73,6 +74,7 @@ Expected<void> pose(const RenderOptions& options, int animation, Scene& scene) {
 }
 
 Expected<void> render(const RenderOptions& options) {
+  if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
   if (const auto fine = check_outputs(options); !fine) return fine;
   if (const auto fine = check_options(options); !fine) return fine;
   const auto size = parse_size("--size", options.size);

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "core/image/row_writers.h"
+#include "core/image/codecs/row_writers.h"
 #include "lambent/error.h"
 #include "lambent/image.h"
 #include "lambent/render_options.h"

@@ -36,7 +36,7 @@ enum class DistanceFormat : std::uint8_t {
 /// How a lookup finds which of the eight probes around a point it sees.
 enum class Visibility : std::uint8_t {
   moments,  ///< From the probes' distances. The default; no rays.
-  hybrid,   ///< Likewise, and by a ray where these are in doubt and the probe matters.
+  hybrid,   ///< From distances, and by a ray where these are in doubt and the probe has a weight.
   exact,    ///< By a ray to each probe that could count.
 };
 
@@ -52,13 +52,14 @@ struct FieldSettings {
   /// Where the outermost probes stand [m]; empty: fitted to the scene, just inside its bounding
   /// surfaces.
   Bounds volume{};
-  /// So many nested volumes around the viewer in place of one fitted to the scene, 0 to 16; 0:
-  /// none. Each has `probe_count` probes (0: 32 x 4 x 32), the finest `probe_spacing` [m] apart (0:
-  /// 1), each further one twice as far as the one before. They follow UpdateRequest::viewer_ws;
-  /// coarse ones are updated less often. `volume` must be empty.
+  /// Number of nested volumes around the viewer that replace the one fitted to the scene, 0 to 16;
+  /// 0: none. Each has `probe_count` probes (0: 32 x 4 x 32). The finest has a spacing of
+  /// `probe_spacing` [m] (0: 1), and each further one twice the spacing of the one before. They
+  /// scroll with UpdateRequest::viewer_ws; coarse ones are updated less often. `volume` must be
+  /// empty.
   int cascades = 0;
-  /// Volumes in which light is finer, besides, at most 64 with the others. Each counts within its
-  /// box and a cell around it, and costs what its probes do.
+  /// Additional volumes, in which light is finer; at most 64 with the others. Each counts within
+  /// its box and a cell around it. The cost is in proportion to its probes.
   std::vector<ProbeVolume> volumes;
 
   /// Rays a probe traces in an update, 16 to 4096. Cost is in proportion; noise falls with the
@@ -72,27 +73,29 @@ struct FieldSettings {
   /// Texels of a probe's irradiance tile along an edge, without gutter, even, 2 to 16. Bytes
   /// and the cost of blending grow with the square.
   int irradiance_texels = 4;
-  /// The same of its distance tile, 4 to 32. More tell finer occluders apart.
+  /// Texels of a probe's distance tile along an edge, without gutter, 4 to 32. More resolve finer
+  /// occluders; bytes and the cost of blending grow with the square.
   int distance_texels = 14;
   /// How irradiance is stored; bytes a texel beside each format.
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
-  /// How distances are stored, likewise.
+  /// How distances are stored; bytes a texel beside each format.
   DistanceFormat distance_format = DistanceFormat::rg16f;
 
-  /// Moves probes off the grid by at most 45 % of a cell: out of solid matter, and to just in front
-  /// of the surfaces near them.
+  /// Moves probes off the grid by at most 45 % of a cell: out of geometry, and to just in front of
+  /// the surfaces near them.
   bool relocation = true;
-  /// How lookups find which probes they see, at surfels and, where a world is given, at queries.
+  /// How lookups determine which probes they see: those of surfels and, where a world is given,
+  /// those of queries.
   Visibility visibility = Visibility::moments;
 
-  /// Relighting stops when the estimated error of the stored multi-bounce light falls below this
-  /// share of it, 1e-7 to 1. Ten times less costs a few iterations more; under some 1e-6
-  /// rounding is in the way.
+  /// The solve for multi-bounce light stops when its estimated relative error falls below this,
+  /// 1e-7 to 1. A tenth of it costs a few more iterations. Below about 1e-6, rounding prevents it.
   float solve_tolerance = 0.002f;
-  /// ... or after so many iterations, 1 to 1000. Each costs a fraction of tracing.
+  /// The solve stops after this many iterations in any case, 1 to 1000. Each costs a fraction of
+  /// tracing.
   int max_solve_iterations = 32;
   /// Bounces of indirect light to carry, >= 0; -1: all. 0 is the sky's light alone. A limit is
-  /// exact but not accelerated: each bounce costs a relight.
+  /// exact but not accelerated: each bounce costs an iteration of the solve.
   int max_bounces = -1;
   /// Albedo is clamped to this at surfels, so that light always dies out, 0 to 0.99.
   float max_albedo = 0.95f;
@@ -104,18 +107,17 @@ struct FieldSettings {
   /// sharper and slower.
   float texture_lod_bias = 0.0f;
 
-  /// Of all random numbers. Fields of different seeds have independent noise.
+  /// Seed of all random numbers. Fields of different seeds have independent noise.
   std::uint32_t seed = 1;
 };
 
-/// Where the probes of a volume belong: a regular grid, that of coordinates c at origin + axes * (c
-/// * spacing).
+/// The grid of a volume: the place of the probe of coordinates c is origin + axes * (c * spacing).
 struct FieldGrid {
-  glm::vec3 origin{0.0f};   ///< Of probe (0, 0, 0) [m].
-  glm::vec3 spacing{1.0f};  ///< Along each axis [m].
-  glm::ivec3 count{2};      ///< Along each axis, each >= 2.
+  glm::vec3 origin{0.0f};   ///< Place of probe (0, 0, 0) [m].
+  glm::vec3 spacing{1.0f};  ///< Distance between neighbouring probes along each axis [m].
+  glm::ivec3 count{2};      ///< Number of probes along each axis, each >= 2.
   glm::mat3 axes{1.0f};     ///< Columns: the grid's axes in world space, unit and orthogonal.
-  /// All of them.
+  /// The number of all probes.
   int probes() const { return count.x * count.y * count.z; }
 };
 
@@ -165,9 +167,8 @@ struct ProbeCounts {
 
 /// What an update did. Times are wall-clock [ms].
 struct UpdateStatistics {
-  double place_ms = 0.0;          ///< Moving volumes, moving probes off the grid, and finding out
-                                  ///< what they are for.
-  double edits_ms = 0.0;          ///< Finding what edits of the world changed.
+  double place_ms = 0.0;          ///< Scrolling, relocation and classification.
+  double edits_ms = 0.0;          ///< Bringing stale probes up to date with edits of the world.
   double trace_ms = 0.0;          ///< Closest hits of the probe rays.
   double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
   double solve_ms = 0.0;          ///< Multi-bounce solve.
@@ -175,13 +176,13 @@ struct UpdateStatistics {
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
-  int probes_recycled = 0;     ///< Moved on to a new place with a volume that follows the viewer.
-  int probes_invalidated = 0;  ///< Held against what was edited in the world.
-  int probes_changed = 0;      ///< Those among them whose light the edits changed.
-  ProbeCounts states;          ///< After the update.
-  int solve_iterations = 0;    ///< Iterations of the multi-bounce solve.
-  double residual = 0.0;       ///< Estimated relative error this update stopped at.
-  double change = 0.0;         ///< Of the stored light, root mean square over root mean square.
+  int probes_recycled = 0;        ///< Moved to a new place by a scrolling volume.
+  int probes_invalidated = 0;     ///< Brought up to date with edits of the world.
+  int probes_changed = 0;         ///< Those of them whose light the edits changed.
+  ProbeCounts states;             ///< After the update.
+  int solve_iterations = 0;       ///< Iterations of the multi-bounce solve.
+  double residual = 0.0;          ///< Estimated relative error this update stopped at.
+  double change = 0.0;            ///< Of the stored light, root mean square over root mean square.
 };
 
 /// Volumes of irradiance probes with visibility, and the light that bounces between them.
@@ -195,11 +196,11 @@ class IrradianceField {
   IrradianceField& operator=(IrradianceField&&) noexcept;
 
   /// Brings the field up to date. Where the world was edited since the last update (World::update),
-  /// finds what rays and shadow rays now meet or reach something else, solves for the light of all
-  /// bounces again, and changes just those probes whose light did. Otherwise, or with what is left
-  /// of the budget, traces probes anew, solves, and blends the result into the store. Without a
-  /// budget edits that follow one another are followed in one update and traced anew as well in the
-  /// next, in turn.
+  /// it traces the rays and shadow rays again that the edits may have affected, solves for the
+  /// light of all bounces, and changes exactly those probes whose light the edits changed.
+  /// Otherwise, or with the rest of the budget, it traces probes with new rays, solves, and blends
+  /// the result into the store. Where edits come in every update and there is no budget, new rays
+  /// are traced in every second update.
   ///
   /// The world may be another object than before, but must then be of the same scene, unedited; it
   /// is not kept. Not to be called while the field is read. The same calls with the same seed give
@@ -207,7 +208,7 @@ class IrradianceField {
   /// memory runs out.
   UpdateStatistics update(const World& world, const UpdateRequest& request = {});
 
-  /// Forgets all light; the next update starts anew.
+  /// Discards all light. The next update starts from nothing.
   void reset();
 
   /// Indirect irradiance [W/m^2] at each query: light that bounced, and light from the sky; not
@@ -218,22 +219,24 @@ class IrradianceField {
   void irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                   const World* world = nullptr) const;
 
-  /// Of its volumes, in the order in which points ask them: those of high priority first, of equal
-  /// priority the finest; the last one answers for everywhere that is left.
+  /// The grids of its volumes, in the order in which lookups use them: high priority first, and of
+  /// equal priority the finest first. The last one covers everything that is left.
   std::span<const FieldGrid> grids() const;
-  /// Probes of all volumes.
+  /// The number of probes of all volumes.
   int probes() const;
   const FieldSettings& settings() const;
-  /// Updates since the start or the last reset.
+  /// The number of updates since the start or the last reset.
   int updates() const;
-  /// Bytes that the store holds between updates, for all probes.
+  /// Bytes of the store, for all probes.
   std::size_t store_bytes() const;
   /// Bytes of the last update's surfels, kept to solve for the light again.
   std::size_t surfel_bytes() const;
-  /// The probes' store, and what else is known of each, for tools that look inside.
+  /// The probes' store, for tools that look inside.
   const ProbeStore& store() const;
+  /// The state and history of each probe, for tools that look inside.
   std::span<const ProbeStatus> probe_statuses() const;
-  /// What keeps the field in a device's memory, for passes there; null: the processor's holds it.
+  /// The backend that keeps the field in a device's memory, for passes there. Null where the
+  /// processor's memory holds the field.
   const FieldBackend* on_device() const;
 
  private:
@@ -254,15 +257,16 @@ Expected<void> save_field(const std::string& path, const IrradianceField& field,
 /// A field from a file.
 struct LoadedField {
   IrradianceField field;
-  /// The world's light is what the field was made under. false: lights, materials, what moves or
-  /// how far light is followed differ; updates start from the field's light but let none of it
-  /// stay.
+  /// Whether the world's light is the light that the field was made with. If lights, materials,
+  /// dynamic instances or settings of light transport differ, updates start from the field's light,
+  /// but do not average it in.
   bool same_light = true;
 };
 
-/// Reads a field that updates go on from: what it has averaged counts. Grid, tiles and formats are
-/// the file's, whatever `settings` say of them; all else is theirs. Fails on files that are cut
-/// short, broken, of another version, or of another scene: one whose still geometry differs.
+/// Reads a field from which updates continue, with its averages. Grids, tiles and formats are the
+/// file's, whatever `settings` say; everything else comes from `settings`. Fails on files that are
+/// truncated, broken, of another version, or of another scene, that is, one whose static geometry
+/// differs.
 Expected<LoadedField> load_field(const std::string& path, const FieldSettings& settings,
                                  const World& world);
 

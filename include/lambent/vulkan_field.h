@@ -88,31 +88,31 @@ struct RecordedFieldSettings {
   std::uint8_t ray_mask = 0xFF;
 };
 
-/// What an update is to do besides tracing the probes whose turn it is.
+/// What an update does besides tracing the next batch of probes.
 struct UpdatePlan {
-  /// What all probes averaged so far counts for this share of what it did, 0 to 1: 1 where nothing
-  /// changed, some 0.1 where lights or large objects did, 0 where all is another.
+  /// Factor to the weight of all that probes have averaged so far, 0 to 1: 1 where nothing changed,
+  /// about 0.1 where lights or large objects changed, 0 where everything did.
   float history = 1.0f;
-  /// Has probes look for better places again, from their next turn on: once what keeps still was
-  /// rebuilt.
+  /// Lets relocation begin again, with the next round through all probes: for when static geometry
+  /// was rebuilt.
   bool place_again = false;
 };
 
-/// What an update came to.
+/// The work of an update.
 struct PlannedUpdate {
-  std::uint32_t probes = 0;          ///< That are traced; where the device decides, at most.
-  std::uint32_t rays_per_probe = 0;  ///< A probe's rays follow one another.
-  std::uint32_t rays = 0;            ///< In all.
-  bool moves_probes = false;         ///< record_maintain may move some.
-  bool on_device = false;            ///< The device decides which probes; see ray_launch().
+  std::uint32_t probes = 0;          ///< Number of probes; an upper bound where the device decides.
+  std::uint32_t rays_per_probe = 0;  ///< Rays per probe, which are consecutive.
+  std::uint32_t rays = 0;     ///< Number of all rays; an upper bound where the device decides.
+  bool moves_probes = false;  ///< record_maintain may move some.
+  bool on_device = false;     ///< The device decides which probes; see ray_launch().
 };
 
-/// What shaders look the field up in. The same for the field's whole life.
+/// The buffers in which shaders look the field up. They stay the same for the field's whole life.
 struct LookupBuffers {
-  BufferRange grids;       ///< ProbeGrid, one a volume.
-  BufferRange offsets;     ///< A word a probe.
-  BufferRange irradiance;  ///< Tile after tile.
-  BufferRange distance;    ///< Likewise.
+  BufferRange grids;       ///< One ProbeGrid per volume.
+  BufferRange offsets;     ///< One word per probe.
+  BufferRange irradiance;  ///< Irradiance tiles, one after the other.
+  BufferRange distance;    ///< Distance tiles, one after the other.
   /// A FieldRecord (field/lookup/field_record.h) that names the four: what
   /// lambent/shaders/field_lookup.glsl takes.
   BufferRange record;

@@ -107,8 +107,8 @@ class World {
 /// Bounds of the scene's open space: world_bounds less the walls that close it off, so that a field
 /// fitted to it has its outermost probes in front of the walls and not inside. A side counts as
 /// walled where most rays from outside pass through no more than a tenth of the scene before they
-/// reach open space. Where surfaces face out of another side, some air before them is added, so
-/// that probes stand in front of them, too; all else stays as it is.
+/// reach open space. Where surfaces of an object, rather than a room, face out of another side,
+/// some air is added, so that probes stand in front of them, too; all else stays as it is.
 Bounds open_bounds(const World& world);
 
 }  // namespace lambent

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <string>
 
-#include "core/image/decode_stb.h"
-#include "core/image/stb.h"
+#include "core/image/codecs/decode_stb.h"
+#include "core/image/codecs/stb.h"
 
 namespace lambent {
 namespace {

@@ -105,7 +105,8 @@ std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays
 
 /// How good a view in a direction is, by the rays of the panorama that are in its frame; the higher
 /// the better. Minus infinity: it is none.
-float score_view(const Panorama& panorama, int direction, float half_width, float scale) {
+float score_view(const Scene& scene, const Panorama& panorama, int direction, float half_width,
+                 float scale) {
   std::vector<float> depths;
   std::unordered_set<std::uint64_t> triangles;
   float near = 0.0f, sky = 0.0f, backs = 0.0f, lit = 0.0f, rays = 0.0f;
@@ -123,7 +124,7 @@ float score_view(const Panorama& panorama, int direction, float half_width, floa
         continue;
       }
       if (hit.distance < kNear * scale) near += 1.0f;
-      if (!hit.front_face) backs += 1.0f;
+      if (shows_back(scene, hit)) backs += 1.0f;
       if (panorama.lit[at] != 0) lit += 1.0f;
       triangles.insert(std::uint64_t{hit.instance} << 32 | hit.triangle);
     }
@@ -173,7 +174,7 @@ std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
             ->distance;
     if (nearest < kClearance * scale) continue;
     for (int d = 0; d < kViewDirections; ++d) {
-      const float score = score_view(panorama, d, half_width, scale);
+      const float score = score_view(world.scene(), panorama, d, half_width, scale);
       if (score <= best) continue;
       best = score;
       const float azimuth = kTwoPi * static_cast<float>(d) / kViewDirections;

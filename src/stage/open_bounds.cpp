@@ -21,7 +21,7 @@ constexpr float kMinWalledShare = 0.5f;
 constexpr float kStartShare = 0.01f;
 // Further on by this share of the way, a ray has left the surface it met behind.
 constexpr float kPastSurface = 1e-5f;
-// A side that is not walled has surfaces that face out of the bounds where this share of its rays
+// A side of an object has surfaces that face out of the bounds where this share of its rays
 // meets one no deeper than this share of the scene. Probes must stand in front of these, too: air
 // as deep as this share of the scene's longest side is added, about a cell of a field of 16 probes
 // along it.
@@ -101,7 +101,7 @@ float side_inset(const World& world, bool room, const Bounds& bounds, int axis, 
                                       [&](const Hit& h) { return h.distance <= deepest; });
     const bool faces_out =
         static_cast<float>(facing) >= kMinFacingShare * static_cast<float>(hits.size());
-    return faces_out ? -kAirShare * longest : 0.0f;
+    return faces_out && !room ? -kAirShare * longest : 0.0f;
   }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());

@@ -154,7 +154,7 @@ Judgement judge(const World& world, const Camera& camera, const std::vector<Surf
   for (const Hit& hit : trace(world, rays)) {
     if (hit.missed()) continue;
     met += 1.0f;
-    if (!hit.front_face) backs += 1.0f;
+    if (shows_back(world.scene(), hit)) backs += 1.0f;
   }
   judgement.cover = met / (kRaysAcross * kRaysUp);
   judgement.back = met > 0.0f ? backs / met : 0.0f;

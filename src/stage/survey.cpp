@@ -94,6 +94,10 @@ std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::u
 
 }  // namespace
 
+bool shows_back(const Scene& scene, const Hit& hit) {
+  return !hit.front_face && !has_two_sides(scene, hit);
+}
+
 glm::vec3 direction_from_angles(float azimuth, float elevation) {
   return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
           std::cos(azimuth) * std::cos(elevation)};

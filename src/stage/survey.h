@@ -31,6 +31,10 @@ std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
 /// 1 for each ray that is stopped, on all cores.
 std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays);
 
+/// Whether a hit shows the back of a surface. Those with two sides have none, whichever way they
+/// are wound.
+bool shows_back(const Scene& scene, const Hit& hit);
+
 /// The instances that a picture of the scene is about, and a box around them: all of them but for
 /// grounds and backdrops that dwarf the rest.
 struct Subject {

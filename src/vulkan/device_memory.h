@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small conveniences around buffers.
+// Helpers for buffers and dispatches.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace lambent {
 
-/// A buffer that the host writes and the device reads where it is: for what is used once.
+/// Makes a buffer in host memory that the device reads there: for data that is used once.
 template <class T>
 vulkan::Buffer host_buffer(const vulkan::Device& device, std::span<const T> data,
                            const std::string& name) {
@@ -20,7 +20,7 @@ vulkan::Buffer host_buffer(const vulkan::Device& device, std::span<const T> data
   return buffer;
 }
 
-/// Makes a buffer hold at least so many of a type. What it held is lost where it grows.
+/// Makes a buffer hold at least `count` elements of a type. Its contents are lost if it grows.
 template <class T>
 void reserve(const vulkan::Device& device, std::size_t count, const std::string& name,
              vulkan::Buffer& buffer) {

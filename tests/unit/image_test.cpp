@@ -16,8 +16,8 @@
 
 #include "core/atomic_file.h"
 #include "core/file_bytes.h"
-#include "core/image/formats.h"
-#include "core/image/stb.h"
+#include "core/image/codecs/formats.h"
+#include "core/image/codecs/stb.h"
 #include "shared/color.h"
 #include "support/temporary_directory.h"
 

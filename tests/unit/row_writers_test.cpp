@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/image/row_writers.h"
+#include "core/image/codecs/row_writers.h"
 
 #include <gtest/gtest.h>
 

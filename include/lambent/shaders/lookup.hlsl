@@ -11,14 +11,14 @@
 #ifndef LAMBENT_DISTANCE_TEXELS
 #define LAMBENT_DISTANCE_TEXELS 14
 #endif
-#ifndef LAMBENT_IRRADIANCE_R11G11B10F  // else rgb9e5
+#ifndef LAMBENT_IRRADIANCE_R11G11B10F  // otherwise rgb9e5
 #define LAMBENT_IRRADIANCE_R11G11B10F 0
 #endif
 
-// Of lookup.h and probe_grid.h
+// Constants of lookup.h and probe_grid.h
 static const float kNormalBias = 0.2;
 static const float kViewBias = 0.8;
-static const float kBias = 0.75 * 0.3;  // in shares of the smallest probe spacing
+static const float kBias = 0.75 * 0.3;  // times the smallest probe spacing
 static const float kWrapCosine = 0.5;
 static const float kCrushThreshold = 0.2;
 static const float kMinVisibilityWeight = 1e-6;
@@ -26,7 +26,7 @@ static const float kMinProbeDistance = 1e-6;  // [m]
 static const float kMaxDistanceDiagonals = 1.5;
 static const int kDistanceUnitBits = 6;
 static const float kOffsetStep = 0.45 / 511.0;  // of a cell
-// Of numbers: exponent biases of floats, and of small floats against these; RGB9E5's bias and bits
+// Exponent biases of floats, and of small floats relative to these; RGB9E5's bias and bits
 static const int kFloatBias = 127;
 static const uint kSmallFloatBiasShift = 112;
 static const int kRgb9e5BiasAndBits = 24;
@@ -36,10 +36,10 @@ struct ProbeGrid {  // as in probe_grid.h, where each member is explained
   int count[3], scroll[3], first;
   float fade_centre[3], fade_half[3], fade_cells[3];
 };
-StructuredBuffer<ProbeGrid> field_grids : register(t0);   // one a volume
-StructuredBuffer<uint> field_offsets : register(t1);      // one a probe
+StructuredBuffer<ProbeGrid> field_grids : register(t0);   // one per volume
+StructuredBuffer<uint> field_offsets : register(t1);      // one per probe
 StructuredBuffer<uint> field_irradiances : register(t2);  // tile after tile
-StructuredBuffer<uint> field_distances : register(t3);    // likewise
+StructuredBuffer<uint> field_distances : register(t3);    // tile after tile
 
 float3 vec3_of(float v[3]) { return float3(v[0], v[1], v[2]); }
 int3 ivec3_of(int v[3]) { return int3(v[0], v[1], v[2]); }
@@ -49,7 +49,7 @@ float3x3 rows_of(float axes[9]) {  // each an axis of the grid
 }
 float power_of_two(int exponent) { return asfloat(uint(exponent + kFloatBias) << 23); }
 
-// A bilinear fetch from a tile: its first texel, and the shares of those to the right and below.
+// A bilinear fetch from a tile: its first texel, and the weights of those to the right and below.
 struct TileFetch {
   int first, row;
   float2 fraction;
@@ -112,11 +112,11 @@ float probe_weight(float cos_probe, float2 moments, float dist) {
   float wrap = max(0.0, (cos_probe + kWrapCosine) / (1.0 + kWrapCosine));
   float weight = wrap * wrap * bound * bound * bound;
   if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
-  // A probe in solid matter has a mean distance of 0 and knows nothing
+  // A probe inside geometry has a mean distance of 0, and no weight
   return moments.x > 0.0 ? max(weight, kMinVisibilityWeight) : 0.0;
 }
 
-// A volume's irradiance times its share of the answer, and that share: 0 where it knows nothing.
+// A volume's irradiance times its weight, and the weight: 0 where no probe of it has a weight.
 float4 volume_irradiance(ProbeGrid grid, float3 coords, float volume_weight, float3 position_ws,
                          float3 normal_ws, float3 to_viewer_ws) {
   float3 spacing = vec3_of(grid.spacing);

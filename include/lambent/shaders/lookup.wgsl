@@ -7,12 +7,12 @@
 
 override irradiance_texels: i32 = 4;  // of a tile's edge, without gutter
 override distance_texels: i32 = 14;
-override irradiance_r11g11b10f: bool = false;  // else rgb9e5
+override irradiance_r11g11b10f: bool = false;  // otherwise rgb9e5
 
-// Of lookup.h and probe_grid.h
+// Constants of lookup.h and probe_grid.h
 const kNormalBias = 0.2;
 const kViewBias = 0.8;
-const kBias = 0.75 * 0.3;  // in shares of the smallest probe spacing
+const kBias = 0.75 * 0.3;  // times the smallest probe spacing
 const kWrapCosine = 0.5;
 const kCrushThreshold = 0.2;
 const kMinVisibilityWeight = 1e-6;
@@ -20,7 +20,7 @@ const kMinProbeDistance = 1e-6;  // [m]
 const kMaxDistanceDiagonals = 1.5;
 const kDistanceUnitBits = 6;
 const kOffsetStep = 0.45 / 511.0;  // of a cell
-// Of numbers: exponent biases of floats, and of small floats against these; RGB9E5's bias and bits
+// Exponent biases of floats, and of small floats relative to these; RGB9E5's bias and bits
 const kFloatBias = 127;
 const kSmallFloatBiasShift = 112u;
 const kRgb9e5BiasAndBits = 24;
@@ -46,7 +46,7 @@ fn axes_of(grid: ProbeGrid) -> mat3x3f {
 }
 fn power_of_two(exponent: i32) -> f32 { return bitcast<f32>(u32(exponent + kFloatBias) << 23u); }
 
-// A bilinear fetch from a tile: its first texel, and the shares of those to the right and below.
+// A bilinear fetch from a tile: its first texel, and the weights of those to the right and below.
 struct TileFetch { first: i32, row: i32, fraction: vec2f }
 fn tile_fetch(probe: i32, direction: vec3f, texels: i32) -> TileFetch {
   let p = direction.xy / (abs(direction.x) + abs(direction.y) + abs(direction.z));
@@ -99,11 +99,11 @@ fn probe_weight(cos_probe: f32, moments: vec2f, dist: f32) -> f32 {
   let wrap = max(0.0, (cos_probe + kWrapCosine) / (1.0 + kWrapCosine));
   var weight = wrap * wrap * bound * bound * bound;
   if weight < kCrushThreshold { weight *= weight * weight / (kCrushThreshold * kCrushThreshold); }
-  // A probe in solid matter has a mean distance of 0 and knows nothing
+  // A probe inside geometry has a mean distance of 0, and no weight
   return select(0.0, max(weight, kMinVisibilityWeight), moments.x > 0.0);
 }
 
-// A volume's irradiance times its share of the answer, and that share: 0 where it knows nothing.
+// A volume's irradiance times its weight, and the weight: 0 where no probe of it has a weight.
 fn volume_irradiance(grid: ProbeGrid, coords: vec3f, volume_weight: f32, position_ws: vec3f,
                      normal_ws: vec3f, to_viewer_ws: vec3f) -> vec4f {
   let spacing = vec3_of(grid.spacing);

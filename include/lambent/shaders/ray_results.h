@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an engine tells of the rays that a recorded field asked for (lambent/vulkan_field.h). All
-// that an engine's shader includes to turn hits into these; RayRecord and HitRecord come with it.
+// The results of probe rays that an engine hands to a recorded field (lambent/vulkan_field.h).
+// Shaders of engines include this file to turn hits into results. It also declares RayRecord and
+// HitRecord.
 #ifndef LAMBENT_SHADERS_RAY_RESULTS_H
 #define LAMBENT_SHADERS_RAY_RESULTS_H
 
@@ -8,23 +9,25 @@
 
 LAMBENT_BEGIN
 
-// What a ray ended at.
+// What a ray hit.
 const uint kRayMetSurface = 0u;
-const uint kRayLeft = 1u;         ///< It met nothing.
-const uint kRayMetBackFace = 2u;  ///< The back of a single-sided surface: it brings no light.
+const uint kRayLeft = 1u;         ///< Nothing: the ray left the scene.
+const uint kRayMetBackFace = 2u;  ///< The back of a single-sided surface, which sends no light.
 
-/// What a ray brings back, in the order of the rays. Of a ray that left, `kind` and `radiance` are
-/// read; of one that met a back face, `kind`, `distance` and `geometric_normal_ws`. Those of rays
-/// whose mask is 0 are not read: such rays need not be traced.
+/// The result of a ray. Results are in the order of the rays. For a ray that left the scene, only
+/// `kind` and `radiance` are read; for one that hit a back face, only `kind`, `distance` and
+/// `geometric_normal_ws`. Results of rays with a mask of 0 are not read: such rays need not be
+/// traced.
 struct RayResult {
   uint kind;
-  float distance;            ///< From the ray's origin [m], > 0.
-  vec3 normal_ws;            ///< That light is reflected by; unit, towards the ray's origin.
-  vec3 geometric_normal_ws;  ///< The triangle's; unit, likewise.
-  vec3 albedo;               ///< Diffuse reflectance, 0 to 1; FieldSettings::max_albedo at most.
-  vec3 direct_irradiance;    ///< On the surface, straight from lights [W/m^2], >= 0.
-  /// Of the sky, or of what glows [W/(m^2 sr)], >= 0. What glows and counts as a light in
-  /// `direct_irradiance` tells 0 here, or it would light twice.
+  float distance;            ///< Distance from the ray's origin [m], > 0.
+  vec3 normal_ws;            ///< Shading normal; unit, towards the ray's origin.
+  vec3 geometric_normal_ws;  ///< Normal of the triangle; unit, towards the ray's origin.
+  vec3 albedo;               ///< Diffuse reflectance, 0 to 1, clamped to FieldSettings::max_albedo.
+  vec3 direct_irradiance;    ///< Irradiance of the surface directly from lights [W/m^2], >= 0.
+  /// Radiance of the sky or emitted by the surface [W/(m^2 sr)], >= 0. It must be 0 for an emissive
+  /// surface that `direct_irradiance` includes as a light; otherwise that would light the scene
+  /// twice.
   vec3 radiance;
 };
 LAMBENT_DEVICE_ARRAY(RayResultArray, RayResult, 4)

@@ -3,7 +3,7 @@
 #include <new>
 
 #include "core/file_bytes.h"
-#include "core/image/formats.h"
+#include "core/image/codecs/formats.h"
 #include "core/memory.h"
 
 namespace lambent {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field as a file holds it; docs/field-format.md is the layout's reference.
+// The contents of a field file. docs/field-format.md specifies the layout.
 #pragma once
 
 #include <cstddef>
@@ -21,41 +21,42 @@ inline constexpr std::uint32_t kFieldFileVersion = 2;
 
 /// One volume of probes, in the order of its grid.
 struct FieldVolume {
-  ProbeGrid grid{};  ///< Without scroll, and the first of its own.
+  ProbeGrid grid{};  ///< Without scroll; its first probe has index 0.
   VolumeRole role;
   int irradiance_texels = 4;
   int distance_texels = 14;
   IrradianceFormat irradiance_format = IrradianceFormat::rgb9e5;
   DistanceFormat distance_format = DistanceFormat::rg16f;
-  std::vector<ProbeStatus> records;  ///< Without their revisions, which mean nothing in a file.
-  std::vector<uint> offsets;         ///< As encode_probe_offset makes them.
-  std::vector<uint> irradiance;      ///< The words of ProbeStore.
-  std::vector<uint> distance;        ///< Likewise.
+  std::vector<ProbeStatus> records;  ///< Without revisions, which mean nothing in a file.
+  std::vector<uint> offsets;         ///< ProbeStore::offset_words().
+  std::vector<uint> irradiance;      ///< ProbeStore::irradiance_words().
+  std::vector<uint> distance;        ///< ProbeStore::distance_words().
 
-  /// Settings of a store that holds the volume.
+  /// The settings of a store for this volume; everything else is taken from `others`.
   FieldSettings store_settings(FieldSettings others = {}) const;
-  /// The volume's probes, to look up.
+  /// A store with the volume's probes, for lookups.
   ProbeStore store() const;
 };
 
+/// A field file.
 struct FieldFile {
-  std::uint32_t updates = 0;  ///< Since the field's start.
+  std::uint32_t updates = 0;  ///< Updates since the field's start.
   SceneIdentity scene;
   std::vector<FieldVolume> volumes;
 };
 
-/// The bytes of a file.
+/// Encodes a file.
 std::vector<std::byte> encode_field(const FieldFile& field);
 
-/// What the bytes of a file hold. Fails on files cut short or too long, of another version, with a
-/// wrong checksum, and with numbers that no field has. `name` is the file's, for errors.
+/// Decodes a file. Fails on files that are truncated or too long, of another version, with a wrong
+/// checksum, or with numbers that no field has. `name` is the file's name, for errors.
 Expected<FieldFile> decode_field(const std::string& name, std::span<const std::byte> bytes);
 
-/// decode_field of a file.
+/// Reads and decodes a file.
 Expected<FieldFile> read_field_file(const std::string& path);
 
-/// Completes a header whose checksum and size are not known yet: those of the bytes as they are.
-/// Nothing where the bytes are too few for a header.
+/// Writes the size and the checksum of the bytes into their header. Does nothing if there are too
+/// few bytes for a header.
 void seal_field(std::span<std::byte> bytes);
 
 }  // namespace lambent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where things stand in a field's file (docs/field-format.md).
+// Offsets and sizes in a field file (docs/field-format.md).
 #pragma once
 
 #include <array>
@@ -14,12 +14,12 @@ inline constexpr std::array<char, 8> kFieldMagic = {'L', 'A', 'M', 'B', 'E', 'N'
 
 // Offsets and sizes [bytes].
 inline constexpr std::size_t kChecksumOffset = 12;
-inline constexpr std::size_t kSizeOffset = 16;  // and where what the checksum covers begins
+inline constexpr std::size_t kSizeOffset = 16;  // the checksum covers everything from here on
 inline constexpr std::size_t kHeaderBytes = 64;
 inline constexpr std::size_t kVolumeHeaderBytes = 144;
 inline constexpr std::size_t kRecordBytes = 24;
 
-/// Words that the tiles of all probes take.
+/// The number of words of the tiles of all probes.
 inline std::uint64_t tile_words(std::uint64_t probes, int texels, int words_per_texel) {
   const auto edge = static_cast<std::uint64_t>(texels) + 2;
   return probes * edge * edge * static_cast<std::uint64_t>(words_per_texel);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader trusts nothing: sizes are held against the bytes that are there before anything is
-// allocated, and numbers against what a field can hold.
+// The reader trusts nothing: it checks sizes against the number of bytes before it allocates
+// anything, and numbers against the ranges that a field allows.
 #include <algorithm>
 #include <cmath>
 
@@ -13,15 +13,15 @@
 namespace lambent {
 namespace {
 
-// A field of the most probes, in the formats for verification, takes less.
+// The largest file that is read: a field of the most probes, in the largest formats, takes less.
 constexpr std::uint64_t kMaxFieldFileBytes = std::uint64_t{16} << 30;
 
-// Half a year of updates at 60 Hz, and far from where counting them would overflow.
+// The most updates: half a year at 60 Hz, and far from an overflow.
 constexpr std::uint32_t kMaxUpdates = 1u << 30u;
 
 constexpr auto kStates = static_cast<std::uint32_t>(ProbeState::vigilant) + 1;
 
-/// A volume's header, checked.
+/// The checked header of a volume.
 struct VolumeHeader {
   std::uint64_t bytes = 0;
   FieldVolume volume;  // without its probes
@@ -83,7 +83,7 @@ class Reader {
     return fail(name_, place, cause);
   }
 
-  /// All up to the header's size.
+  /// Reads and checks the file's header.
   Expected<void> check_container() {
     const std::span<const std::byte> magic = std::as_bytes(std::span(kFieldMagic));
     if (bytes_.size() < magic.size() ||
@@ -157,7 +157,7 @@ class Reader {
     header.probes = 1;
     for (int axis = 0; axis < 3; ++axis) {
       const std::uint32_t along = in_.u32();
-      // Before the product could overflow
+      // Check this before the product can overflow
       if (along < 2 || along > kMaxProbes) return bad(place_, "has a senseless number of probes");
       header.probes *= along;
       grid.count[axis] = static_cast<int>(along);

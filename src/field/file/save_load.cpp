@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields to and from files.
+// Saving and loading of fields.
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -35,7 +35,7 @@ bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
 
 }  // namespace
 
-/// Takes the place of all light that the field holds.
+/// Replaces all light that the field holds.
 void IrradianceField::State::restore(const FieldFile& file, const World& world) {
   for (int v = 0; v < store.volumes(); ++v) {
     const FieldVolume& volume = file.volumes[v];
@@ -63,7 +63,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   }
   mean_light = static_cast<float>(sum / store.probes());
   warming_up = updates == 0 || never_served;
-  // What the first update finds of the scene, where that has been
+  // Compute what the first update finds out about the scene, if that update is in the past
   if (updates == 0) return;
   std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);
@@ -71,7 +71,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   update_cell_visibility(world, all);
 }
 
-/// A volume as a file holds it: probes in the order of the grid, wherever they are in memory.
+/// A volume as a file stores it: with its probes in the order of the grid, regardless of scrolling.
 FieldVolume IrradianceField::State::volume_for_file(int volume, const World& world) const {
   FieldVolume result;
   result.grid = store.grid(volume);
@@ -88,7 +88,7 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
   for (int i = 0; i < probe_count(stored); ++i) {
     const int probe = probe_index(stored, probe_coords(result.grid, i));
     ProbeStatus& status = result.records.emplace_back(statuses[probe]);
-    // What waits to follow an edit has averaged another light than the world's
+    // The average of a stale probe is of another light than the world's
     if (status.revision != world.revision()) status.samples = 0.0f;
     result.offsets.push_back(store.offset_words()[probe]);
     const auto irradiance =
@@ -130,12 +130,12 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
   const FieldSettings merged = last.store_settings(settings);
   Expected<IrradianceField> field = IrradianceField::make(merged, {});
   if (!field) return tl::unexpected(field.error());
-  // The very grids, to the bit
+  // Use exactly the grids of the file
   field->state_ = std::make_unique<IrradianceField::State>(merged, volumes);
 
   const bool same_light = file->scene.light == scene.light;
   if (!same_light) {
-    // What it holds is where to start from, but no average of what is to be found
+    // The light is a start for updates, but no average of the light that they will find
     for (FieldVolume& volume : file->volumes) {
       for (ProbeStatus& status : volume.records) status.samples = 0.0f;
     }

@@ -11,11 +11,11 @@
 namespace lambent {
 namespace {
 
-// Of textures, levels above this many texels along an edge are left out: gigabytes of them would
-// take seconds, and an edit that shows in light shows in the smaller ones.
+// Texture levels with more texels than this along an edge are left out: gigabytes of them would
+// take seconds, and an edit that is visible in the light changes the smaller levels, too.
 constexpr int kMaxTextureEdge = 64;
 
-/// A checksum of numbers, in the order in which they come.
+/// A checksum of a sequence of numbers.
 class Checksum {
  public:
   std::uint32_t value() {
@@ -31,7 +31,7 @@ class Checksum {
     bytes_.f32s({glm::value_ptr(value), n});
   }
   void add(const glm::mat4& value) { bytes_.f32s({glm::value_ptr(value), 16}); }
-  /// How many there are, and each of them.
+  /// Adds the number of elements and each element.
   template <class Element>
   void add_all(const std::vector<Element>& elements) {
     add(static_cast<std::uint32_t>(elements.size()));
@@ -42,7 +42,7 @@ class Checksum {
   void add_raw(std::span<const std::uint8_t> bytes) { bytes_.raw(std::as_bytes(bytes)); }
 
  private:
-  // Keeps memory small: meshes and maps may be large
+  // Limits the size of the buffer: meshes and maps may be large
   void flush() {
     crc_ = crc32_of(bytes_.bytes(), crc_);
     bytes_.clear();
@@ -106,13 +106,13 @@ void add_light(const Light& light, Checksum& sum) {
   sum.add(light.outer_cone_angle);
 }
 
-/// Vertices and triangles.
+/// Adds the vertices and triangles of a mesh.
 void add_shape(const Mesh& mesh, Checksum& sum) {
   sum.add_all(mesh.positions);
   sum.add_all(mesh.triangles);
 }
 
-/// Whether each mesh is placed by an instance that stands still.
+/// Returns for each mesh whether a static instance uses it.
 std::vector<bool> still_meshes(const Scene& scene) {
   std::vector<bool> still(scene.meshes.size(), false);
   for (const Instance& instance : scene.instances) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// By what a field's file knows its scene again (docs/field-format.md).
+// How a field file recognises its scene (docs/field-format.md).
 #pragma once
 
 #include <cstdint>
@@ -9,16 +9,18 @@
 
 namespace lambent {
 
+/// Counts and checksums of a scene.
 struct SceneIdentity {
-  std::uint64_t triangles = 0;  ///< Over all instances.
-  std::uint64_t vertices = 0;   ///< Of all meshes.
+  std::uint64_t triangles = 0;  ///< Triangles of all instances.
+  std::uint64_t vertices = 0;   ///< Vertices of all meshes.
   std::uint32_t instances = 0;
-  std::uint32_t geometry = 0;  ///< Checksum of what stands still, and where.
-  /// Checksum of all else that light depends on: sources, materials, what moves, and how far light
-  /// is followed.
+  std::uint32_t geometry = 0;  ///< Checksum of static geometry and its places.
+  /// Checksum of everything else that light depends on: lights, materials, dynamic instances, and
+  /// settings of light transport.
   std::uint32_t light = 0;
 
-  /// Whether both have the same geometry, so that a field of the one makes sense in the other.
+  /// Whether both scenes have the same static geometry, so that a field of one is valid in the
+  /// other.
   bool same_place(const SceneIdentity& other) const {
     return triangles == other.triangles && vertices == other.vertices &&
            instances == other.instances && geometry == other.geometry;
@@ -26,7 +28,7 @@ struct SceneIdentity {
   bool operator==(const SceneIdentity&) const = default;
 };
 
-/// Of a scene whose light is computed with these settings.
+/// The identity of a scene whose light is computed with these settings.
 SceneIdentity identify(const Scene& scene, const FieldSettings& settings);
 
 }  // namespace lambent

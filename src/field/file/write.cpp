@@ -58,7 +58,7 @@ std::vector<std::byte> encode_field(const FieldFile& field) {
   ByteWriter out;
   out.raw(std::as_bytes(std::span(kFieldMagic)));
   out.u32(kFieldFileVersion);
-  out.u32(0);  // the checksum and the size, once they are known
+  out.u32(0);  // replaced by the checksum and the size below
   out.u64(0);
   out.u32(static_cast<std::uint32_t>(field.volumes.size()));
   out.u32(field.updates);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field as shaders of an engine look it up (lambent/shaders/field_lookup.glsl).
+// The record through which shaders of an engine look a field up
+// (lambent/shaders/field_lookup.glsl).
 #ifndef LAMBENT_FIELD_LOOKUP_FIELD_RECORD_H
 #define LAMBENT_FIELD_LOOKUP_FIELD_RECORD_H
 

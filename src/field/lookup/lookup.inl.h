@@ -2,15 +2,15 @@
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
 //   ProbeGrid fetch_grid(int volume)
 //   vec2 fetch_moments(ProbeGrid grid, int probe, vec3 direction)
-//       mean distance [m] and mean squared distance [m^2], bilinear; of a probe of that grid, along
+//       mean distance [m] and mean squared distance [m^2] of a probe of that grid, bilinear, along
 //       a direction of any length
 //   vec3 fetch_offset(int probe)
-//       of the probe from its place on the grid, in shares of a cell
+//       offset of the probe from its place on the grid [cells]
 //   vec3 fetch_irradiance(int probe, vec3 direction)
 //       linear irradiance [W/m^2], bilinear
-// In C++ it is included in the body of a struct that has these as members.
+// In C++, this file is included in the body of a struct that has these as members.
 
-/// Where a probe stands.
+/// The position of a probe, with its offset.
 LAMBENT_FN vec3 placed_probe(ProbeGrid grid, ivec3 coords) {
   return grid_position(grid, vec3(coords) + fetch_offset(probe_index(grid, coords)));
 }
@@ -21,24 +21,25 @@ LAMBENT_FN float probe_cosine(vec3 probe_ws, vec3 position_ws, vec3 normal_ws) {
   return dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
 }
 
-/// How much a probe counts for a point with a normal, before trilinear interpolation. `biased_ws`
-/// is where visibility is asked.
+/// The weight of a probe for a point with a normal, before trilinear interpolation. `biased_ws` is
+/// the point at which visibility is evaluated.
 LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, vec3 normal_ws,
                                vec3 biased_ws) {
   vec3 probe_ws = placed_probe(grid, coords);
 
-  // Ask the probe how far it sees along the direction to the biased point
+  // Fetch the distances that the probe sees along the direction to the biased point
   vec3 from_probe = biased_ws - probe_ws;
   float dist = max(length(from_probe), kMinProbeDistance);
   vec2 moments = fetch_moments(grid, probe_index(grid, coords), from_probe);
 
-  // Weigh it by visibility and by its side of the surface
+  // Combine visibility and the wrap-shading weight
   return probe_weight(probe_cosine(probe_ws, position_ws, normal_ws), moments, dist);
 }
 
-/// Irradiance at a point with a normal, seen from `to_viewer_ws`, as the probes of one volume have
-/// it, times the volume's share of what is left to answer; and that share. Averages linear light,
-/// so that the result is linear in what the probes hold.
+/// Irradiance at a point with a normal, seen from `to_viewer_ws`, from the probes of one volume.
+/// Returns the irradiance times the volume's weight, and the weight as the fourth channel; all 0
+/// where no probe has a weight. Averages linear light, so that the result is linear in what the
+/// probes hold.
 LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float volume_weight, vec3 position_ws, vec3 normal_ws,
                               vec3 to_viewer_ws) {
   float spacing_min = smallest_spacing(grid);
@@ -55,12 +56,12 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float volume_weight, vec3 position
     sum += fetch_irradiance(probe_index(grid, coords), normal_ws) * weight;
     weight_sum += weight;
   }
-  // Where the volume knows nothing, coarser ones answer for it
+  // Where no probe of this volume has a weight, the next volumes answer
   return weight_sum > 0.0f ? vec4(sum * (volume_weight / weight_sum), volume_weight) : vec4(0.0f);
 }
 
-/// The same over all volumes: each answers for its share of what those before it left, the last one
-/// for the rest.
+/// Irradiance at a point with a normal from all volumes, in order: each volume takes its blend
+/// weight of the weight that the volumes before it have left, and the last one takes the rest.
 LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws,
                                   vec3 to_viewer_ws) {
   vec4 answer = vec4(0.0f);
@@ -71,6 +72,6 @@ LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws,
     answer += lookup_volume(grid, volume_weight * (1.0f - answer.w), position_ws, normal_ws,
                             to_viewer_ws);
   }
-  // Where it is the last that knows nothing, those before answer for all
+  // Where no probe of the last volume has a weight, the volumes before it answer alone
   return answer.w > 0.0f ? vec3(answer) / answer.w : vec3(0.0f);
 }

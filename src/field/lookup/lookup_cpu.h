@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of the lookup, for many points at a time, eight probes abreast. Same result as
-// lookup.inl.h, which the tests hold it to.
+// Vectorised kernels of the lookup, for many points at a time and the eight probes of a cell at
+// once. The results equal those of lookup.inl.h; tests compare them.
 #pragma once
 
 #include <cstdint>
@@ -12,26 +12,26 @@
 
 namespace lambent {
 
-/// Weights for each query in one volume, from the stored distances. Single-threaded. Spans have the
-/// same length.
+/// Computes the weights for each query in one volume from the stored distances. Single-threaded.
+/// Both spans have the same length.
 void corner_weights(const ProbeStore& store, int volume, std::span<const FieldQuery> queries,
                     std::span<CornerWeights> result);
 
-/// What makes up the weights of a point's corners.
+/// The factors of the weights of a point's corners.
 struct CornerTerms {
   int base;
   std::uint32_t table;
   float trilinear[kCellCorners];
-  float wrap[kCellCorners];  ///< By the probe's side of the surface, 0 to 1; 0 in solid matter.
-  float visibility[kCellCorners];  ///< By the stored distances, 0 to 1.
+  float wrap[kCellCorners];        ///< Wrap-shading weight, 0 to 1; 0 for probes inside geometry.
+  float visibility[kCellCorners];  ///< Visibility by the stored distances, 0 to 1.
 };
 
-/// The same weights in parts.
+/// Computes the factors of the weights for each query in one volume. Single-threaded.
 void corner_terms(const ProbeStore& store, int volume, std::span<const FieldQuery> queries,
                   std::span<CornerTerms> result);
 
-/// Adds to the result of each query what its corners hold: `weights[i]` are of query `query[i]`.
-/// Single-threaded.
+/// Adds the weighted irradiance of corners to the results of their queries: `weights[i]` belong to
+/// query `query[i]`. Single-threaded.
 void add_irradiance(const ProbeStore& store, std::span<const FieldQuery> queries,
                     std::span<const CornerWeights> weights, std::span<const std::uint32_t> query,
                     std::span<vec3> result);

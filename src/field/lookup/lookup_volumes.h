@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup over all volumes of a field. A point asks them in order; each answers for its share of
-// what those before left, and the last for the rest: a partition of unity over any number of
-// volumes that overlap in any way.
+// The lookup over all volumes of a field, in order: each volume takes its blend weight of the
+// weight that the volumes before it have left, and the last one takes the rest. This is a partition
+// of unity for any number of volumes that overlap in any way.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,21 @@
 
 namespace lambent {
 
-/// What probes weigh in the answers to some queries: `corners[i]` are of query `query[i]`. A query
-/// is there once for each volume that has something to say about it. Its weights over all volumes
-/// sum to 1, or to 0 where no probe around it knows anything.
+/// The weights of probes in the lookups of some queries: `corners[i]` belong to query `query[i]`. A
+/// query has an entry for each volume in which it has a weight. Its weights over all volumes sum to
+/// 1, or to 0 where all probes around it are inside geometry.
 struct QueryWeights {
   std::vector<CornerWeights> corners;
   std::vector<std::uint32_t> query;
 };
 
-/// Finds the weights of queries, volume after volume. Single-threaded. Returns the rays traced.
+/// Finds the weights of queries, volume after volume. Single-threaded. Returns the number of rays
+/// traced.
 std::uint64_t find_weights(const ProbeStore& store, const VisibilityRays& by,
                            std::span<const FieldQuery> queries, QueryWeights& result);
 
-/// Irradiance for each query [W/m^2], likewise.
+/// Computes the irradiance for each query [W/m^2]. Single-threaded. Returns the number of rays
+/// traced.
 std::uint64_t lookup_irradiance(const ProbeStore& store, const VisibilityRays& by,
                                 std::span<const FieldQuery> queries, std::span<vec3> result);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What probes weigh in an answer, for those who read the field more than once. Follows
-// lookup.inl.h, and asks the includer for the same.
+// The weights of probes in a lookup, for callers that read the field more than once with the same
+// weights. Included after lookup.inl.h, with the same requirements.
 
-/// Weights of the eight probes around a point in one volume, which sum to 1, or to 0 where they
-/// know nothing.
+/// The weights of the eight probes around a point in one volume. They sum to 1, or to 0 where all
+/// of these probes are inside geometry.
 LAMBENT_FN CornerWeights lookup_weights(ProbeGrid grid, int volume, vec3 position_ws,
                                         vec3 normal_ws, vec3 to_viewer_ws) {
   vec3 biased_ws = biased_position(position_ws, normal_ws, to_viewer_ws, smallest_spacing(grid));

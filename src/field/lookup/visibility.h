@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the eight probes around a point are seen from it: by their distances, by rays, or both.
+// Visibility of the eight probes around a point: by their stored distances, by rays, or by both.
 #pragma once
 
 #include <cstdint>
@@ -12,18 +12,20 @@
 
 namespace lambent {
 
-/// Which probes of each cell see each other, found by rays. Where the probes that matter to a point
-/// do, no wall runs between them, and their distances can be trusted.
+/// Which probes of each cell see each other, found with rays. Where the probes that have a weight
+/// for a point see each other, no wall runs between them, and their stored distances can be
+/// trusted.
 class CellVisibility {
  public:
-  /// Every probe sees every other.
+  /// At first, every probe sees every other.
   explicit CellVisibility(int probes);
 
-  /// Looks again in the cells whose lowest probes these are. Returns the rays traced.
+  /// Traces rays in the cells whose lowest probes these are. Returns the number of rays traced.
   std::uint64_t update(const RayTracer& tracer, const ProbeStore& store,
                        std::span<const int> probes);
 
-  /// Bit 8 i + k: corners i and k of the cell see each other. `base` is the cell's lowest probe.
+  /// Bit 8 i + k says whether corners i and k of a cell see each other. `base` is the cell's lowest
+  /// probe.
   std::uint64_t of_cell(int base) const { return cells_[base]; }
 
  private:
@@ -33,14 +35,15 @@ class CellVisibility {
 /// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
 std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes);
 
-/// What lookups find visibility with.
+/// What lookups determine visibility with.
 struct VisibilityRays {
   Visibility mode = Visibility::moments;
-  const RayTracer* tracer = nullptr;                ///< Null: by distances alone.
-  const CellVisibility* cell_visibility = nullptr;  ///< Of the probes; hybrid needs it.
+  const RayTracer* tracer = nullptr;                ///< Null: visibility is by distances only.
+  const CellVisibility* cell_visibility = nullptr;  ///< Required for hybrid visibility.
 };
 
-/// Weights for each query in one volume. Single-threaded. Returns the rays traced.
+/// Computes the weights for each query in one volume. Single-threaded. Returns the number of rays
+/// traced.
 std::uint64_t visible_corner_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                                      std::span<const FieldQuery> queries,
                                      std::span<CornerWeights> result);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the eight probes around a point are asked for with rays, and what they weigh then.
+// Which of the eight probes around a point are tested with visibility rays, and the weights that
+// result.
 #ifndef LAMBENT_FIELD_LOOKUP_VISIBILITY_MATH_H
 #define LAMBENT_FIELD_LOOKUP_VISIBILITY_MATH_H
 
@@ -9,14 +10,14 @@
 
 LAMBENT_BEGIN
 
-// Pairs of probes of a cell.
+// The number of pairs of probes of a cell.
 const int kCellPairs = kCellCorners * (kCellCorners - 1) / 2;
 
-// Where a probe's distances let so small a share through, and the probe that matters most does not
-// see it, it is hidden; a larger share is worth a ray.
+// Of the probes that the heaviest corner of a cell does not see, those with a smaller weight than
+// this count as hidden. Those with a larger weight are tested with a ray.
 const float kMinTestedWeight = 0.05f;
 
-/// A ray that meets something where the one point does not see the other.
+/// A ray that is occluded where two points do not see each other.
 LAMBENT_FN RayRecord visibility_ray(vec3 from_ws, vec3 to_ws) {
   vec3 way = to_ws - from_ws;
   float distance = max(length(way), kMinProbeDistance);
@@ -24,12 +25,12 @@ LAMBENT_FN RayRecord visibility_ray(vec3 from_ws, vec3 to_ws) {
   return ray;
 }
 
-/// In a cell's sights, the bit that says whether one corner sees another.
+/// The bit of a cell's visibility that says whether one corner sees another.
 LAMBENT_FN int visibility_bit(int corner, int other) {
   return kCellCorners * corner + other;
 }
 
-/// The corner that counts most.
+/// The corner with the largest weight.
 LAMBENT_FN int heaviest_corner(CornerWeights corners) {
   int heaviest = 0;
   for (int k = 1; k < kCellCorners; ++k) {
@@ -44,7 +45,7 @@ LAMBENT_FN float sum_of_weights(CornerWeights corners) {
   return sum;
 }
 
-/// Scales weights to a sum of `share`. 0 where there are none.
+/// Scales weights to a sum of `total`. Returns 0 where all weights are 0, else 1.
 LAMBENT_FN int scale_weights(LAMBENT_INOUT(CornerWeights) corners, float total) {
   float sum = sum_of_weights(corners);
   if (!(sum > 0.0f)) return 0;
@@ -54,14 +55,15 @@ LAMBENT_FN int scale_weights(LAMBENT_INOUT(CornerWeights) corners, float total) 
   return 1;
 }
 
-/// Corners by their bits: those that count for nothing, and those worth a ray.
+/// The corners of a lookup whose visibility is in doubt, as bits: those that count as hidden, and
+/// those that are tested with rays.
 struct VisibilityMask {
   uint hidden;
   uint tested;
 };
 
-/// Hybrid visibility. `weights` are by distances, with a sum of `share`; bit k of `seen`: the
-/// corner that counts most sees corner k.
+/// Hybrid visibility. `corners` has weights by distances with a sum of `total`. Bit k of `seen`
+/// says whether the heaviest corner sees corner k.
 LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uint seen, float total) {
   VisibilityMask mask = {0u, 0u};
   for (int k = 0; k < kCellCorners; ++k) {
@@ -76,8 +78,8 @@ LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uint seen, floa
   return mask;
 }
 
-/// Exact visibility: what a corner weighs if it is seen; 0: it need not be asked for. `wrap` is 0
-/// for probes in solid matter.
+/// Exact visibility: the weight of a corner if it is visible. A corner of weight 0 needs no ray.
+/// `wrap` is 0 for probes inside geometry.
 LAMBENT_FN float seen_weight(float trilinear, float wrap) {
   return trilinear * wrap > 0.0f ? trilinear * combined_weight(wrap, 1.0f) : 0.0f;
 }

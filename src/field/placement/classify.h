@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each probe is for: to light surfaces that keep still, something that moves, or nothing.
+// Classification: whether a probe lights static surfaces, dynamic instances, or nothing.
 #pragma once
 
 #include <span>
@@ -12,36 +12,37 @@
 
 namespace lambent {
 
-/// What of the scene that keeps still lies around a probe.
+/// What classification needs to know of the static geometry around a probe.
 struct ClassificationInput {
-  bool inside_geometry = false;
-  bool lights_surface = false;  ///< A surface is within the eight cells that it is a corner of.
+  bool inside_geometry = false;  ///< The probe stands inside geometry.
+  bool lights_surface = false;   ///< A surface is within one of the eight cells around the probe.
 };
 
-/// From what a probe that belongs at `home` sees from `position`, both in the sights' frame.
+/// Computes the input from the hits of a probe's fixed rays. The probe stands at `position`, and
+/// its place on the grid is `home`; both are in the frame of the hits.
 ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits,
                                          const vec3& position, const vec3& home,
                                          const vec3& spacing);
 
-/// What a probe turns into. `near_moving`: something that moves may ask it for light. A state that
-/// is new to the probe is a newly_* one until it has been traced.
+/// The next state of a probe. `near_moving` says whether it may light a dynamic instance. A state
+/// that is new to the probe is one of the newly_* states until the probe has been traced.
 ProbeState next_state(ProbeState before, const ClassificationInput& input, bool near_moving);
 
 /// The state of a probe once it has been traced.
 ProbeState state_once_traced(ProbeState state);
 
-/// Whether a probe that belongs at `home_ws` may light something within these bounds: they reach it
-/// once expanded by a cell and by the lookup's bias.
+/// Whether a probe whose place on the grid is `home_ws` may light something within these bounds:
+/// they contain it once expanded by a cell and by the lookup's bias.
 bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid);
 
-/// Sets the state of every probe. Spans of one entry a probe; `moving` are the bounds of what
-/// moves.
+/// Sets the state of every probe. The inputs and statuses have one entry per probe; `moving` are
+/// the bounds of the dynamic instances.
 void classify_probes(const ProbeStore& store,
                      std::span<const ClassificationInput> classification_inputs,
                      std::span<const Bounds> moving, std::span<ProbeStatus> statuses);
 
-/// The same for the probes that may light something in this box alone. Returns those whose state
-/// changed.
+/// Sets the states of those probes only that may light something in this box. Returns the probes
+/// whose state changed.
 std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store,
                                       std::span<const ClassificationInput> classification_inputs,
                                       std::span<const Bounds> moving,

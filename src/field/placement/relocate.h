@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where probes stand off the grid: out of solid matter, and just in front of the surfaces near
-// them, so that these are lit from within the probes' hull.
+// Relocation: probes move out of geometry, and to just in front of the surfaces near them, so that
+// these surfaces are inside the hull of the probes.
 #pragma once
 
 #include <cstdint>
@@ -14,39 +14,43 @@
 
 namespace lambent {
 
-/// World-space directions a probe looks in: the same for all probes at all times, so that probes
-/// come to rest.
+/// World-space directions of the fixed rays: the same for all probes at all times, so that
+/// relocation converges.
 std::span<const vec3> fixed_ray_directions();
 
-/// One flag an instance: it moves.
+/// Returns one flag per instance: 1 where it is dynamic.
 std::vector<std::uint8_t> moving_instances(const Scene& scene);
 
-/// From where to look around, and the axes of the frame that sights are told in.
+/// A point from which fixed rays are traced, and the axes of the frame in which their hits are
+/// returned.
 struct Viewpoint {
   vec3 position_ws;
   mat3 axes;
 };
 
-/// Looks around from some points. `moving` holds one flag an instance: the ray looks through those
-/// that move; instances beyond its end keep still. `sights` has one entry a direction, point after
-/// point. One batch of rays, but for those that meet what moves.
+/// Traces the fixed rays from some points. They pass through instances whose flag in `moving` is 1;
+/// instances beyond its end are static. `fixed_hits` has one entry per direction, point after
+/// point. The rays are traced as one batch, except for those that continue behind moving instances.
 void trace_fixed_rays(const Scene& scene, const RayTracer& tracer,
                       std::span<const Viewpoint> viewpoints, std::span<const std::uint8_t> moving,
                       std::span<FixedRayHit> fixed_hits);
 
-/// How many probes to look around from at once: on processors few, so that all cores have some.
+/// The number of probes whose fixed rays are traced together: few on processors, so that all cores
+/// get some.
 std::size_t viewpoints_of_batch(const RayTracer& tracer);
 
-/// True where so many sights met back faces that the point must be in solid matter.
+/// Whether so many fixed rays hit back faces that the point must be inside geometry.
 bool inside_geometry(std::span<const FixedRayHit> fixed_hits);
 
-/// Where a probe that belongs at `home` and sees this from `from` had better stand; `from` itself
-/// where it may stay. At most kMaxProbeOffset of a cell from home. All in the sights' frame.
+/// A better position for a probe with these hits at `from`, or `from` itself where it should stay.
+/// It is at most kMaxProbeOffset of a cell from the probe's place on the grid, `home`. All
+/// arguments are in the frame of the hits.
 vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
                      const vec3& spacing);
 
-/// Moves some probes until they stand well, then leaves them. Returns those that moved, in the
-/// order of `probes`: what they hold is of another place. The same bits on any number of threads.
+/// Relocates some probes until they have converged. Returns those that moved, in the order of
+/// `probes`: what they hold belongs to their old places. Gives the same bits on any number of
+/// threads.
 std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,
                                  std::span<const int> probes, std::span<const std::uint8_t> moving,
                                  ProbeStore& store);

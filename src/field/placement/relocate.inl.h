@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a probe had better stand, by what it sees. The includer provides
-//   int hit_count();               // sights, ...
+// The better position of a probe, from the hits of its fixed rays. The includer provides
+//   int hit_count();                // the hits of the fixed rays
 //   FixedRayHit hit_at(int index);
-//   int plane_count();               // ... and those that pass below the probe, the nearest first
-//   PlaneBelow plane_at(int rank);
-// All is in the frame of the probe's grid.
+//   int plane_count();              // the planes of hits that pass below the probe, the nearest
+//   first PlaneBelow plane_at(int rank);
+// Everything is in the frame of the probe's grid.
 
-/// To just outside the solid matter, as near to home as rays have found a way.
+/// The nearest place outside geometry: just behind the back face that is closest to the probe's
+/// place on the grid, among those that rays hit.
 LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 home, vec3 spacing, float margin) {
   vec3 best = position;
   float nearest = infinity();
@@ -22,7 +23,7 @@ LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 home, vec3 spacing, float margi
   return best;
 }
 
-/// How far a probe may rise over a plane: to the middle between it and what is opposite [m].
+/// How far a probe may move away from a plane: to the middle between it and an opposite plane [m].
 LAMBENT_FN float room_above(PlaneBelow below) {
   for (int rank = 0; rank < plane_count(); ++rank) {
     PlaneBelow plane = plane_at(rank);
@@ -32,15 +33,15 @@ LAMBENT_FN float room_above(PlaneBelow below) {
   return infinity();
 }
 
-/// Where a probe that belongs at `home` and sees this from `from` had better stand; `from` itself
-/// where it may stay. At most kMaxProbeOffset of a cell from home.
+/// A better position for a probe at `from`, or `from` itself where it should stay. It is at most
+/// kMaxProbeOffset of a cell from the probe's place on the grid, `home`.
 LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geometry) {
   float smallest = min(spacing.x, min(spacing.y, spacing.z));
   float margin = kSurfaceMargin * smallest;
   if (inside_geometry != 0u) return nearest_exit(from, home, spacing, margin);
 
-  // Step to just in front of the nearest surface, then along it to the next one that faces another
-  // way, and along both to a third
+  // Move to just in front of the nearest surface, then along it to just in front of the nearest one
+  // that faces another way, and along both of them to a third
   vec3 position = from;
   vec3 axes[3];
   int count = 0;

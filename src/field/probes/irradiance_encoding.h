@@ -20,8 +20,8 @@ LAMBENT_FN float linear_from_perceptual(float encoded) {
   return squared * squared * encoded;
 }
 
-/// One channel's code: between the two codes around `linear`, the upper with the probability that
-/// keeps the mean of the *decoded* light right.
+/// The code of one channel. Chooses between the two codes around `linear` with the probabilities
+/// that keep the mean of the *decoded* light right. `u` is uniform in [0, 1).
 LAMBENT_FN uint encode_perceptual_channel(float linear, int mantissa_bits, float u) {
   uint down = encode_small_float_down(perceptual_from_linear(max(linear, 0.0f)), mantissa_bits);
   uint up = next_small_float(down, mantissa_bits);
@@ -36,8 +36,8 @@ LAMBENT_FN uint encode_r11g11b10f(vec3 irradiance, vec3 u) {
          (encode_perceptual_channel(irradiance.z, 5, u.z) << 22u);
 }
 
-/// The random numbers with which a texel is stored; `index` is its own among all. Coarser dither
-/// would pull R11G11B10F, whose steps are wide, off by some per mille.
+/// The random numbers with which a texel is stored. `index` is the texel's index in the store.
+/// Fewer bits would bias R11G11B10F, whose steps are wide, by some per mille.
 LAMBENT_FN vec3 irradiance_dither(uint index, uint dither_seed) {
   uvec3 bits = hash_pcg3d(uvec3(index, dither_seed, 0u));
   return vec3(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));

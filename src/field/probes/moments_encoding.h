@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moments of distances on their way into a store.
+// Blending of moments of distances into a store.
 #ifndef LAMBENT_FIELD_PROBES_MOMENTS_ENCODING_H
 #define LAMBENT_FIELD_PROBES_MOMENTS_ENCODING_H
 
@@ -8,14 +8,13 @@
 
 LAMBENT_BEGIN
 
-/// Moments a share of the way from old ones to new ones; `now` in metres, of which each is `scale`
-/// units of the store.
+/// Blends stored moments with new ones. `now` is in metres; a metre is `scale` units of the store.
 LAMBENT_FN vec2 blended_moments(vec2 old, vec2 now, float blend_weight, float scale) {
   return vec2(old.x + blend_weight * (scale * now.x - old.x),
               old.y + blend_weight * (scale * scale * now.y - old.y));
 }
 
-/// The same between words of two halves. `seed` is the dither's.
+/// Blends moments that are stored as a word of two halves. `seed` is the seed of the dither.
 LAMBENT_FN uint blended_halves(uint word, vec2 now, float blend_weight, float scale, uint seed) {
   vec2 old =
       vec2(decode_small_float(word & 0x7FFFu, 10), decode_small_float((word >> 16u) & 0x7FFFu, 10));
@@ -26,8 +25,8 @@ LAMBENT_FN uint blended_halves(uint word, vec2 now, float blend_weight, float sc
   return encode_small_float(moments.x, 10, u) | (encode_small_float(moments.y, 10, v) << 16u);
 }
 
-/// Moments that are held, moved by as much as those of a probe's rays changed. Where rounding or
-/// noise leaves no such distances, those of the rays stand.
+/// Stored moments, moved by as much as the moments of a probe's rays changed. Where the result is
+/// not possible for any distances, because of rounding or noise, the rays' moments replace it.
 LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after) {
   vec2 moved = held + after - before;
   return moved.x > 0.0f && moved.y >= moved.x * moved.x ? moved : after;

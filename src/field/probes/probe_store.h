@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What probes hold between updates: encoded octahedral tiles with gutters.
+// The store of a field: the encoded octahedral tiles that probes keep between updates, with
+// gutters.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +15,15 @@
 
 namespace lambent {
 
-/// Of the dither of an update's stores.
+/// Seed of the dither with which an update stores its results.
 uint store_dither_seed(uint update, uint seed);
 
-/// Tiles of the probes of all volumes, probe after probe; a tile is (texels + 2)^2 texels, row
-/// after row, gutter included.
+/// The tiles and offsets of the probes of all volumes, probe after probe. A tile has (texels + 2)^2
+/// texels, row after row, gutter included.
 class ProbeStore {
  public:
-  /// Volumes in the order in which points ask them; the last one answers for what is left. Sets
-  /// where each begins.
+  /// Makes an empty store for volumes in the order in which lookups use them; the last one takes
+  /// the remaining weight. Sets ProbeGrid::first of each.
   ProbeStore(std::span<const ProbeGrid> grids, const FieldSettings& settings);
   ProbeStore(const ProbeGrid& grid, const FieldSettings& settings)
       : ProbeStore(std::span(&grid, 1), settings) {}
@@ -30,14 +31,14 @@ class ProbeStore {
   int volumes() const { return static_cast<int>(grids_.size()); }
   const ProbeGrid& grid(int volume) const { return grids_[volume]; }
   std::span<const ProbeGrid> grids() const { return grids_; }
-  /// Of a probe.
+  /// The volume that a probe belongs to.
   int volume_of(int probe) const;
   const ProbeGrid& grid_of(int probe) const { return grids_[volume_of(probe)]; }
-  /// Moves a volume: everything but its shape and its place in memory may differ.
+  /// Replaces the grid of a volume by one of the same count and spacing. Its place in memory stays.
   void move_volume(int volume, const ProbeGrid& grid);
 
-  /// Where the corners of cells lie: entry kCellWraps v + w is of those cells of volume v that run
-  /// over the end of memory in the directions w (cell_wrap).
+  /// The relative indices of cells' corners. Entry kCellWraps v + w is for the cells of volume v
+  /// that wrap around the end of memory in the directions w (cell_wrap).
   std::span<const CornerOffsets> corner_table() const { return corner_table_; }
 
   int probes() const { return probes_; }
@@ -45,20 +46,20 @@ class ProbeStore {
   int distance_texels() const { return distance_texels_; }
   IrradianceFormat irradiance_format() const { return irradiance_format_; }
   DistanceFormat distance_format() const { return distance_format_; }
-  /// Of the tiles; offsets take four more a probe.
+  /// Bytes of the tiles. Offsets take four more per probe.
   std::size_t bytes() const { return 4 * (irradiance_.size() + distance_.size()); }
 
-  /// Where a probe stands: on the grid, or a little off it.
+  /// The position of a probe, with its offset.
   vec3 probe_position_ws(int probe) const {
     const ProbeGrid& grid = grid_of(probe);
     return placed_position(grid, probe_coords(grid, probe), probe_offset(probe));
   }
-  /// Where it belongs.
+  /// The place of a probe on the grid, without its offset.
   vec3 probe_home_ws(int probe) const {
     const ProbeGrid& grid = grid_of(probe);
     return probe_position(grid, probe_coords(grid, probe));
   }
-  /// Offset from the grid, in shares of a cell along each axis, at most kMaxProbeOffset.
+  /// Offset of a probe from its place on the grid [cells], at most kMaxProbeOffset along each axis.
   vec3 probe_offset(int probe) const { return decode_probe_offset(offsets_[probe]); }
   void set_probe_offset(int probe, const vec3& cells) {
     offsets_[probe] = encode_probe_offset(cells);
@@ -74,15 +75,15 @@ class ProbeStore {
   vec3 irradiance(int probe, const vec3& direction) const;
   vec2 moments(int probe, const vec3& direction) const;
 
-  /// Encodes a probe's interior texels, row after row, and fills the gutter. `salt` (say, a hash of
-  /// update and seed) makes the dither of this call its own.
+  /// Encodes a probe's interior texels, row after row, and fills the gutter. Calls with different
+  /// dither seeds dither independently.
   void store_irradiance(int probe, std::span<const vec3> interior, uint dither_seed);
-  /// Moves a probe's moments a share of the way to new ones, 0 to 1, likewise.
+  /// Blends a probe's moments with new ones of this weight, 0 to 1, and fills the gutter.
   void blend_moments(int probe, std::span<const vec2> interior, float blend_weight,
                      uint dither_seed);
 
-  /// The encoded words, for kernels; `words_per_*_texel` of them a texel. Distances are in units of
-  /// distance_unit of the volume.
+  /// The encoded words, for kernels: `words_per_*_texel` words per texel. Distances are in units of
+  /// distance_unit() of the volume.
   std::span<const uint> irradiance_words() const { return irradiance_; }
   std::span<const uint> distance_words() const { return distance_; }
   int words_per_irradiance_texel() const {
@@ -90,12 +91,12 @@ class ProbeStore {
   }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 
-  /// Puts back what offset_words, irradiance_words and distance_words told of probes from `first`
-  /// on, of a store with the same tiles.
+  /// Replaces the words of the probes from `first` on by those that offset_words, irradiance_words
+  /// and distance_words of a store with the same tiles returned.
   void restore(int first, std::span<const uint> offsets, std::span<const uint> irradiance,
                std::span<const uint> distance);
 
-  /// Forgets everything: no light, distances of 0, and probes on the grid.
+  /// Clears everything: no light, distances of 0, and no offsets.
   void clear();
 
  private:
@@ -106,7 +107,7 @@ class ProbeStore {
   int distance_texels_;
   IrradianceFormat irradiance_format_;
   DistanceFormat distance_format_;
-  // Aligned so that a row of a distance tile is one line of the cache.
+  // Aligned so that a row of a default distance tile fills one cache line
   std::vector<uint, LargePages<uint>> irradiance_;
   std::vector<uint, LargePages<uint>> distance_;
   std::vector<uint> offsets_;

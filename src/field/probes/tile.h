@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A probe's octahedral tile: `texels` x `texels` directions with a gutter of one texel all round,
-// which repeats what lies across the octahedron's fold, so that a bilinear fetch never leaves the
-// tile.
+// A probe's octahedral tile: `texels` x `texels` directions, with a gutter of one texel on all
+// sides. The gutter repeats the texels across the octahedron's fold, so that a bilinear fetch never
+// leaves the tile.
 #ifndef LAMBENT_FIELD_PROBES_TILE_H
 #define LAMBENT_FIELD_PROBES_TILE_H
 
@@ -15,8 +15,8 @@ LAMBENT_FN vec3 tile_direction(ivec2 texel, int texels) {
   return octahedral_decode(p);
 }
 
-/// A bilinear fetch from a tile with gutter: the texel nearest the tile's corner, of the four, and
-/// the share of the farther ones. Coordinates count the gutter: 0 to texels.
+/// A bilinear fetch from a tile: the texel with the lowest coordinates of the four, from 0 to
+/// texels with the gutter included, and the weights of the texels beyond it.
 struct TileFetch {
   ivec2 corner;
   vec2 fraction;
@@ -31,12 +31,13 @@ LAMBENT_FN TileFetch tile_fetch(vec3 direction, int texels) {
   return fetch;
 }
 
-/// Texels of the gutter.
+/// The number of texels of the gutter.
 LAMBENT_FN int gutter_texels(int texels) {
   return 4 * (texels + 1);
 }
 
-/// One of them (coordinates with gutter): the top row, the bottom row, then both sides.
+/// A texel of the gutter (coordinates with gutter). The order is the top row, the bottom row, both
+/// sides.
 LAMBENT_FN ivec2 gutter_texel(int index, int texels) {
   int width = texels + 2;
   if (index < width) return ivec2(index, 0);
@@ -45,8 +46,8 @@ LAMBENT_FN ivec2 gutter_texel(int index, int texels) {
   return ivec2((i & 1) * (width - 1), 1 + (i >> 1));
 }
 
-/// The interior texel (coordinates without gutter) that a texel of the whole tile (coordinates with
-/// gutter, 0 to texels + 1) shows: itself, or the one across the fold.
+/// The interior texel (coordinates without gutter) whose value a texel of the whole tile has
+/// (coordinates with gutter, 0 to texels + 1): itself, or the texel across the fold.
 LAMBENT_FN ivec2 tile_source(ivec2 with_gutter, int texels) {
   ivec2 t = with_gutter - ivec2(1);
   bool beyond_x = t.x < 0 || t.x >= texels;

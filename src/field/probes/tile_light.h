@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the light of two tiles compares. Tiles are spans of linear irradiance of equal length.
+// Measures of the difference between the light of two tiles. Tiles are spans of linear irradiance
+// of equal length.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,15 +13,15 @@ namespace lambent {
 
 using TileLight = std::span<const glm::vec4>;
 
-/// Luminance of a tile's texels, on average.
+/// The mean luminance of a tile's texels.
 inline float mean_luminance(TileLight tile) {
   float sum = 0.0f;
   for (const glm::vec4& texel : tile) sum += luminance(glm::vec3(texel));
   return sum / static_cast<float>(tile.size());
 }
 
-/// Mean square of the difference between two tiles over the squared mean of the second, or over
-/// `darkest` squared where it is darker.
+/// The mean square of the difference between two tiles, over the square of the second tile's mean
+/// or of `darkest`, whichever is larger.
 inline float relative_square(TileLight a, TileLight b, float darkest = 0.0f) {
   float sum = 0.0f;
   for (std::size_t t = 0; t < a.size(); ++t) {
@@ -31,8 +32,8 @@ inline float relative_square(TileLight a, TileLight b, float darkest = 0.0f) {
   return mean_relative_square(sum, static_cast<int>(a.size()), mean);
 }
 
-/// How alike the distributions of two tiles' light over directions are, 0 to 1, whatever their
-/// brightness: the share of one that the other has as well.
+/// The similarity of two tiles' distributions of light over directions, 0 to 1, regardless of
+/// brightness: the common part of both over their union.
 inline float likeness(TileLight a, TileLight b) {
   const float mean_a = mean_luminance(a), mean_b = mean_luminance(b);
   if (mean_a <= kTiniestLight || mean_b <= kTiniestLight) return 0.0f;

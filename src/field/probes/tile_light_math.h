@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much a difference between two tiles matters.
+// The relative size of a difference between two tiles.
 #ifndef LAMBENT_FIELD_PROBES_TILE_LIGHT_MATH_H
 #define LAMBENT_FIELD_PROBES_TILE_LIGHT_MATH_H
 
@@ -7,10 +7,10 @@
 
 LAMBENT_BEGIN
 
-// Luminance that counts as none [W/m^2]; keeps divisions finite.
+// Luminance below this counts as none [W/m^2]. Keeps divisions finite.
 const float kTiniestLight = 1e-20f;
 
-/// Mean square of a difference over the square of `mean`, from the sum of squares over so many
+/// The mean square of a difference over the square of `mean`, from the sum of its squares over all
 /// texels.
 LAMBENT_FN float mean_relative_square(float squares, int texels, float mean) {
   return squares / (float(texels) * max(mean * mean, kTiniestLight));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How much each probe matters to a picture: by what surfaces in it read of the probe, and by what
-// the probes that these read receive through it.
+// The importance of each probe to a picture: how much visible surfaces read of it, directly and
+// through the probes that they read.
 #pragma once
 
 #include <functional>
@@ -13,20 +13,22 @@
 
 namespace lambent {
 
-/// Importance of every probe to the irradiance at the points, 0 to 1, over that of the most
-/// important one; all 0 where no probe lights them. It is the adjoint of light transport, of light
-/// that reaches the points from a probe straight and after one and two more bounces; its error
-/// there is the probe's error times this. Pattanaik and Mudur, "Adjoint Equations and Random Walks
-/// for Illumination Computation", ACM TOG 14(1), 1995.
+/// The importance of every probe to the irradiance at the points, relative to the most important
+/// probe, 0 to
+/// 1. All are 0 where no probe lights the points. Importance is the solution of the adjoint of
+/// light transport, here for light that reaches the points directly from a probe and after one and
+/// two more bounces. The error at the points is the sum of the probes' errors times their
+/// importance. Pattanaik and Mudur, "Adjoint Equations and Random Walks for Illumination
+/// Computation", ACM TOG 14(1), 1995.
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces);
 
-/// What surfels that probes see take of the probes' importance, where that is more than `least`:
-/// what they receive of light that those reflect. One number a probe in and out.
+/// Scatters the importance of those probes that have more than `least` through their surfels to the
+/// probes that these read. Takes and returns one number per probe.
 using ImportanceScatter =
     std::function<std::vector<float>(std::span<const float> received, float least)>;
 
-/// The same by another way of sending importance back.
+/// probe_importance() with another implementation of the scattering.
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     const ImportanceScatter& scatter_importance);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What surfels take of a probe's importance.
+// The parts of a probe's importance that its surfels scatter.
 #ifndef LAMBENT_FIELD_SCHEDULE_IMPORTANCE_MATH_H
 #define LAMBENT_FIELD_SCHEDULE_IMPORTANCE_MATH_H
 
@@ -8,15 +8,15 @@
 
 LAMBENT_BEGIN
 
-// One in so many of a probe's surfels stands for those around it.
+// Only one in this many of a probe's surfels scatters importance, for those around it as well.
 const uint kSurfelsPerScatter = 4u;
 
-/// Share of a probe's importance that goes to each surfel that stands for others.
+/// The fraction of a probe's importance that each scattering surfel receives.
 LAMBENT_FN float scatter_fraction(int surfels) {
   return float(kSurfelsPerScatter) / float(surfels);
 }
 
-/// What a surfel makes of it.
+/// The albedo with which a surfel scatters importance.
 LAMBENT_FN float scatter_albedo(vec3 albedo_over_pi) {
   return kPi * luminance(albedo_over_pi);
 }

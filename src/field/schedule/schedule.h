@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which probes an update traces, with how many rays.
+// The schedule: which probes an update traces, and with how many rays.
 //
-// The light of a probe is a mean over updates; its standard error falls with the square root of
-// their number. An update serves the probes with the largest relative standard errors, and gives
-// each rays in proportion to its noise: of all ways to share out rays, that leaves the least error
+// The light of a probe is a mean over updates, whose standard error falls with the square root of
+// their number. An update traces the probes with the largest relative standard errors, and gives
+// each rays in proportion to its noise. Of all ways to allocate rays, that leaves the least error
 // (Neyman, "On the Two Different Aspects of the Representative Method", J. R. Stat. Soc. 97(4),
-// 1934). Probes that matter to what is seen, or near the camera, count for more, and none waits for
-// ever.
+// 1934). Probes that matter to the visible points, or are near the camera, have a larger weight. No
+// probe waits for ever.
 #pragma once
 
 #include <array>
@@ -23,89 +23,94 @@
 
 namespace lambent {
 
-/// Rays of a probe in an update with a budget, as many as its noise asks for. Few classes, so that
-/// many probes share one set of directions and its blend matrix.
+/// The numbers of rays that a probe may get in an update with a budget. There are few of them, so
+/// that many probes share a ray set and its matrix.
 inline constexpr std::array kRayClasses = {32, 64, 128, 256, 512};
-/// The class nearest to so many rays.
+/// The class nearest to a number of rays.
 int ray_class_for(float rays);
 
-/// Updates that a probe's average remembers: the mean of all so far, until it has become an
-/// exponential moving average.
+/// The most updates that a probe's average remembers. Up to this number it is the mean of all
+/// updates; from there on it is an exponential moving average.
 inline float longest_average(const FieldSettings& settings) {
   return 1.0f / (1.0f - settings.hysteresis);
 }
 
-/// Whether a probe takes part in updates.
+/// Whether a probe may be traced.
 bool is_live(const ProbeStatus& status);
 
-/// Learns what a ray costs.
+/// Measures the cost of a ray, and converts time budgets into ray budgets.
 class RayCost {
  public:
-  /// Remembers what an update took.
+  /// Learns from the number of rays and the time of an update.
   void learn(std::uint64_t rays, double ms);
-  /// Rays to trace within a time, at least one probe's.
+  /// The number of rays to trace within a time: at least those of one probe.
   std::uint64_t rays_within(double ms) const;
 
  private:
   double ms_per_ray_ = 0.0;  // 0: nothing learned yet
 };
 
+/// The probes of an update, and their numbers of rays.
 struct Schedule {
   std::vector<int> probes;  ///< In ascending order.
-  std::vector<int> rays;    ///< Of each, one of the ray classes.
+  std::vector<int> rays;    ///< For each probe, its number of rays.
 };
 
-/// Every probe that is not off and whose volume's turn it is, and those never served, with the
-/// settings' rays. Where bounces are counted it is every volume's turn: their exact number is
+/// Schedules an update without a budget: with the settings' number of rays, every live probe that
+/// its volume's level includes in this update, and every live probe that has never been traced.
+/// Where bounces are counted, it schedules all live probes, because an exact number of bounces is
 /// carried through all probes at once.
 Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles,
                       std::span<const ProbeStatus> statuses, const FieldSettings& settings,
                       std::uint32_t update);
 
-/// What the scheduler keeps in mind of each probe, so that an update looks at those that changed
-/// and those that are urgent, however many rest: blocks of probes know the largest gain and the age
-/// among them. Whoever changes a record tells.
+/// Chooses the probes of updates with a budget. It keeps what it needs of each probe, and for
+/// blocks of probes the largest error reduction and age among them. An update so looks only at
+/// probes that changed and at urgent ones, however many have converged. Whoever changes a probe's
+/// status must call mark_changed().
 class ProbeScheduler {
  public:
-  /// Roles are one a volume.
+  /// `roles` has one entry per volume.
   ProbeScheduler(int probes, std::span<const VolumeRole> roles, const FieldSettings& settings);
 
-  /// A probe's record changed, or all did.
+  /// Notes that a probe's status changed.
   void mark_changed(int probe);
+  /// Notes that any status may have changed.
   void mark_all_changed() { all_changed_ = true; }
 
-  /// Takes note of the changes. Records are one a probe.
+  /// Updates what depends on changed statuses. `statuses` has one entry per probe.
   void refresh(const ProbeStore& store, std::span<const ProbeStatus> statuses);
 
-  /// How many probes are in each state, as last noted.
+  /// The number of probes in each state at the last refresh().
   const ProbeCounts& states() const { return states_; }
 
-  /// Probes that light something and have never been served.
+  /// The number of live probes that have never been traced, sleeping ones not included.
   int unserved() const { return unserved_; }
 
-  /// The most urgent probes within a budget of rays, as last noted. `update` counts from 1.
-  /// `importance` has one number a probe, 0 to 1; empty: by the distance from the viewer.
+  /// The most urgent probes within a budget of rays, as of the last refresh(). `update` counts
+  /// from 1. `importance` has one number per probe, 0 to 1; if it is empty, the distance from the
+  /// viewer decides.
   Schedule choose(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
                   const std::optional<glm::vec3>& viewer_ws,
                   std::span<const float> importance = {}) const;
 
  private:
-  /// What decides about a probe.
+  /// What the urgency of a probe depends on.
   struct Entry {
-    float noise = 0.0f;  ///< Standard deviation of what an update tells, around the probe.
-    float reduction =
-        0.0f;  ///< By how much its error falls with each ray, in proportion; 0: it rests.
-    float reduction_per_noise = 0.0f;  ///< The same per noise.
-    std::uint32_t served = 0;  ///< Update that served it last; 0: none; the largest: not live.
+    float noise = 0.0f;                ///< probe_noise() of the probe and its neighbours.
+    float reduction = 0.0f;            ///< error_reduction() of the probe; 0: it has converged.
+    float reduction_per_noise = 0.0f;  ///< error_reduction_per_noise() of the probe.
+    /// Number of the update that traced it last; 0: none; the largest number: it is not live.
+    std::uint32_t served = 0;
     ProbeState state = ProbeState::off;
   };
-  /// What decides about a block of probes that follow one another.
+  /// What an upper bound on the urgency of a block of consecutive probes depends on.
   struct Block {
-    float reduction = 0.0f;            ///< The largest.
-    float reduction_per_noise = 0.0f;  ///< Likewise.
-    std::uint32_t served = 0;          ///< The smallest.
-    float noise_sum = 0.0f;            ///< Of the probes that do not rest, ...
-    int unsettled = 0;                 ///< ... so many.
+    float reduction = 0.0f;            ///< The largest of its probes.
+    float reduction_per_noise = 0.0f;  ///< The largest of its probes.
+    std::uint32_t served = 0;          ///< The smallest of its probes.
+    float noise_sum = 0.0f;            ///< Sum of the noise of those that have not converged.
+    int unsettled = 0;                 ///< The number of those.
   };
 
   float view_weight(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
@@ -118,7 +123,7 @@ class ProbeScheduler {
 
   std::vector<VolumeRole> roles_;
   int rays_per_probe_;
-  float longest_;  // updates that a probe's average remembers
+  float longest_;  // the most updates that a probe's average remembers
   std::vector<Entry> entries_;
   std::vector<Block> blocks_;
   std::vector<int> changed_;
@@ -127,13 +132,14 @@ class ProbeScheduler {
   int unserved_ = 0;
 };
 
-/// Groups the scheduled probes by their rays, and draws the rays' directions.
+/// Groups the scheduled probes by their numbers of rays, and draws the directions of each ray set.
 std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,
                                       uint update);
 
-/// Learns a probe's noise from how far the light that its rays told is from what it held: the mean
-/// square of their difference over the square of their mean, where `weight` updates' worth of rays
-/// told it and the probe had averaged `record.samples` before. Then counts the new rays in.
+/// Learns a probe's noise from the difference between what its rays estimated and what it held:
+/// `relative_square` is the mean square of that difference over the square of the mean. The
+/// estimate is of `weight` updates' worth of rays, and the probe held an average of
+/// `status.samples` updates. Then adds `weight` to the samples.
 void learn_noise(float relative_square, float weight, ProbeStatus& status);
 
 }  // namespace lambent

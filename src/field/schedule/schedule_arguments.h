@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The schedule of a recorded field on its device: what it keeps, and the arguments of its kernels.
+// The schedule of a recorded field on its device: its data, and the arguments of its kernels.
 //
-// Probes fall into bins by what serving them is worth. Those of the highest bins are served, and of
-// the bin that the budget ends in the first, in the order of their indices: whole numbers alone
-// decide, so that it is the same on every run. An update serves whole blocks of kBlockProbes, so
-// that kernels of eight probes a group have none to leave out: it is filled up with the next ones.
+// Probes are sorted into bins by their priority. The probes of the highest bins are traced, and of
+// the bin in which the budget ends those with the lowest indices. Only integers decide, so that the
+// result is the same on every run. An update traces whole blocks of kBlockProbes, because kernels
+// work on eight probes per group; the last block is filled up with the next probes.
 #ifndef LAMBENT_FIELD_SCHEDULE_SCHEDULE_ARGUMENTS_H
 #define LAMBENT_FIELD_SCHEDULE_SCHEDULE_ARGUMENTS_H
 
@@ -14,7 +14,8 @@
 
 LAMBENT_BEGIN
 
-// Bins: probes that take no part; that rest; by gain, so many an octave; by age; never served.
+// The bins: probes that are left out; converged ones; bins by error reduction, four per octave;
+// bins by age; probes that were never traced.
 const int kNoPartBin = 0;
 const int kRestBin = 1;
 const int kFirstReductionBin = 2;
@@ -25,11 +26,13 @@ const int kOldBins = 16;
 const int kNeverBin = 114;
 const int kPriorityBins = 115;
 
-// What is left of a gain's bits: its exponent and two bits more.
+// Shifts a float's bits so that its exponent and two bits of its mantissa remain: four bins per
+// octave.
 const uint kReductionShift = 21u;
 const int kMinReductionStep = (127 - 14) << 2;
 
-/// The bin of a probe that takes part. Updates are counted from 1; served by 0: never.
+/// The bin of a probe that is not left out. Updates are counted from 1; `served` is 0 for a probe
+/// that was never traced.
 LAMBENT_FN int priority_bin(float reduction, uint served, uint update) {
   if (served == 0u) return kNeverBin;
   if (waits_too_long(served, update)) {
@@ -40,39 +43,40 @@ LAMBENT_FN int priority_bin(float reduction, uint served, uint update) {
   return kFirstReductionBin + clamp(octaves, 0, kReductionBins - 1);
 }
 
-/// What is known of a probe besides its standing.
+/// The noise of a probe, and when it was traced.
 struct ProbeService {
   KnownNoise known;
   uint served;  ///< Number of the update that traced it last, counted from 1; 0: none.
 };
 LAMBENT_DEVICE_ARRAY(ServiceArray, ProbeService, 4)
 
-/// What the device decided of an update, and what it remembers for the next one.
+/// The device's decision about an update, and what it keeps for the next one.
 struct ScheduleState {
   ListState list;
-  uint live;         ///< Probes that take part.
-  float mean_light;  ///< Luminance of all of them.
-  float mean_noise;  ///< Of those that did not rest in the update before.
-  int last_bin;      ///< That the budget ended in, ...
-  int of_last_bin;   ///< ... and so many of it were served.
+  uint live;         ///< The number of probes that are not left out.
+  float mean_light;  ///< Their mean luminance.
+  float mean_noise;  ///< Mean noise of those that had not converged before the update.
+  int last_bin;      ///< The bin in which the budget ends.
+  int of_last_bin;   ///< The number of probes of this bin that are traced.
 };
 LAMBENT_DEVICE_ARRAY(ScheduleStateArray, ScheduleState, 4)
 
-// Probes of a chunk, a workgroup's: all devices that trace rays have groups of so many lanes.
+// Probes of a chunk, on which one workgroup works: all devices with ray tracing support this group
+// size.
 const int kChunkProbes = 256;
 
-/// Probes that follow one another.
+/// Sums over consecutive probes.
 struct ScheduleChunk {
-  uint bins[kPriorityBins];  ///< How many are in each bin.
-  float noise_sum;           ///< Of those that do not rest, ...
-  uint unsettled;            ///< ... so many.
-  int higher;                ///< How many are in higher bins than the last that is served, ...
-  int of_last;               ///< ... and in the last.
+  uint bins[kPriorityBins];  ///< The number of probes in each bin.
+  float noise_sum;           ///< Sum of the noise of those that have not converged.
+  uint unsettled;            ///< The number of those.
+  int higher;   ///< The number of probes in higher bins than the last one that is traced.
+  int of_last;  ///< The number of probes in the last bin that is traced.
 };
 LAMBENT_DEVICE_ARRAY(ChunkArray, ScheduleChunk, 4)
 LAMBENT_DEVICE_ARRAY(ListSizeArray, ListSize, 4)
 
-/// Bins of all probes, and how many chunks have of each.
+/// Arguments of schedule_priority, which sorts all probes into bins and counts them per chunk.
 struct SchedulePriorityArguments {
   GridArray grids;
   ProbeStates probes;
@@ -81,22 +85,23 @@ struct SchedulePriorityArguments {
   UintArray bins;
   ChunkArray chunks;
   int count;
-  uint update;    ///< Counted from 1.
-  float longest;  ///< Updates that an average remembers.
-  uint look;      ///< 1: probes that are off are looked at where they have waited too long.
+  uint update;    ///< Number of the update, counted from 1.
+  float longest;  ///< The most updates that an average remembers.
+  uint look;      ///< 1: probes that are off are traced as well if they waited for kMaxProbeAge.
 };
 
-/// How many are served, and what that makes of the kernels to come.
+/// Arguments of schedule_choose, which decides how many probes are traced, and sizes the kernels
+/// that work on them.
 struct ScheduleChooseArguments {
   ScheduleStateArray state;
   ChunkArray chunks;
   ProbeBlockArray blocks;
   ListSizeArray sizes;
   int chunk_count;
-  int most;  ///< Probes that may be served: whole blocks.
+  int most;  ///< The most probes that may be traced, in whole blocks.
 };
 
-/// Lists them.
+/// Arguments of schedule_list, which lists the probes that are traced.
 struct ScheduleListArguments {
   ScheduleStateArray state;
   ChunkArray chunks;
@@ -105,8 +110,8 @@ struct ScheduleListArguments {
   int count;
 };
 
-/// Books an update's probes. `changes`: of the list's probes, as compare_light finds them where
-/// none is too dark.
+/// Arguments of update_variability. `changes` has an entry per probe of the list, as compare_light
+/// computes it with `darkest` 0.
 struct UpdateVariabilityArguments {
   ScheduleStateArray state;
   ServiceArray service;
@@ -114,12 +119,12 @@ struct UpdateVariabilityArguments {
   FloatArray blend_weights;
   Vec3Array changes;
   int count;
-  uint chosen;  ///< 1: the list is as long as the device decided.
-  uint update;  ///< Counted from 1.
+  uint chosen;  ///< 1: the device decided the length of the list.
+  uint update;  ///< Number of the update, counted from 1.
   uint unused;
 };
 
-/// What remains for the next update: the mean noise and the mean light.
+/// Arguments of schedule_means, which computes the mean noise and mean light for the next update.
 struct ScheduleMeansArguments {
   ScheduleStateArray state;
   ChunkArray chunks;

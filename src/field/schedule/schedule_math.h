@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a schedule goes by (schedule.h): how noisy a probe's light is found to be, by how much its
-// error would fall with another ray, and how long it has waited. On the processor and on devices.
+// What the schedule depends on (schedule.h), on the processor and on devices: the noise of a
+// probe's light, how much another ray would reduce its error, and how long it has waited.
 #ifndef LAMBENT_FIELD_SCHEDULE_SCHEDULE_MATH_H
 #define LAMBENT_FIELD_SCHEDULE_SCHEDULE_MATH_H
 
@@ -8,42 +8,43 @@
 
 LAMBENT_BEGIN
 
-/// Updates after which a probe is served in any case, where the budget allows: two seconds at 60
+/// A probe is traced after this many updates in any case, if the budget allows: two seconds at 60
 /// Hz.
 const uint kMaxProbeAge = 128u;
 
-// The noise of a probe follows about so many of its last updates: what few rays meet, a shorter
-// memory would forget.
+// The noise of a probe is an average over about this many of its updates. A shorter memory would
+// forget bright light that few rays hit.
 const float kNoiseMemory = 32.0f;
-// Noise below this is not believed after few updates: a probe that saw nothing bright yet may.
+// The least noise of a probe: one that has not hit bright light yet may seem to have less.
 const float kMinNoise = 1e-4f;
-// So many updates of noise are counted.
+// The number of updates of noise is counted up to this.
 const uint kMaxNoiseSamples = 0xFFFFu;
 
-// Noise of probes darker than this share of all is judged as if they were as bright: an eye that
-// has adapted to the scene sees no more of it.
+// Probes darker than this fraction of the mean light count as this bright where noise is judged: an
+// eye that is adapted to the scene sees no more noise than that.
 const float kDarkShare = 0.02f;
 
-// A probe whose light is known this well rests until its age calls it: surfaces average the noise
-// of eight.
+// A probe with this relative standard error has converged, and waits until its age makes it urgent.
+// Surfaces average the noise of eight probes.
 const float kSettledError = 0.01f;
 
-// No probe's noise is held to be less than this share of the mean when their turn is decided: light
-// would come out too dark where few rays met what is bright.
+// For its priority, no probe's noise counts as less than this fraction of the mean noise. Otherwise
+// light would become too dark where few rays hit what is bright.
 const float kMinNoiseOfMean = 0.5f;
 
-// Keeps the gain of probes that lost their light finite: samples of the least number of rays.
+// The least number of samples that counts. It keeps the error reduction of probes without history
+// finite, and is about what the smallest ray class amounts to.
 const float kFewestSamples = 0.1f;
 
-/// What is known of a probe's noise: the relative variance of what an update tells, and the updates
-/// that this has been learned from.
+/// The noise of a probe: the relative variance of the light that an update estimates, and the
+/// number of updates from which it was learned.
 struct KnownNoise {
   float noise;
   uint samples;
 };
 
-/// What is known after an update of so much `weight` whose light was `relative_square` from that of
-/// the `averaged` updates before.
+/// The noise after an update of this `weight`. `relative_square` is the relative square of the
+/// difference between what it estimated and the average of the `averaged` updates before it.
 LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, float weight,
                                     float averaged) {
   if (averaged <= 0.0f) return known;
@@ -55,44 +56,48 @@ LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, flo
   return known;
 }
 
-/// The relative square of what an update told to what was held, from that of what is held after a
-/// `share` of it was blended in. Noise is held to matter in proportion to the root of what it is
-/// noise of (Rose, "The Sensitivity Performance of the Human Eye on an Absolute Scale", J. Opt.
-/// Soc. Am. 38(2), 1948). `before`: luminance that was held; `mean_light`: of all probes.
+/// The relative square of the difference between an update's estimate and the light that a probe
+/// held. It follows from `relative_square`, that of the light after blending the estimate in with
+/// `blend_weight`. The visibility of noise is taken to be proportional to the square root of the
+/// light (Rose, "The Sensitivity Performance of the Human Eye on an Absolute Scale", J. Opt. Soc.
+/// Am. 38(2), 1948). `before` is the luminance that the probe held, and `mean_light` that of all
+/// probes.
 LAMBENT_FN float estimate_relative_square(float relative_square, float before, float blend_weight,
                                           float mean_light) {
   float brightness = mean_light > 0.0f ? max(before, kDarkShare * mean_light) / mean_light : 1.0f;
   return relative_square * brightness / (blend_weight * blend_weight);
 }
 
-/// The mean light of `live` probes, of which `count` are found to have this one now.
+/// The mean light of `live` probes after an update in which `count` of them have the mean light
+/// `now`.
 LAMBENT_FN float learned_light(float mean_light, float now, float count, float live) {
   float rate = mean_light > 0.0f ? min(count / max(live, 1.0f), 1.0f) : 1.0f;
   return mean_light + rate * (now - mean_light);
 }
 
-/// The noise that a probe is scheduled by, a standard deviation. It is not held to be less than the
-/// mean over it and its neighbours: its own is the lower the less of what is bright it has met so
-/// far, and resting on it would leave the light too dark for good.
+/// The noise by which a probe is scheduled, as a standard deviation. It is at least the mean over
+/// the probe and its neighbours. A probe's own noise is the lower, the less bright light its rays
+/// have hit so far; a probe that converged by it would stay too dark for good.
 LAMBENT_FN float probe_noise(float own, float mean_around) {
   return sqrt(max(own, mean_around));
 }
 
-/// By how much a probe's error falls with each further sample, in proportion: a square error of
-/// noise^2 / samples falls by noise^2 / samples^2. 0: it rests. `longest`: updates that an average
-/// remembers.
+/// How much a further sample reduces a probe's error, up to a constant factor: a squared error of
+/// noise^2 / samples falls by noise^2 / samples^2. Returns 0 for a probe that has converged.
+/// `longest` is the most updates that an average remembers.
 LAMBENT_FN float error_reduction(float noise, float samples, float longest) {
   float counted = max(samples, kFewestSamples);
   if (samples >= longest || noise < kSettledError * sqrt(counted)) return 0.0f;
   return noise / counted;
 }
 
-/// The same per noise.
+/// error_reduction() of a probe that has not converged, divided by its noise.
 LAMBENT_FN float error_reduction_per_noise(float samples) {
   return 1.0f / max(samples, kFewestSamples);
 }
 
-/// Whether a probe has waited too long. Updates are counted from 1; served by 0: never.
+/// Whether a probe has waited for kMaxProbeAge. Updates are counted from 1; `served` is 0 for a
+/// probe that was never traced.
 LAMBENT_FN bool waits_too_long(uint served, uint update) {
   return served == 0u || update - served >= kMaxProbeAge;
 }

@@ -15,7 +15,7 @@ namespace lambent {
 /// Irradiance of probes' interior texels, probe after probe, four floats a texel (the fourth is 0).
 using WorkingIrradiance = std::vector<glm::vec4, LargePages<glm::vec4>>;
 
-/// Inner product and norm over all texels; the same bits on any number of threads.
+/// Inner product and norm over all texels. Both give the same bits on any number of threads.
 double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b);
 double norm(const WorkingIrradiance& a);
 
@@ -23,13 +23,13 @@ double norm(const WorkingIrradiance& a);
 void add_scaled(const WorkingIrradiance& a, float scale, const WorkingIrradiance& b,
                 WorkingIrradiance& result);
 
-/// The last steps of the iteration, from which it extrapolates.
+/// The last steps of an iteration, from which it extrapolates.
 class AndersonMemory {
  public:
-  /// Remembers a step: how the residual f(x) - x and the image f(x) changed over it.
+  /// Adds a step: the changes of the residual f(x) - x and of the image f(x) over it.
   void push(WorkingIrradiance residual_change, WorkingIrradiance image_change);
 
-  /// Moves `next`, the plain next iterate, to where the residual's linear model is smallest.
+  /// Moves `next`, the image f(x), to where the linear model of the residual is smallest.
   void extrapolate(const WorkingIrradiance& residual, WorkingIrradiance& next) const;
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the acceleration of a fixed-point iteration decides by, on the processor and on devices.
+// The decisions of an accelerated fixed-point iteration, shared by the processor and devices.
 // Walker and Ni, "Anderson Acceleration for Fixed-Point Iterations", SIAM J. Numer. Anal. 49(4),
 // 2011.
 #ifndef LAMBENT_FIELD_TRANSPORT_ANDERSON_MATH_H
@@ -9,18 +9,21 @@
 
 LAMBENT_BEGIN
 
-// Steps that the iteration looks back on: more gain little and cost memory.
+// The number of steps from which the iteration extrapolates. More steps help little and cost
+// memory.
 const int kAndersonDepth = 3;
 
-// Keeps the small system solvable when steps are almost parallel; relative to the largest squared
-// step.
+// Regularises the small linear system for steps that are almost parallel, relative to the largest
+// squared step.
 const float kAndersonRidge = 1e-10f;
 
-// The error estimate never assumes faster convergence than this, whatever two steps seem to say.
+// The error estimate never assumes faster convergence than this contraction, whatever two steps
+// suggest.
 const float kMinContraction = 0.1f;
 
-/// Estimated relative error of the light that a share of a solution is blended into: a contraction
-/// by q leaves q / (1 - q) of the last step to go. Squares are of the residual and of the image.
+/// The estimated relative error of the light after blending in a solution. A contraction by q
+/// leaves q / (1 - q) of the last step to go. The squares are the squared norms of the residual and
+/// the image.
 LAMBENT_FN float remaining_error(float contraction, float blend_weight, float residual_square,
                                  float image_square) {
   float remaining = contraction / (1.0f - contraction);
@@ -28,16 +31,16 @@ LAMBENT_FN float remaining_error(float contraction, float blend_weight, float re
                              : 0.0f;
 }
 
-/// The inner products of the last steps' residual changes, row after row, and of each with the
-/// residual.
+/// The inner products of the last steps' residual changes with each other (row after row), and with
+/// the residual.
 struct StepProducts {
   Wide gram[9];
   Wide projection[3];
 };
 
-/// By how much each of the last steps is to be taken back: solves gram * shares = projection by
-/// Gaussian elimination. As the gram matrix is symmetric and, with the ridge, positive definite, it
-/// needs no pivots.
+/// The coefficients with which the last steps are subtracted: solves gram * coefficients =
+/// projection by Gaussian elimination. It needs no pivoting, because the Gram matrix with its ridge
+/// is symmetric and positive definite.
 LAMBENT_FN vec3 step_coefficients(StepProducts products, int steps) {
   float largest = 0.0f;
   for (int i = 0; i < steps; ++i) largest = max(largest, products.gram[4 * i].high);

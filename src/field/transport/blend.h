@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blending: from what rays brought back to what probes hold, as one matrix product.
+// Blending: from values along rays to the texels of a probe's tile, as one matrix product.
 //
 // In an update all probes use the same ray directions w_i, so the weight of ray i in texel t (unit
 // direction n_t) is the same for all of them: max(0, n_t . w_i)^e, with e = 1 for irradiance and a
@@ -23,23 +23,23 @@ namespace lambent {
 /// the update.
 std::vector<vec3> probe_ray_directions(int count, uint update, uint seed);
 
-/// The matrix W of the tiles of one kind.
+/// The matrix W of ray weights for tiles of one kind.
 class BlendMatrix {
  public:
   /// `texels` along a tile's edge, without gutter.
   BlendMatrix(int texels, float cosine_exponent, std::span<const vec3> directions);
-  /// Any matrix of texels x rays numbers, column (ray) after column.
+  /// Any texels x rays matrix, given column (ray) after column.
   BlendMatrix(int texel_count, int ray_count, std::span<const float> columns);
 
   int texels() const { return texel_count_; }  ///< Of a tile, without gutter.
   int rays() const { return ray_count_; }
 
-  /// Sums of channel * weight over the rays. `values`: rays x channels floats, ray after ray;
-  /// `sums`: texels x channels floats, texel after texel. Channels: 2 or 4.
+  /// Computes the weighted sums over the rays of 2 or 4 channels. `values` has rays x channels
+  /// floats, ray after ray; `sums` has texels x channels floats, texel after texel.
   void apply2(const float* values, float* sums) const;
   void apply4(const float* values, float* sums) const;
 
-  /// Weight of a ray in a texel; for tests and tools.
+  /// The weight of a ray in a texel. For tests and tools.
   float weight(int texel, int ray) const {
     return weights_[static_cast<std::size_t>(ray) * padded_texels_ + texel];
   }

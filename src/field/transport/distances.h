@@ -11,20 +11,19 @@
 
 namespace lambent {
 
-/// How far a ray saw.
+/// The distance to the hit of a ray.
 struct SeenDistance {
   float distance;  ///< [m]; infinite: the ray left the scene.
-  bool back_face;  ///< It met the back of a single-sided surface.
+  bool back_face;  ///< The ray hit the back of a single-sided surface.
 };
 
-/// Distances of rays, blended to what a tile's texels hold.
+/// Blends distances of rays into the moments of a tile's texels.
 class DistanceBlend {
  public:
   DistanceBlend(const FieldSettings& settings, std::span<const vec3> directions);
 
-  /// Mean distance [m] and mean squared distance [m^2] along each interior texel's direction, from
-  /// one distance a ray, cut at `farthest`. All zero where so many rays meet back faces that the
-  /// probe must stand in solid matter.
+  /// Computes the mean distance [m] and mean squared distance [m^2] of each interior texel from one
+  /// distance per ray, clamped to `farthest`. All are 0 where the probe stands inside geometry.
   void moments(std::span<const SeenDistance> seen, float farthest, std::span<vec2> moments) const;
 
   int rays() const { return blend_.rays(); }
@@ -32,11 +31,11 @@ class DistanceBlend {
 
  private:
   BlendMatrix blend_;
-  std::vector<vec2> totals_;  // what all rays together weigh in each texel
+  std::vector<vec2> totals_;  // the sum of all ray weights in each texel
 };
 
-/// Blends the distances that a group's rays met into the store. `shares` holds one number a probe
-/// of the group: the part of the new values, 0 to 1.
+/// Blends the distances of a group's hits into the store. `blend_weights` has one weight of the new
+/// moments per probe of the group, 0 to 1.
 void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
                      std::span<const float> blend_weights, uint dither_seed, ProbeStore& store);
 

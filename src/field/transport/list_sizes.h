@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many groups kernels have that work on a list of probes, whoever knows how long it is.
+// The numbers of workgroups of kernels that work on a list of probes. The host or the device
+// computes them, whichever knows the length of the list.
 #ifndef LAMBENT_FIELD_TRANSPORT_LIST_SIZES_H
 #define LAMBENT_FIELD_TRANSPORT_LIST_SIZES_H
 
@@ -7,16 +8,16 @@
 
 LAMBENT_BEGIN
 
-/// A number of groups, as indirect dispatches read it.
+/// Numbers of workgroups, as indirect dispatches read them.
 struct GroupCounts {
   uint x;
   uint y;
   uint z;
 };
 
-// What kernels run over: each probe's rays, texels, or texels of gutters, eight by eight; clusters
-// of lanes, one a probe; columns of a matrix product times blocks of probes; lanes, one a probe;
-// groups, one a probe; a launch of rays.
+// What the invocations of a kernel work on: the rays, texels or gutter texels of each probe, in
+// groups of eight by eight; one lane group per probe; columns of a matrix product times blocks of
+// probes; one lane per probe; one workgroup per probe; a launch of rays.
 const uint kOverRays = 0u;
 const uint kOverTexels = 1u;
 const uint kOverIrradianceGutters = 2u;
@@ -29,20 +30,20 @@ const uint kOverProbes = 8u;
 const uint kOverLaunch = 9u;
 const int kListShapes = 10;
 
-/// What a device decided of a list.
+/// A device's decision about a list.
 struct ListState {
-  GroupCounts over[kListShapes];  ///< Groups of the kernels that work on it, by shape.
+  GroupCounts over[kListShapes];  ///< Workgroups of the kernels that work on it, by shape.
   uint probes;
-  uint texels;  ///< Of their irradiance.
-  uint
-      largest_blend_weight;  ///< Bits of the largest share that any of them takes of its new light.
+  uint texels;                ///< Irradiance texels of all its probes.
+  uint largest_blend_weight;  ///< Bits of the largest blend weight of its probes.
 };
 
-/// Groups across, and how many of the list's probes, or of its blocks, one takes.
+/// How many workgroups work on a list: `across` along x, and along y one for `each` of its probes
+/// or blocks.
 struct ListSize {
-  uint across;  ///< 0: the list itself lies across.
+  uint across;  ///< 0: the list is along x instead.
   uint each;
-  uint blocks;  ///< 1: blocks.
+  uint blocks;  ///< 1: `each` counts blocks; 0: it counts probes.
 };
 
 LAMBENT_FN GroupCounts list_groups(ListSize size, uint probes, uint blocks) {

@@ -6,7 +6,7 @@
 
 LAMBENT_BEGIN
 
-// Which instances a probe's rays meet: kRayOfProbe of raytracer.h, which the host holds it to.
+// The mask of probe rays. It equals kRayOfProbe of raytracer.h, as the host asserts.
 const uint kProbeRayMask = 4u;
 
 LAMBENT_FN RayRecord probe_ray_record(vec3 origin_ws, vec3 direction_ws) {

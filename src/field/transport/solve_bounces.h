@@ -2,11 +2,12 @@
 // Light transport as a linear operator on the field.
 //
 // What probes receive is linear in what they hold: E' = W (albedo/pi (direct + S E) + sky), with W
-// the blend matrix and S the surfels' lookups. Relighting solves E = E' for all bounces at once,
-// without a ray. It may solve for some of the probes; the others hold what they hold.
+// the blend matrix and S the surfels' lookups. Solving E = E' gives the light of all bounces at
+// once, without tracing a ray. A solve may be for some of the probes only; the others keep their
+// light.
 //
-// Surfels read (1 - share) * history + share * E, the field as it will be once E is blended in, so
-// that the solution is consistent with what is stored.
+// With the blend weight w, surfels read (1 - w) * history + w * E, the field as it will be once E
+// is blended in, so that the solution is consistent with what is stored.
 #pragma once
 
 #include <array>
@@ -19,24 +20,24 @@
 
 namespace lambent {
 
-/// The transport of light to some probes. Fields have the texels of all probes; what is received,
-/// and all else that is said to be of the probes, has those of the operator's probes alone.
+/// The transport of light to some probes. `field` arguments have the texels of all probes of the
+/// field. All other arrays have those of the operator's probes only.
 class TransportOperator {
  public:
-  /// `probes` have been traced. `fit` is the matrix of tile_fit.h for tiles of `texels` x `texels`.
-  /// `corner_table` is the store's. All arguments must outlive the operator.
+  /// All `probes` must have surfels. `fit` is the matrix of tile_fit.h for tiles of `texels` x
+  /// `texels`, and `corner_table` that of the store. All arguments must outlive the operator.
   TransportOperator(std::span<const CornerOffsets> corner_table, std::span<const ProbeTrace> traces,
                     std::span<const int> probes, const BlendMatrix& fit, int texels);
 
-  /// One bounce: what the probes would receive if surfels were lit by `field` besides direct light.
-  /// Texels that no ray counts for take their value from `fallback`, of the probes.
+  /// One bounce: what the probes receive if `field` and direct light illuminate their surfels.
+  /// Texels that no ray counts for take their value from `fallback`.
   void apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
              WorkingIrradiance& received) const;
 
-  /// What the probes receive from the sky, and from surfels that reflect direct light alone.
+  /// What the probes receive from the sky, and from surfels that reflect direct light only.
   void apply_direct(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
-  /// No bounce: what the probes receive from the sky alone.
+  /// No bounce: what the probes receive from the sky only.
   void apply_sky(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
   std::span<const int> probes() const { return probes_; }
@@ -52,38 +53,41 @@ class TransportOperator {
   std::span<const ProbeTrace> traces_;
   std::span<const int> probes_;
   const BlendMatrix& fit_;
-  int texels_;                                      // interior texels of a tile
-  std::vector<std::array<std::uint16_t, 4>> taps_;  // interior texels of each place of a fetch
+  int texels_;  // interior texels of a tile
+  std::vector<std::array<std::uint16_t, 4>>
+      taps_;  // the four interior texels of each possible fetch
 };
 
+/// When a solve stops.
 struct SolveSettings {
   float max_albedo = 0.95f;  ///< No surfel reflects more, 0 to 0.99.
-  float tolerance = 0.002f;  ///< Estimated relative error to stop at, of the field as it is stored.
-  int max_iterations = 32;   ///< ... or after so many.
+  float tolerance = 0.002f;  ///< Estimated relative error of the blended light to stop at.
+  int max_iterations = 32;   ///< The solve stops after this many iterations in any case.
 };
 
+/// The outcome of a solve.
 struct SolveResult {
   int iterations = 0;
-  double error = 0.0;  ///< Estimated relative error of the field that the solution is blended into.
-  double change = 0.0;         ///< Of the probes' light, root mean square over root mean square.
-  WorkingIrradiance solution;  ///< Of the probes, before a share of it was blended in.
+  double error = 0.0;   ///< Estimated relative error of the light after blending.
+  double change = 0.0;  ///< Change of the probes' light, root mean square over that of the light.
+  WorkingIrradiance solution;  ///< The solution for the operator's probes, before blending.
 };
 
-/// a *= b, texel by texel
+/// Multiplies a by b, texel by texel.
 void multiply(WorkingIrradiance& a, const WorkingIrradiance& b);
 
-/// Copies the texels of some probes out of a field.
+/// Copies the texels of some probes from a field.
 WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> probes, int texels);
 
-/// Solves for the light of the operator's probes, starting from what `field` holds, and blends
-/// `shares[k]` of the solution into probe k's. What the probes receive is multiplied by `gain`, of
-/// the probes; empty: by 1.
+/// Solves for the light of the operator's probes, starting from what `field` holds, and blends the
+/// solution into `field` with the weight `blend_weights[k]` for the k-th probe. What the probes
+/// receive is multiplied by `history_ratio`, texel by texel, unless that is empty.
 SolveResult solve_bounces(const TransportOperator& transport, std::span<const float> blend_weights,
                           const WorkingIrradiance& history_ratio, const SolveSettings& settings,
                           WorkingIrradiance& field);
 
-/// The same for the light of exactly so many bounces, without acceleration; the operator's probes
-/// must be all.
+/// Solves for the light of exactly this many bounces, without acceleration. The operator's probes
+/// must be all probes of the field.
 SolveResult solve_counted_bounces(const TransportOperator& transport,
                                   std::span<const float> blend_weights, int bounces,
                                   WorkingIrradiance& field);

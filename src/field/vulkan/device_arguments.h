@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments of the kernels that work on a field in a device's memory. "Of probes" are arrays in
-// the order of a pass's list; "of all probes" those by a probe's index.
+// Arguments of the kernels that work on a field in a device's memory. Arrays "of the list" have
+// entries in the order of a pass's list of probes; arrays "of all probes" are indexed by a probe's
+// index.
 #ifndef LAMBENT_FIELD_VULKAN_DEVICE_ARGUMENTS_H
 #define LAMBENT_FIELD_VULKAN_DEVICE_ARGUMENTS_H
 
@@ -10,18 +11,20 @@
 
 LAMBENT_BEGIN
 
-// Lanes that share what they load, in matrix products and sums: every subgroup holds some.
+// Lanes of a lane group, which share what they load in matrix products and sums. Every subgroup
+// holds whole lane groups.
 const int kLaneGroupSize = 8;
 const int kGroupLanes = 64;
-// Probes and texels that a cluster's matrix product keeps in registers; so many texels are blocks
-// of a matrix's row.
+// Probes and vectors of texels that a lane group's matrix product keeps in registers, and the
+// texels that these vectors have. A matrix's rows have whole blocks of texels.
 const int kBlockProbes = 8;
 const int kIrradianceVectors = 2;
 const int kIrradianceBlock = 16;
 const int kDistanceVectors = 4;
 const int kDistanceBlock = 32;
 
-/// Rays of probes that trace the same. `rays`: probes x rays.
+/// Arguments of probe_rays, for probes that trace the same ray set. `rays` has count x
+/// rays_per_probe entries.
 struct ProbeRaysArguments {
   StoreArrays store;
   IntArray probes;
@@ -31,20 +34,21 @@ struct ProbeRaysArguments {
   int rays_per_probe;
 };
 
-/// Surfels of the same, from what shading made of their hits.
+/// Arguments of make_surfels, which makes the surfels of such probes from their shaded hits.
 struct MakeSurfelsArguments {
   IntArray probes;
   LitPointArray points;
   ShadedHitArray shaded;
   Vec3Array irradiance;
-  SurfelArray surfels;  ///< All probes x stride.
+  SurfelArray surfels;  ///< `stride` entries for each of all probes.
   int count;
   int rays_per_probe;
   int stride;
 };
 
-/// What their hits count as in distances. `seen`: probes x seen_stride [m], 0 beyond the rays;
-/// `blocked`: of probes, 1: stands in solid matter.
+/// Arguments of see_distances. `seen` receives the distances that hits count as [m], `seen_stride`
+/// per probe of the list, 0 beyond its rays. `blocked` receives 1 for each probe of the list that
+/// stands inside geometry, else 0.
 struct SeeDistancesArguments {
   GridArray grids;
   IntArray probes;
@@ -58,7 +62,8 @@ struct SeeDistancesArguments {
   int seen_stride;
 };
 
-/// Blends them into the store. `shares`: of probes.
+/// Arguments of blend_distances, which blends these distances into the store. `blend_weights` are
+/// of the list.
 struct BlendDistancesArguments {
   StoreArrays store;
   ProbeList list;
@@ -71,7 +76,7 @@ struct BlendDistancesArguments {
   uint dither_seed;
 };
 
-/// What probes' surfels tell that rays saw. `seen`: a row of `seen_stride` a probe.
+/// Arguments of see_surfels, which computes the distances and flags of see_distances from surfels.
 struct SeeSurfelsArguments {
   StoreArrays store;
   ProbeList list;
@@ -79,11 +84,11 @@ struct SeeSurfelsArguments {
   FloatArray seen;
   UintArray blocked;
   int count;
-  int stride;  ///< Surfels a probe.
+  int stride;  ///< Surfels per probe.
   int seen_stride;
 };
 
-/// Moves what tiles hold by as much as what rays saw changed.
+/// Arguments of move_distances, which moves stored moments by as much as the rays' moments changed.
 struct MoveDistancesArguments {
   StoreArrays store;
   ProbeList list;
@@ -96,8 +101,8 @@ struct MoveDistancesArguments {
   uint dither_seed;
 };
 
-/// Sends importance back through surfels. `received` and `sent`: of all probes; the latter in whole
-/// numbers, `scale` to one.
+/// Arguments of scatter_importance. `received` and `sent` are of all probes. `sent` holds
+/// fixed-point numbers, in which `scale` stands for 1.
 struct ScatterImportanceArguments {
   ProbeList list;
   CornerOffsetsArray corners;
@@ -110,7 +115,8 @@ struct ScatterImportanceArguments {
   float scale;
 };
 
-/// Copies tiles of a list's probes to where those of all probes are.
+/// Arguments of scatter_tiles, which copies the tiles of a list into the array of all probes'
+/// tiles.
 struct ScatterTilesArguments {
   IntArray probes;
   Vec4Array tiles;
@@ -118,7 +124,7 @@ struct ScatterTilesArguments {
   int count;
 };
 
-/// Fills a ray set's matrix of weights.
+/// Arguments of ray_weights, which computes a ray set's matrix.
 struct RayWeightsArguments {
   Vec3Array directions;
   FloatArray weights;
@@ -128,7 +134,7 @@ struct RayWeightsArguments {
   float cosine_exponent;
 };
 
-/// Fills the gutters of tiles.
+/// Arguments of gutters, which fills the gutters of tiles.
 struct GuttersArguments {
   UintArray words;
   IntArray probes;
@@ -137,28 +143,29 @@ struct GuttersArguments {
   int words_per_texel;
 };
 
-/// Points that look the field up, in rows: the surfels of a list's probes, a row a probe, or
-/// queries, `stride` of them a row. Point i has kLookups lookups; a surfel's place i among those of
-/// all probes is probe x stride + ray, a query's its place in the array.
+/// Points at which the field is looked up, in rows. They are either the surfels of a list's probes,
+/// one row per probe, or queries, `stride` of them per row. Each point has kLookups lookups. The
+/// lookups of a surfel are those of index probe x stride + ray, and the lookups of a query those of
+/// its index in the array.
 struct LookupPoints {
   ProbeList list;
   SurfelArray surfels;
   QueryArray queries;
   int rows;
   int stride;
-  int count;   ///< Of queries; 0: they are surfels.
-  uint exact;  ///< 1: all corners are asked for by rays; 0: those that are in doubt.
+  int count;   ///< Number of queries; 0 where the points are surfels.
+  uint exact;  ///< 1: all corners are tested with rays; 0: only those in doubt.
 };
 
-/// Finds points' lookups by distances.
+/// Arguments of find_lookups, which finds the lookups of points by distances.
 struct FindLookupsArguments {
   StoreArrays store;
   LookupPoints points;
   LookupArray lookups;
 };
 
-/// Rays between the corners of cells, by the probes that are their lowest. `rays`: cells x
-/// kCellPairs.
+/// Arguments of cell_visibility_rays, which makes the rays between the corners of cells. `cells`
+/// holds the cells' lowest probes, and `rays` has kCellPairs entries per cell.
 struct CellVisibilityRaysArguments {
   StoreArrays store;
   IntArray cells;
@@ -166,7 +173,8 @@ struct CellVisibilityRaysArguments {
   int count;
 };
 
-/// What they found: two words a probe; see visibility_bit.
+/// Arguments of cell_visibility_bits, which stores the results in two words per lowest probe
+/// (visibility_bit).
 struct CellVisibilityBitsArguments {
   IntArray cells;
   UintArray occluded;
@@ -174,19 +182,22 @@ struct CellVisibilityBitsArguments {
   int count;
 };
 
-// A counter of rays: the size of an indirect dispatch of them, and how many were counted in all.
+// Words of a ray counter: the size of an indirect dispatch of the requested rays (three words), and
+// the total number of rays since the counter was read last.
 const int kRaysRequested = 0;
 const int kRaysTotal = 3;
 const int kCounterWords = 4;
 
-/// The rays that a point asks, one after the other; for each of its lookups eight bits, by corners.
+/// The visibility rays of a point, which are consecutive. `tested` has eight bits per lookup, one
+/// per corner.
 struct CornerTests {
   uint first_ray;
   uint tested;
 };
 LAMBENT_DEVICE_ARRAY(CornerTestArray, CornerTests, 4)
 
-/// Asks rays for corners of lookups that were found by distances. `questions`: rows x stride.
+/// Arguments of test_corners, which makes visibility rays for corners of lookups that were found by
+/// distances. `tests` has rows x stride entries.
 struct TestCornersArguments {
   StoreArrays store;
   LookupPoints points;
@@ -197,7 +208,8 @@ struct TestCornersArguments {
   RayArray rays;
 };
 
-/// Weighs lookups by the answers.
+/// Arguments of apply_corner_tests, which computes the lookups' weights from the results of these
+/// rays.
 struct ApplyCornerTestsArguments {
   StoreArrays store;
   LookupPoints points;
@@ -206,7 +218,8 @@ struct ApplyCornerTestsArguments {
   UintArray occluded;
 };
 
-/// Irradiance for queries whose lookups were found. `lookups`: count x kLookups.
+/// Arguments of read_lookups, which computes the irradiance for queries whose lookups were found.
+/// `lookups` has kLookups entries per query.
 struct ReadLookupsArguments {
   StoreArrays store;
   QueryArray queries;
@@ -215,13 +228,13 @@ struct ReadLookupsArguments {
   int count;
 };
 
-// What rays bring back: all light, direct and sky light, the sky's alone.
+// The light that rays gather: all of it, direct and sky light only, or sky light only.
 const uint kGatherAll = 0u;
 const uint kGatherDirect = 1u;
 const uint kGatherSky = 2u;
 
-/// Radiance along rays, and whether they count. `field`: of all probes x texels; `radiance`: probes
-/// x stride.
+/// Arguments of gather, which gathers radiance along rays. `field` has the texels of all probes,
+/// and `radiance` has `radiance_stride` entries per probe of the list.
 struct GatherArguments {
   ProbeList list;
   CornerOffsetsArray corners;
@@ -230,12 +243,13 @@ struct GatherArguments {
   Vec4Array field;
   Vec4Array radiance;
   int probes;
-  int stride;           ///< Of surfels.
-  int radiance_stride;  ///< The probes' most rays, up to a whole cluster.
+  int stride;           ///< Surfels per probe.
+  int radiance_stride;  ///< The list's largest number of rays, rounded up to whole lane groups.
   uint light;
 };
 
-/// Irradiance at texels' centres from radiance; w: 1 where enough rays count. Probes x texels.
+/// Arguments of receive, which computes the irradiance at texels' centres from radiance. The fourth
+/// channel is 1 for texels for which enough rays count, else 0. Arrays have the texels of the list.
 struct ReceiveArguments {
   ProbeList list;
   ProbeBlockArray blocks;
@@ -245,7 +259,8 @@ struct ReceiveArguments {
   int stride;
 };
 
-/// What to store from that, times `gain`. Probes x texels.
+/// Arguments of fit, which computes what tiles store from the irradiance at texels' centres, times
+/// `history_ratio`. Arrays have the texels of the list.
 struct FitArguments {
   FloatArray fit;
   ProbeBlockArray blocks;
@@ -257,7 +272,7 @@ struct FitArguments {
   uint has_history_ratio;
 };
 
-/// Encodes light. `light`: of all probes x texels.
+/// Arguments of store_irradiance. `light` has the texels of all probes.
 struct StoreIrradianceArguments {
   UintArray words;
   IntArray probes;
@@ -266,22 +281,24 @@ struct StoreIrradianceArguments {
   uint dither_seed;
 };
 
-/// By how much light changed. `before`: probes x texels; `changes`: of probes.
+/// Arguments of compare_light. `before` has the texels of the list, `changes` an entry per probe of
+/// the list.
 struct CompareLightArguments {
   IntArray probes;
   Vec4Array light;
   Vec4Array before;
-  Vec3Array changes;  ///< Relative square, luminance before, luminance now.
+  Vec3Array changes;  ///< Relative square, luminance before, luminance after.
   int count;
   float darkest;
 };
 
+/// Arguments of lookup, which looks the field up for queries.
 struct LookupArguments {
   StoreArrays store;
   QueryArray queries;
   Vec3Array irradiance;
   int count;
-  int width;  ///< Queries in a row of the dispatch.
+  int width;  ///< Queries per row of the dispatch.
 };
 
 LAMBENT_END

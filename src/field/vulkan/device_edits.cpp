@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recording what follows edits of the world, and what remembers the light before them.
+// Recording of the passes that apply edits, store last estimates, and scatter importance.
 #include "field/schedule/importance_math.h"
 #include "field/vulkan/field_resources.h"
 #include "vulkan/device_memory.h"

@@ -47,7 +47,7 @@ std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, in
 
 namespace {
 
-/// Kernels by their constants.
+/// Keeps kernels by their specialisation constants.
 template <class Kernels>
 class KernelShelf {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernels of a field's passes, made for the settings of one field.
+// The kernels of a field's passes, specialised for the field's settings.
 #pragma once
 
 #include <array>
@@ -9,16 +9,17 @@
 
 namespace lambent {
 
-// A surfel reads at most so many volumes; where more have a share in it, those asked first answer
-// for all. Cascades hand over to the next but one only within a cell or two.
+// The most volumes that a surfel reads. Where more have a weight, the first ones take all of it.
+// More than two cascades overlap only within a cell or two.
 inline constexpr int kMaxSurfelLookups = 4;
 
-/// The constants of shaders/tiles.glsl.
+/// The specialisation constants of probes/shaders/tiles.glsl.
 std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, int volumes,
                                                int lookups);
 
+/// The kernels that every field on a device needs.
 struct FieldKernels {
-  /// Those for these settings, made once and kept by the device.
+  /// The kernels for these settings. The device makes them once and keeps them.
   static const FieldKernels& of(const vulkan::Device& device, const FieldSettings& settings,
                                 int volumes, int lookups);
 
@@ -31,8 +32,9 @@ struct FieldKernels {
   vulkan::Kernel see_surfels, move_distances, scatter_importance;
 };
 
-/// Those of visibility by rays, which few fields need.
+/// The kernels of visibility by rays, which few fields need.
 struct VisibilityKernels {
+  /// The kernels for these settings. The device makes them once and keeps them.
   static const VisibilityKernels& of(const vulkan::Device& device, const FieldSettings& settings,
                                      int volumes, int lookups);
 

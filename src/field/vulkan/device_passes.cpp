@@ -8,10 +8,11 @@
 namespace lambent {
 namespace {
 
-// Points in a row of a lookup's dispatch: rows are whole groups, and few enough.
+// Points per row of a lookup's dispatch: a multiple of the group size, and large enough that the
+// rows do not exceed any device's limit.
 constexpr std::uint32_t kLookupRow = 1u << 20;
 
-// Queries in a row of points that look the field up: so that a group's follow one another.
+// Queries per row of LookupPoints: the width of a workgroup, so that its queries are consecutive.
 constexpr int kQueryRow = 8;
 
 template <class Array>
@@ -19,7 +20,7 @@ Array from(const vulkan::Buffer& buffer, std::size_t first, std::size_t size) {
   return {buffer.address() + first * size};
 }
 
-/// Part of a list's array of indices.
+/// The part of a list's array of indices that begins at `first`.
 IntArray indices_from(const DeviceProbes& list, int first) {
   return from<IntArray>(list.indices, static_cast<std::size_t>(first), sizeof(int));
 }
@@ -181,7 +182,8 @@ GroupCounts FieldResources::groups_over(const DeviceProbes& list, uint shape) co
                      static_cast<uint>(list.block_count));
 }
 
-/// Runs a kernel of transport over a list, or over as many groups as a solve says.
+/// Records a kernel of transport over a list, or over the number of groups that a solve has
+/// decided.
 template <class Arguments>
 void FieldResources::run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel,
                                    const Arguments& arguments, const DeviceProbes& list, uint shape,
@@ -263,7 +265,7 @@ void FieldResources::record_lookup(vulkan::Recorder& to, QueryArray queries, std
   to.barrier();
 }
 
-/// The same where rays tell which probes are seen, some points at a time.
+/// Records a lookup with visibility by rays, for a limited number of points at a time.
 void FieldResources::record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries,
                                            std::uint32_t count, Vec3Array irradiance,
                                            const DeviceTracer& tracer) const {

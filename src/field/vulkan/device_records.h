@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a device keeps of a field.
+// The data of a field in a device's memory.
 #ifndef LAMBENT_FIELD_VULKAN_DEVICE_RECORDS_H
 #define LAMBENT_FIELD_VULKAN_DEVICE_RECORDS_H
 
@@ -8,19 +8,19 @@
 
 LAMBENT_BEGIN
 
-// Formats of the store's words, in the order of IrradianceFormat and DistanceFormat.
+// Formats of the store's words. The numbers are those of IrradianceFormat and DistanceFormat.
 const uint kRgb9e5 = 0u;
 const uint kR11g11b10f = 1u;
 const uint kIrradianceFloat32 = 2u;
 const uint kRg16f = 0u;
 const uint kRg32f = 1u;
 
-// What a surfel's ray ended at, as SurfelKind.
+// What a surfel's ray hit. The numbers are those of SurfelKind.
 const uint kSurfelSurface = 0u;
 const uint kSurfelSky = 1u;
 const uint kSurfelBackFace = 2u;
 
-/// What one ray met; as struct Surfel.
+/// A surfel, like struct Surfel.
 struct SurfelRecord {
   vec3 position_ws;
   uint material;
@@ -32,7 +32,7 @@ struct SurfelRecord {
   uint receives_gi;
 };
 
-/// A lookup that reads nothing: the place of its first texel.
+/// SurfelLookup::tile_corner of a lookup that reads nothing.
 const uint kNoLookup = 0xFFFFFFFFu;
 
 LAMBENT_DEVICE_ARRAY(GridArray, ProbeGrid, 4)
@@ -40,8 +40,8 @@ LAMBENT_DEVICE_ARRAY(SurfelArray, SurfelRecord, 4)
 LAMBENT_DEVICE_ARRAY(LookupArray, SurfelLookup, 4)
 LAMBENT_DEVICE_ARRAY(CornerOffsetsArray, CornerOffsets, 4)
 
-/// The rays of one update. Matrices hold a row a ray, of so many floats that whole blocks of texels
-/// fit; rows beyond the rays, up to a whole cluster, are 0.
+/// A ray set. Its matrices have a row per ray, whose length is rounded up to whole blocks of
+/// texels. The number of rows is rounded up to whole lane groups; rows beyond the rays are 0.
 struct RaySetRecord {
   Vec3Array directions;
   FloatArray irradiance_weights;
@@ -51,8 +51,8 @@ struct RaySetRecord {
 };
 LAMBENT_DEVICE_ARRAY(RaySetArray, RaySetRecord, 8)
 
-/// Probes of a list, one after the other, that last traced the same rays: at most as many as a
-/// workgroup of the matrix product takes.
+/// Consecutive probes of a list that last traced the same ray set: at most kBlockProbes, on which a
+/// lane group of the matrix product works.
 struct ProbeBlock {
   int first;
   int count;
@@ -60,7 +60,7 @@ struct ProbeBlock {
 };
 LAMBENT_DEVICE_ARRAY(ProbeBlockArray, ProbeBlock, 4)
 
-/// Where a store's words are.
+/// The arrays of a store.
 struct StoreArrays {
   GridArray grids;
   UintArray offsets;
@@ -68,14 +68,14 @@ struct StoreArrays {
   UintArray distance;
 };
 
-/// Probes that a pass works on: their indices, and of each the rays that it last traced.
+/// The probes that a pass works on: their indices, and the ray sets that they traced last.
 struct ProbeList {
   IntArray probes;
   IntArray ray_sets;
   RaySetArray sets;
 };
 
-/// A point to look the field up at; as struct FieldQuery.
+/// A point at which the field is looked up, like struct FieldQuery.
 struct QueryRecord {
   vec3 position_ws;
   vec3 normal_ws;

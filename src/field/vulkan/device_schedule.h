@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The schedule of a recorded field, decided where its probes are: schedule_arguments.h. Nothing is
-// read back.
+// The schedule of a recorded field, which the device decides itself (schedule_arguments.h). Nothing
+// is read back.
 #pragma once
 
 #include "field/schedule/schedule_arguments.h"
@@ -10,28 +10,29 @@ namespace lambent {
 
 class DeviceSchedule {
  public:
-  /// Of at most so many probes an update, whole blocks of them, each with so many rays. For a field
-  /// that outlives it.
+  /// Schedules at most `most_probes` per update, a multiple of kBlockProbes, with `rays` rays each.
+  /// The field must outlive the schedule.
   DeviceSchedule(const FieldResources& field, int most_probes, int rays);
 
-  /// Chooses the probes of an update, counted from 0. `look`: those that are off are looked at
-  /// where they have waited too long.
+  /// Records the choice of an update's probes. `update` counts from 0. With `look`, probes that are
+  /// off are traced as well if they waited for kMaxProbeAge.
   void record_choose(vulkan::Recorder& to, const ProbeStates& probes, std::uint32_t update,
                      bool look) const;
-  /// Books the probes of a list, chosen or not, whose light the field now holds. `shares` and
-  /// `before`: of the list's probes, what share of it is new and what they held before.
+  /// Records the update of the noise of a list's probes, which now hold new light. `blend_weights`
+  /// are the weights of the new light, and `before` is the light that the probes held, both of the
+  /// list.
   void record_update_variability(vulkan::Recorder& to, const DeviceProbes& list,
                                  FloatArray blend_weights, Vec4Array before,
                                  std::uint32_t update) const;
 
-  /// The chosen probes, which all are of ray set 0 among these.
+  /// The chosen probes. All use ray set 0 of `sets`.
   const DeviceProbes& list(RaySetArray sets) {
     list_.sets = sets;
     return list_;
   }
-  /// A ScheduleState.
+  /// Holds a ScheduleState.
   const vulkan::Buffer& state() const { return state_; }
-  /// ProbeService of all probes, and their bins.
+  /// Hold the ProbeService and the priority bin of each probe.
   const vulkan::Buffer& service() const { return service_; }
   const vulkan::Buffer& bins() const { return bins_; }
 

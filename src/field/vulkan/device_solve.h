@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solve for the light of all bounces, wholly on a device: relight() of relight.cpp.
+// The data of a solve for the light of all bounces that runs entirely on a device: the twin of
+// solve_bounces() in solve_bounces.cpp.
 #ifndef LAMBENT_FIELD_VULKAN_DEVICE_SOLVE_H
 #define LAMBENT_FIELD_VULKAN_DEVICE_SOLVE_H
 
@@ -9,13 +10,13 @@
 
 LAMBENT_BEGIN
 
-// Invocations among which sums over all texels are shared out: a fixed number, so that the sums are
-// the same on every run.
+// The number of invocations among which sums over all texels are divided. It is fixed, so that the
+// sums are the same on every run.
 const int kSumLanes = 4096;
 
-// Sums that an iteration needs: of squares of the image, the residual, and of the changes of
-// solution and image; of the residual's change times each remembered one, and of each times the
-// residual.
+// The sums that an iteration needs: the squares of the image, of the residual, and of the changes
+// of solution and image; the products of the residual's change with each stored one (Gram matrix),
+// and of each stored one with the residual (projection).
 const int kImageSquare = 0;
 const int kResidualSquare = 1;
 const int kChangeSquare = 2;
@@ -24,15 +25,15 @@ const int kFirstGram = 4;
 const int kFirstProjection = 7;
 const int kSolveSums = 10;
 
-/// Where a solve stands. The host sets what is above the line, the device the rest.
+/// The state of a solve. The host sets the members above the line, the device the others.
 struct SolveState {
   int max_iterations;
   float tolerance;
   float largest_blend_weight;
   float max_albedo;
-  int texels;  ///< Of all its probes together.
-  // Groups of the kernels of an iteration: 0 once it is done, so that those recorded to come do
-  // nothing.
+  int texels;  ///< Texels of all its probes.
+  // Workgroups of an iteration's kernels. They become 0 once the solve is done, so that the
+  // iterations that are still recorded do nothing.
   GroupCounts over_texels;
   GroupCounts over_rays;
   GroupCounts over_blocks;
@@ -42,49 +43,52 @@ struct SolveState {
   int iterations;
   float error;
   float change;
-  float observed;     ///< The strongest contraction that a step has shown.
-  int steps;          ///< Remembered.
-  vec3 coefficients;  ///< Of the remembered steps' image changes, to be taken back.
+  float observed;     ///< The largest contraction factor that a step has shown.
+  int steps;          ///< Number of stored steps.
+  vec3 coefficients;  ///< step_coefficients() of the stored steps.
   StepProducts products;
 };
 LAMBENT_DEVICE_ARRAY(SolveStateArray, SolveState, 4)
 LAMBENT_DEVICE_ARRAY(WideArray, Wide, 4)
 
-/// Texels that a solve works on; all but `field` are of its probes x texels. Changes hold
-/// kAndersonDepth steps, one after the other.
+/// The arrays that a solve works on. All but `field` have the texels of the list. The arrays of
+/// changes hold kAndersonDepth steps, one after the other.
 struct SolveArrays {
   IntArray probes;
   FloatArray blend_weights;
-  Vec4Array field;  ///< Of all probes x texels.
+  Vec4Array field;  ///< The texels of all probes.
   Vec4Array history;
   Vec4Array solution;
   Vec4Array image;
-  Vec4Array residual;  ///< The last one.
+  Vec4Array residual;  ///< The residual of the last step.
   Vec4Array previous_image;
   Vec4Array residual_changes;
   Vec4Array image_changes;
   SolveStateArray state;
 };
 
-// What is done with a solution.
-const uint kBeginSolve = 0u;     ///< The history becomes the solution and is put into the field.
-const uint kNextSolution = 1u;   ///< Extrapolated, and a share of it is put into the field.
-const uint kPlainSolution = 2u;  ///< The image is put into the field as it is.
-const uint kEndSolve = 3u;       ///< A share of the image is put into the field, and none below 0.
+// The steps of blend_solution.
+const uint kBeginSolve = 0u;     ///< Copies the field into the history and the solution.
+const uint kNextSolution = 1u;   ///< Extrapolates the solution and blends it into the field.
+const uint kPlainSolution = 2u;  ///< Replaces the field by the image.
+const uint kEndSolve = 3u;       ///< Blends the image into the field, without negative light.
 
+/// Arguments of blend_solution.
 struct BlendSolutionArguments {
   SolveArrays arrays;
   int probes;
   uint step;
 };
 
+/// Arguments of solve_sums.
 struct SolveSumsArguments {
   SolveArrays arrays;
   WideArray sums;   ///< kSumLanes x kSolveSums.
-  int most_texels;  ///< From one step's changes to the next's.
-  uint last;        ///< 1: of the difference that the solve made, and of the image.
+  int most_texels;  ///< Stride between the changes of two steps.
+  uint last;        ///< 1: sums the squares of the image and of the light's change by the solve.
 };
 
+/// Arguments of solve_step.
 struct SolveStepArguments {
   SolveStateArray state;
   WideArray sums;

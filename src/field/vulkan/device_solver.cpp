@@ -8,7 +8,8 @@
 namespace lambent {
 namespace {
 
-/// Where the device writes the groups of an iteration's kernels.
+/// The places in a SolveState where the device writes the workgroup counts of an iteration's
+/// kernels.
 TransportGroups groups_in(const vulkan::Buffer& state) {
   return {&state, offsetof(SolveState, over_rays), offsetof(SolveState, over_blocks)};
 }
@@ -54,7 +55,7 @@ void DeviceSolver::blend_solution(vulkan::Recorder& to, const DeviceProbes& list
   to.barrier();
 }
 
-/// Takes over what the device decided of the list.
+/// Copies the device's decision about the list into the state.
 void DeviceSolver::take_chosen(vulkan::Recorder& to, const vulkan::Buffer& chosen) const {
   const auto take = [&](std::size_t bytes, std::size_t from, std::size_t into) {
     to.copy(chosen, state_, bytes, from, into);
@@ -112,7 +113,7 @@ void DeviceSolver::record(vulkan::Recorder& to, const DeviceProbes& list,
       arrays, {sums_.address()}, list.count() * field_.tile_texels(), 0u};
   const SolveStepArguments step = {{state_.address()}, {sums_.address()}, 0u};
   for (int iteration = 0; iteration < settings.max_iterations; ++iteration) {
-    // Send the light round once
+    // Apply the transport once
     field_.record_transport(to, list, {arrays.field, arrays.history, history_ratio, arrays.image},
                             groups_in(state_));
     to.run_indirect(kernels.solve_sums, sums, state_, offsetof(SolveState, over_sums));

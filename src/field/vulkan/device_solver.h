@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solve for the light of all bounces on a device: relight.h. Iterations are recorded as many as
-// there may be; those after the last one needed find that they have nothing to do. Nothing is read
+// The solve for the light of all bounces on a device, like solve_bounces.h. It records as many
+// iterations as there may be. Those after the last one that is needed do nothing. Nothing is read
 // back in between.
 #pragma once
 
@@ -13,25 +13,25 @@ namespace lambent {
 
 class DeviceSolver {
  public:
-  /// For a field that outlives it.
+  /// The field must outlive the solver.
   explicit DeviceSolver(FieldResources& field);
 
-  /// Makes room to solve for these: before it is recorded.
+  /// Reserves memory for a solve for these probes. Must be called before the solve is recorded.
   void reserve(const DeviceProbes& list);
 
-  /// As relight, from the light that the field holds and into it. `shares` are of the list's
-  /// probes, and so is `gain`, none where its address is 0.
+  /// Records solve_bounces(), from the light that the field holds and into it. `blend_weights` and
+  /// `history_ratio` are of the list. There is no history ratio where its address is 0.
   void record(vulkan::Recorder& to, const DeviceProbes& list, const vulkan::Buffer& blend_weights,
               float largest_blend_weight, Vec4Array history_ratio, const SolveSettings& settings);
 
-  /// As solve_counted_bounces. The list must be of all probes that are read.
+  /// Records solve_counted_bounces(). The list must contain all probes that surfels read.
   void record_bounces(vulkan::Recorder& to, const DeviceProbes& list,
                       const vulkan::Buffer& blend_weights, int bounces);
 
-  /// What it came to, once that has run.
+  /// The outcome, once the solve has run. Reads it back.
   DeviceSolve result() const;
-  /// What was solved for before a share of it was blended in, of the list's probes, and the light
-  /// that they held before.
+  /// The solution for the list's probes before blending, and the light that they held before the
+  /// solve.
   const vulkan::Buffer& solution() const { return image_; }
   const vulkan::Buffer& history() const { return history_; }
 

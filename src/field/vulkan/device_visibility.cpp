@@ -10,8 +10,8 @@
 namespace lambent {
 namespace {
 
-// Rays in memory at a time, at least: enough to fill any device, few enough to stay small (42 MB
-// with what they found).
+// The least number of rays that memory is reserved for: enough to fill any device, in 42 MB with
+// the results.
 constexpr int kMaxCornerRays = 1 << 20;
 
 }  // namespace
@@ -66,7 +66,7 @@ void DeviceVisibility::record_cell_visibility(vulkan::Recorder& to, const Device
 void DeviceVisibility::record_corner_tests(vulkan::Recorder& to, const DeviceTracer& tracer,
                                            const StoreArrays& store, const LookupPoints& points,
                                            LookupArray lookups, int columns) const {
-  // Nothing is asked yet; the size of a dispatch of rays in a row
+  // Reset the counter, whose first words are the size of a dispatch of rays
   constexpr std::array<std::uint32_t, 3> kNone = {0u, 1u, 1u};
   to.update(counter_, kNone.data(), sizeof(kNone), kRaysRequested * sizeof(uint));
   to.barrier();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility by rays, for lookups on a device: which probes of each cell see each other, and the
-// rays that lookups ask. As visibility.h, in passes that are recorded.
+// Visibility by rays for lookups on a device, like visibility.h: which probes of each cell see each
+// other, and the visibility rays of lookups.
 #pragma once
 
 #include "field/vulkan/device_arguments.h"
@@ -13,34 +13,34 @@ namespace lambent {
 
 class DeviceVisibility {
  public:
-  /// Every probe sees every other. The device must outlive it.
+  /// At first, every probe sees every other. The device must outlive this object.
   DeviceVisibility(const vulkan::Device& device, const FieldSettings& settings, int probes,
                    int volumes, int lookups);
 
-  /// Has it take at least so many points at a time. Not to be called while the device works with
-  /// it.
+  /// Reserves memory for at least this many points at a time. Must not be called while the device
+  /// uses it.
   void reserve(int points);
-  /// Points whose lookups may be weighed at a time.
+  /// The number of points whose lookups may be tested at a time.
   int points() const { return points_; }
-  /// Room for their lookups, where they are not a surfel's.
+  /// Memory for the lookups of points that are no surfels.
   LookupArray lookups() const { return {lookups_.address()}; }
   bool exact() const { return exact_; }
 
-  // Passes. What they read must be visible before, and what they write is afterwards. The scene's
-  // textures are bound.
+  // Passes. What they read must be visible before them, and what they write is visible after them.
+  // The scene's textures must be bound.
 
-  /// As CellVisibility::look, for cells that the host knows to be there.
+  /// Records CellVisibility::update() for cells that exist.
   void record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer,
                               const StoreArrays& store, IntArray cells, int count) const;
-  /// Asks rays for what the distances that lookups were found by do not decide, and weighs the
-  /// lookups anew. `columns`: of the points' rows, so many exist.
+  /// Records visibility rays for the corners that distances leave in doubt, and the lookups'
+  /// weights that result. Only the first `columns` points of each row exist.
   void record_corner_tests(vulkan::Recorder& to, const DeviceTracer& tracer,
                            const StoreArrays& store, const LookupPoints& points,
                            LookupArray lookups, int columns) const;
-  /// Irradiance of queries, from lookups.
+  /// Records the irradiance of queries from their lookups.
   void record_reading(vulkan::Recorder& to, const ReadLookupsArguments& arguments) const;
-  /// Copies the number of rays that lookups asked since the last time into the buffer (one word),
-  /// and starts counting anew.
+  /// Records a copy of the number of rays since the last call into a buffer of one word, and resets
+  /// the count.
   void take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const;
 
  private:
@@ -49,10 +49,10 @@ class DeviceVisibility {
   bool exact_;
   int lookups_a_point_;
   int points_ = 0;
-  vulkan::Buffer cell_visibility_;  // two words a probe
-  vulkan::Buffer rays_, occluded_;  // of points_, or of cells
+  vulkan::Buffer cell_visibility_;  // two words per probe
+  vulkan::Buffer rays_, occluded_;  // for the lookups of points_ points, or for cells
   vulkan::Buffer counter_;          // kCounterWords
-  vulkan::Buffer tests_, lookups_;  // of points_
+  vulkan::Buffer tests_, lookups_;  // for points_ points
 };
 
 }  // namespace lambent

@@ -37,8 +37,8 @@ SurfelRecord to_record(const Surfel& surfel) {
           surfel.receives_gi ? 1u : 0u};
 }
 
-/// The matrix of tile_fit.h as the product takes it: rows in whole clusters, columns in whole
-/// blocks.
+/// The matrix of tile_fit.h as the product needs it: rows padded to whole lane groups, columns to
+/// whole blocks.
 std::vector<float> padded_fit(int edge) {
   const std::vector<float> fit = tile_fit_matrix(edge);
   const int texels = edge * edge, columns = round_up(texels, kIrradianceBlock);
@@ -194,7 +194,7 @@ void FieldResources::set_rays(std::span<const int> probes,
   }
 }
 
-/// The slot that holds these rays; makes one where there is none.
+/// The slot that holds a ray set. Makes one if there is none.
 int FieldResources::slot_for(const std::shared_ptr<const RaySet>& rays) {
   int empty = -1;
   for (std::size_t s = 0; s < slots_.size(); ++s) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field in a device's memory, and its passes, as they are recorded. Each pass names what it is
-// the twin of; what a pass reads must be visible before, and what it writes is afterwards.
+// A field in a device's memory, and functions that record its passes. What a pass reads must be
+// visible before it, and what it writes is visible after it.
 #pragma once
 
 #include <cstdint>
@@ -20,47 +20,50 @@
 
 namespace lambent {
 
-/// Probes that passes work on. Those that last traced the same rays follow one another.
+/// A list of probes that passes work on. Probes that last traced the same ray set are consecutive.
 struct DeviceProbes {
-  std::vector<int> probes;            ///< In the list's order.
-  std::vector<std::size_t> position;  ///< In the list, of each probe as the caller named it.
-  int most_rays = 0;                  ///< Of any of them.
+  std::vector<int> probes;  ///< The probes' indices, in the list's order.
+  std::vector<std::size_t>
+      position;       ///< For each probe in the caller's order, its place in the list.
+  int most_rays = 0;  ///< The largest number of rays of a probe.
   int block_count = 0;
   vulkan::Buffer indices, ray_sets, blocks;
-  /// Where the device decides how many they are: a buffer that begins with a ListState; count() and
-  /// block_count are the most then.
+  /// Where the device decides the length of the list, a buffer that begins with a ListState.
+  /// count() and block_count are then upper bounds.
   const vulkan::Buffer* chosen = nullptr;
-  RaySetArray sets;  ///< What ray_sets point into; none where its address is 0: the field's own.
+  RaySetArray sets;  ///< What ray_sets index; the field's own sets where its address is 0.
 
   int count() const { return static_cast<int>(probes.size()); }
   IntArray index_array() const { return {indices.address()}; }
   ProbeBlockArray block_array() const { return {blocks.address()}; }
 };
 
-/// What transport reads and writes. `field`: of all probes; the others of the list's.
+/// What transport reads and writes. `field` has the texels of all probes, the others those of the
+/// list.
 struct DeviceTransport {
   Vec4Array field, fallback;
-  Vec4Array history_ratio;  ///< None where its address is 0.
+  Vec4Array history_ratio;  ///< There is none where its address is 0.
   Vec4Array received;
-  uint light = kGatherAll;  ///< Or kGatherDirect, kGatherSky.
+  uint light = kGatherAll;  ///< kGatherAll, kGatherDirect or kGatherSky.
 };
 
-/// Where the groups of its kernels are read from, if the device decides; bytes into the buffer.
+/// Where the workgroup counts of transport's kernels are read from if the device decides them: byte
+/// offsets into a buffer. Null where the host knows them.
 struct TransportGroups {
   const vulkan::Buffer* buffer = nullptr;
   std::size_t rays = 0, blocks = 0;
 };
 
-/// Part of a list, all of which traces the same rays now.
+/// Consecutive probes of a list that now trace the same ray set.
 struct DeviceGroup {
-  int first = 0;  ///< Of the list.
+  int first = 0;  ///< Place of the first probe in the list.
   int count = 0;
-  int rays = 0;  ///< Of a probe.
+  int rays = 0;  ///< Rays per probe.
 };
 
 class FieldResources {
  public:
-  /// Of the store's shape, without light. The device must outlive it.
+  /// Makes an empty field of the store's shape. The device must outlive it.
   FieldResources(const vulkan::Device& device, const FieldSettings& settings,
                  const ProbeStore& shape);
 
@@ -73,54 +76,57 @@ class FieldResources {
   int lookups_per_surfel() const { return lookups_; }
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
 
-  // What the store consists of.
+  // The store's arrays and buffers.
   StoreArrays store() const;
   const vulkan::Buffer& grids() const { return grids_; }
   const vulkan::Buffer& offsets() const { return offsets_; }
   const vulkan::Buffer& irradiance() const { return irradiance_; }
   const vulkan::Buffer& distance() const { return distance_; }
-  /// Of all probes, so many each.
+  /// The surfels of all probes, surfel_stride() per probe.
   SurfelArray surfels() const { return {surfels_.address()}; }
   int surfel_stride() const { return stride_; }
 
-  // Up and down. None may be called while the device works with the field.
+  // Transfers. None may be called while the device uses the field.
 
-  /// Where probes stand: grids and offsets.
+  /// Uploads the grids and the probes' offsets.
   void set_places(const ProbeStore& store);
-  /// All encoded tiles, or those of distances of some probes.
+  /// Uploads grids, offsets and all encoded tiles.
   void write_store(const ProbeStore& store);
+  /// Uploads the encoded distance tiles of some probes.
   void write_distances(const ProbeStore& store, std::span<const int> probes);
+  /// Reads all encoded tiles back.
   void read_store(ProbeStore& store) const;
-  /// What some probes' rays met, with their lookups.
+  /// Uploads the surfels of some probes, with their lookups.
   void write_surfels(std::span<const int> probes, std::span<const ProbeTrace> traces);
-  /// The lookups of a probe's surfels, `lookups_per_surfel` each.
+  /// Reads the lookups of a probe's surfels back, `lookups_per_surfel` each.
   std::vector<SurfelLookup> read_lookups(int probe) const;
+  /// Reads the surfels of a probe back.
   std::vector<SurfelRecord> read_surfels(int probe) const;
-  /// Light of all probes, before it was encoded: of the field, ...
+  /// The light of all probes before encoding.
   const vulkan::Buffer& light() const { return light_; }
-  /// ... and as their last rays told it.
+  /// What the last rays of each probe estimated.
   const vulkan::Buffer& last_irradiance_estimate() const { return last_irradiance_estimate_; }
 
-  /// Has probes trace these rays from now on, or none.
+  /// Assigns a ray set to probes; null drops their surfels.
   void set_rays(std::span<const int> probes, const std::shared_ptr<const RaySet>& rays);
-  /// Null: never traced.
+  /// The ray set of a probe's surfels; null where it has none.
   std::shared_ptr<const RaySet> rays_of(int probe) const;
 
-  /// A list of probes that have rays.
+  /// Makes a list of probes, all of which must have a ray set.
   DeviceProbes list(std::span<const int> probes) const;
 
-  // For rays that the caller keeps, in lists that the caller makes.
+  // For callers that keep ray sets and lists themselves.
 
-  /// Makes room for so many surfels a probe; those that there are stay.
+  /// Reserves memory for this many surfels per probe. Existing surfels stay.
   void reserve_surfels(int rays);
-  /// Bytes of the matrices of so many rays.
+  /// Bytes of the matrices of a ray set with this many rays.
   std::size_t irradiance_weight_bytes(int rays) const;
   std::size_t distance_weight_bytes(int rays) const;
-  /// Fills the matrices of rays.
+  /// Records the computation of a ray set's matrices.
   void record_weights(vulkan::Recorder& to, Vec3Array directions, int rays, FloatArray irradiance,
                       FloatArray distance) const;
 
-  // Kernels over a list; the shape is one of list_sizes.h.
+  // Kernels that work on a list. Shapes are those of list_sizes.h.
 
   ListSize list_size(uint shape, int most_rays) const;
   GroupCounts groups_over(const DeviceProbes& list, uint shape) const;
@@ -137,64 +143,68 @@ class FieldResources {
 
   // Passes.
 
-  /// As trace_probe_rays: the rays of a group, count x rays.
+  /// Records the rays of a group, count x rays of them. See trace_probe_rays().
   void record_rays(vulkan::Recorder& to, const DeviceProbes& list, const DeviceGroup& group,
                    RayArray rays) const;
-  /// As make_surfel, of what a group's rays met.
+  /// Records the surfels of a group's shaded hits. See make_surfel().
   void record_surfels(vulkan::Recorder& to, const DeviceProbes& list, const DeviceGroup& group,
                       LitPointArray points, ShadedHitArray shaded, Vec3Array irradiance) const;
-  /// As blend_distances, in two parts: what each group's rays saw, once it has surfels; and what
-  /// all of the list's did, into the store. `shares`: of the list's probes.
+  /// The twin of blend_distances() in two parts. The first records the distances of each group's
+  /// rays, once the group has surfels. The second records the blending of the whole list's
+  /// distances into the store. `blend_weights` are of the list.
   void record_seen_distances(vulkan::Recorder& to, const DeviceProbes& list,
                              const DeviceGroup& group, HitArray hits);
   void record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list,
                               FloatArray blend_weights, uint dither_seed);
-  /// The first part of all of a list's rays, from their surfels.
+  /// Records the first part for all rays of a list, from their surfels.
   void record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list);
-  /// Makes room for what a list's rays see: before the former are recorded.
+  /// Reserves memory for the distances of a list's rays. Must be called before the functions above.
   void reserve_seen(const DeviceProbes& list);
-  /// Moves the stored distances of a list's probes by as much as those of their surfels changed
-  /// between the two, as invalidate_surfels does. Makes room before it records.
+  /// Record that the stored distances of a list's probes move by as much as those of their surfels
+  /// change between the two calls, as in invalidate_surfels(). The first one also reserves memory.
   void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
   void record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed);
-  /// As CellVisibility::look, of a field that sees by rays; `cells` as of cells_around.
+  /// Records CellVisibility::update() of a field with visibility by rays. `cells` come from
+  /// cells_around().
   void record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer, IntArray cells,
                               int count) const;
-  /// As find_surfel_lookups. `tracer`: of the rays that the settings' visibility asks, with the
-  /// scene's textures bound; null: by distances.
+  /// Records find_surfel_lookups(). `tracer` traces the visibility rays, with the scene's textures
+  /// bound. Where it is null, visibility is by distances.
   void record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
                       const DeviceTracer* tracer = nullptr) const;
-  /// Copies the number of rays that lookups asked since the last time into the buffer (one word);
-  /// it stays as it is where none does.
+  /// Records a copy of the number of visibility rays since the last call into a buffer of one word.
+  /// Fields without visibility by rays leave the buffer as it is.
   void take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const;
 
-  /// As TransportOperator::apply, apply_direct and apply_sky.
+  /// Records TransportOperator::apply, apply_direct or apply_sky.
   void record_transport(vulkan::Recorder& to, const DeviceProbes& list,
                         const DeviceTransport& transport, const TransportGroups& groups = {}) const;
-  /// Its second half alone: from the radiance that was gathered last.
+  /// Records the second half of record_transport() only, from the radiance that was gathered last.
   void record_receive(vulkan::Recorder& to, const DeviceProbes& list,
                       const DeviceTransport& transport, const TransportGroups& groups = {}) const;
-  /// Makes room for both: before they are recorded.
+  /// Reserves memory for both. Must be called before they are recorded.
   void reserve_transport(const DeviceProbes& list);
 
-  /// As ProbeStore::store_irradiance, of the field's light.
+  /// Records ProbeStore::store_irradiance() of the field's light.
   void record_store_light(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed) const;
-  /// As ImportanceScatter of importance.h, for a list of those that send; `sent` was 0.
+  /// Records ImportanceScatter of importance.h for a list of those probes that scatter. `sent` must
+  /// be 0.
   void record_scatter_importance(vulkan::Recorder& to, const DeviceProbes& list,
                                  FloatArray received, UintArray sent, float scale) const;
-  /// Remembers what the list's probes' rays told; see State::store_last_estimates.
+  /// Records that a solution becomes the last estimates of a list's probes. See
+  /// State::store_last_estimates.
   void record_last_estimates(vulkan::Recorder& to, const DeviceProbes& list,
                              Vec4Array solution) const;
-  /// As relative_square and mean_luminance of tile_light.h: of what the field holds to what the
-  /// list's probes held.
+  /// Records relative_square() and mean_luminance() of tile_light.h, of the light that the list's
+  /// probes hold to what they held before.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
                             float darkest, Vec3Array changes) const;
-  /// As lookup_irradiance; `tracer` as of record_lookups.
+  /// Records lookup_irradiance(). For `tracer`, see record_lookups().
   void record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                      Vec3Array irradiance, const DeviceTracer* tracer = nullptr) const;
 
  private:
-  /// Rays that some probes traced last.
+  /// A ray set that some probes traced last.
   struct RaySlot {
     std::shared_ptr<const RaySet> rays;
     vulkan::Buffer directions, irradiance_weights, distance_weights;
@@ -219,15 +229,15 @@ class FieldResources {
   int probes_, volumes_, lookups_;
   int words_per_irradiance_texel_, words_per_distance_texel_;
   const FieldKernels& kernels_;
-  std::unique_ptr<DeviceVisibility> cell_visibility_;  // null: nothing is seen by rays
+  std::unique_ptr<DeviceVisibility> cell_visibility_;  // null: visibility is by distances only
   vulkan::Buffer grids_, offsets_, irradiance_, distance_, corners_, fit_;
   vulkan::Buffer light_, last_irradiance_estimate_;
   vulkan::Buffer surfels_, lookup_records_;  // probes x stride_ (x lookups_)
   int stride_ = 0;
   std::vector<RaySlot> slots_;
-  std::vector<int> slot_of_;  // of each probe; -1: none
+  std::vector<int> slot_of_;  // one per probe; -1: it has no surfels
   vulkan::Buffer sets_;       // RaySetRecords of the slots
-  // What passes hand on to each other
+  // Intermediate results that passes hand on to each other
   vulkan::Buffer seen_, blocked_, radiance_, at_centres_;
   vulkan::Buffer seen_before_, blocked_before_;
 };

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "core/atomic_file.h"
-#include "core/image/formats.h"
-#include "core/image/row_writers.h"
+#include "core/image/codecs/formats.h"
+#include "core/image/codecs/row_writers.h"
 
 namespace lambent {
 namespace {

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "core/byte_decoding.h"
-#include "core/image/decode_stb.h"
-#include "core/image/stb.h"
+#include "core/image/codecs/decode_stb.h"
+#include "core/image/codecs/stb.h"
 #include "shared/color.h"
 
 namespace lambent {

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/image/formats.h"
+#include "core/image/codecs/formats.h"
 
 namespace lambent {
 

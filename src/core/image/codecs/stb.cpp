@@ -9,4 +9,4 @@
 #endif
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_IMPLEMENTATION
-#include "core/image/stb.h"
+#include "core/image/codecs/stb.h"

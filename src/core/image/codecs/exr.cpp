@@ -18,7 +18,7 @@
 #include <string_view>
 #include <utility>
 
-#include "core/image/formats.h"
+#include "core/image/codecs/formats.h"
 
 namespace lambent {
 namespace {

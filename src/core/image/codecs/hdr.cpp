@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <string_view>
 
-#include "core/image/formats.h"
+#include "core/image/codecs/formats.h"
 
 namespace lambent {
 namespace {

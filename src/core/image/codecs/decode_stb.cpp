@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/image/decode_stb.h"
+#include "core/image/codecs/decode_stb.h"
 
 #include <algorithm>
 #include <cstring>
 
-#include "core/image/stb.h"
+#include "core/image/codecs/stb.h"
 
 namespace lambent {
 namespace {
