@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "core/image/metrics/heat_map.h"
-#include "core/image/metrics/metrics.h"
+#include "core/image/heat_map.h"
+#include "core/image/metrics.h"
 #include "core/memory.h"
 #include "lambent/command_files.h"
 #include "lambent/commands.h"

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
-#include "core/image/metrics/metrics.h"
+#include "core/image/metrics.h"
 #include "core/memory.h"
 #include "lambent/console.h"
 #include "lambent/memory_check.h"

@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-#include "core/image/metrics/metrics.h"
+#include "core/image/metrics.h"
 #include "golden/truth.h"
 #include "lambent/renderer.h"
 #include "reference/path_tracer.h"

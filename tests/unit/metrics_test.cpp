@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/image/metrics/metrics.h"
+#include "core/image/metrics.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/image/metrics/convolve.h"
-#include "core/image/metrics/flip.h"
-#include "core/image/metrics/heat_map.h"
-#include "core/image/metrics/ssim.h"
+#include "core/image/convolve.h"
+#include "core/image/flip.h"
+#include "core/image/heat_map.h"
+#include "core/image/ssim.h"
 #include "shared/color.h"
 #include "shared/random.h"
 

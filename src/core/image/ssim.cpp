@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to
 // Structural Similarity", IEEE Transactions on Image Processing 13(4), 2004.
-#include "core/image/metrics/ssim.h"
+#include "core/image/ssim.h"
 
 #include <cassert>
 
-#include "core/image/metrics/convolve.h"
+#include "core/image/convolve.h"
 
 namespace lambent {
 namespace {

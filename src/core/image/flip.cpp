@@ -3,13 +3,13 @@
 // Evaluator for Alternating Images", PACM CGIT 3(2), 2020; Andersson, Nilsson, Shirley,
 // Akenine-Moeller, "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics short
 // papers, 2021. Written from the papers.
-#include "core/image/metrics/flip.h"
+#include "core/image/flip.h"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "core/image/metrics/convolve.h"
+#include "core/image/convolve.h"
 #include "core/parallel.h"
 #include "shared/color.h"
 #include "shared/constants.h"

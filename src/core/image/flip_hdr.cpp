@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/image/metrics/flip.h"
+#include "core/image/flip.h"
 #include "shared/color.h"
 
 namespace lambent {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/image/metrics/heat_map.h"
+#include "core/image/heat_map.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/image/color_map.h"
-#include "core/image/metrics/flip.h"
+#include "core/image/flip.h"
 #include "shared/color.h"
 
 namespace lambent {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/image/metrics/convolve.h"
+#include "core/image/convolve.h"
 
 #include <algorithm>
 #include <cmath>

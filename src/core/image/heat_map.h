@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "core/image/metrics/metrics.h"
+#include "core/image/metrics.h"
 #include "lambent/image.h"
 
 namespace lambent {

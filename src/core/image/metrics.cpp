@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/image/metrics/metrics.h"
+#include "core/image/metrics.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "core/image/metrics/flip.h"
-#include "core/image/metrics/ssim.h"
+#include "core/image/flip.h"
+#include "core/image/ssim.h"
 #include "shared/color.h"
 
 namespace lambent {
