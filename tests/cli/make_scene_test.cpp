@@ -16,10 +16,10 @@ using testing::HasSubstr;
 
 class MakeScene : public testing::Test {
  protected:
-  std::string file(const char* name) const { return folder_.file(name); }
-  std::size_t files() const { return folder_.entries(); }
+  std::string file(const char* name) const { return folder.file(name); }
+  std::size_t files() const { return folder.entries(); }
 
-  lambent::test::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder;
 };
 
 TEST_F(MakeScene, WritesOneFileAndSaysWhatIsInIt) {

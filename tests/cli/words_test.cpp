@@ -141,7 +141,7 @@ TEST_F(Files, OfTheWrongKindAreNamedForWhatTheyAre) {
   EXPECT_THAT(said("render cornell --environment " + field), HasSubstr("not an image"));
   std::ofstream(directory.file("a.obj")) << "v 0 0 0\n";
   EXPECT_THAT(said("info " + directory.file("a.obj")), HasSubstr("Wavefront OBJ"));
-  std::ofstream(directory.file("none.glb"));
+  std::ofstream(directory.file("none.glb")) << "";
   EXPECT_THAT(said("info " + directory.file("none.glb")), HasSubstr("is an empty file"));
   std::ofstream(directory.file("text.glb")) << "hello";
   EXPECT_THAT(said("info " + directory.file("text.glb")), HasSubstr("is not a glTF scene"));
