@@ -26,7 +26,7 @@ constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
 // Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP
 // (measured).
 constexpr std::uint64_t kComparisonBytes = 180;
-// What the bands, the maps and the file's buffers take whatever the size [bytes].
+// What is taken whatever the size [bytes]: bands, maps, buffers of files, and heaps of threads.
 constexpr std::uint64_t kFixedBytes = std::uint64_t{100} << 20;
 // Fewest rays that a probe may have.
 constexpr std::uint64_t kMinRays = 16;
@@ -90,9 +90,9 @@ Expected<void> check_picture_memory(const RenderOptions& options, const glm::ive
 Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, int fields,
                                   std::uint64_t available) {
   const auto count = static_cast<std::uint64_t>(fields);
-  const std::uint64_t bytes = count * field.bytes(rays_per_probe);
+  const std::uint64_t bytes = kFixedBytes + count * field.bytes(rays_per_probe);
   if (bytes <= available) return {};
-  const std::uint64_t each = available / count;
+  const std::uint64_t each = (available - std::min(available, kFixedBytes)) / count;
   const std::uint64_t fitting_probes =
       each /
       (field.bytes_per_probe + field.bytes_per_ray * static_cast<std::uint64_t>(rays_per_probe));

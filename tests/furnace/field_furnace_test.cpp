@@ -217,21 +217,26 @@ TEST(FieldFurnaceFrame, ASkyOfManyColoursKeepsThem) {
   Scene scene = scenes::make("furnace-sky").value();
   scene.environment.radiance = {0.02f, 1.0f, 40.0f};
   const Stage stage(std::move(scene));
+  std::vector<FieldQuery> queries;
+  for (int i = 0; i < 400; ++i) {
+    const float angle = 0.7f * static_cast<float>(i), z = static_cast<float>(i) / 200.0f - 1.0f;
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
+    const glm::vec3 n(radius * std::cos(angle), radius * std::sin(angle), z);
+    queries.push_back({n, n, n});
+  }
   for (const I format : {I::rgb9e5, I::r11g11b10f, I::float32}) {
-    FieldSettings settings = few_probes();
-    settings.irradiance_format = format;
-    const IrradianceField field = make_field(stage, settings, 30);
-    std::vector<FieldQuery> queries;
-    for (int i = 0; i < 400; ++i) {
-      const float angle = 0.7f * static_cast<float>(i), z = static_cast<float>(i) / 200.0f - 1.0f;
-      const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z));
-      const glm::vec3 n(radius * std::cos(angle), radius * std::sin(angle), z);
-      queries.push_back({n, n, n});
-    }
+    // The smallest channel of RGB9E5 is one step of 0.06: one field is off by 8 %, as it happens to
+    // be dithered, and the mean of many is right
+    const int seeds = format == I::rgb9e5 ? 24 : 1;
     glm::dvec3 mean(0.0);
-    for (const glm::vec3& e : look_up(field, queries)) mean += glm::dvec3(e) / 400.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      FieldSettings settings = few_probes();
+      settings.irradiance_format = format;
+      settings.seed = static_cast<std::uint32_t>(seed);
+      const IrradianceField field = make_field(stage, settings, 30);
+      for (const glm::vec3& e : look_up(field, queries)) mean += glm::dvec3(e) / (400.0 * seeds);
+    }
     for (int c = 0; c < 3; ++c) {
-      // The smallest channel of RGB9E5 has steps of 0.06, whose dither the mean forgives
       EXPECT_NEAR(mean[c] / (kPi * stage.scene.environment.radiance[c]), 1.0,
                   c == 0 && format == I::rgb9e5 ? 0.05 : kFurnaceTolerance);
     }

@@ -21,7 +21,8 @@ FirstLight chosen(const Scene& scene) {
 
 Scene unlit(const std::string& name) {
   Scene scene = scenes::make(name).value();
-  scene.lights.clear();
+  // Animations may refer to lights: they stay, and are black
+  for (Light& light : scene.lights) light.intensity = glm::vec3(0.0f);
   scene.environment = {};
   return scene;
 }

@@ -155,8 +155,7 @@ TEST(FirstView, ExistsWhereNothingCanBeSeen) {
   EXPECT_GT(first_view(World(empty)).camera.vertical_fov, 0.0f);
   // All of a scene in one point
   Scene point = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
-  point.instances[0].world_from_object = glm::mat4(0.0f);
-  point.instances[0].world_from_object[3] = {2.0f, 3.0f, 4.0f, 1.0f};
+  for (glm::vec3& position : point.meshes[0].positions) position = {2.0f, 3.0f, 4.0f};
   const glm::vec3 eye = eye_of(first_view(World(point)).camera);
   EXPECT_TRUE(std::isfinite(eye.x + eye.y + eye.z));
 }
