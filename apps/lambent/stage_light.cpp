@@ -140,7 +140,9 @@ Expected<std::string> add_first_light(const LightOptions& options, const Camera&
   if (light == FirstLight::scene) return describe(light, scene);
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
-  return describe(light, scene);
+  const bool asked = options.light != "auto";
+  return describe(light, scene) +
+         (asked ? "" : ", as the scene brings none (--light, --sun and --sky choose)");
 }
 
 }  // namespace lambent::cli
