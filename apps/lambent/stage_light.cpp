@@ -56,6 +56,9 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
 }
 
 Expected<void> set_sky(const LightOptions& options, Scene& scene) {
+  if (!options.sky.empty() && !options.environment.empty()) {
+    return fail("--sky", "", "give either --sky or --environment");
+  }
   if (!options.environment.empty()) {
     const auto fine = check_image_input(options.environment);
     if (!fine) return tl::unexpected(fine.error());
@@ -64,7 +67,6 @@ Expected<void> set_sky(const LightOptions& options, Scene& scene) {
     scene.environment = std::move(*environment);
   }
   if (options.sky.empty()) return {};
-  if (!options.environment.empty()) return fail("--sky", "", "give either --sky or --environment");
   const auto sky = parse_vec3("--sky", options.sky);
   if (!sky) return tl::unexpected(sky.error());
   if (!are_within(*sky, kMaxRadiance)) return fail("--sky", "", "must be 0 to 1e10 W/(m^2 sr)");

@@ -119,7 +119,7 @@ void FramePassesVulkan::gather() {
       to.run(k.ray_queries, asked, rays);
     });
     look_up("indirect", *request_.sources.field, k.queries, rays, k.gathered_field);
-    add("indirect", [=, this, &k](Recorder& to) {
+    add("indirect", [=, &k](Recorder& to) {
       const GatherSumArguments summed = {{k.points.address()},
                                          {k.gathering_rays.address()},
                                          {k.gathered.address()},

@@ -187,6 +187,7 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
   Image& probes = frame.require("probes", 4);
   Image& picture = *frame.find("");
   std::vector<SphereFinder> finders;
+  finders.reserve(static_cast<std::size_t>(field.store().volumes()));
   for (int volume = 0; volume < field.store().volumes(); ++volume) {
     finders.emplace_back(field.store(), volume, settings.radius);
   }

@@ -64,8 +64,9 @@ bool has_ground(const World& world, const Bounds& bounds) {
   if (size.y < kFlatShare * std::min(size.x, size.z)) return true;
   std::vector<Ray> rays;
   for (int i = 0; i < kRaysAlongEdge * kRaysAlongEdge; ++i) {
-    const float u = (static_cast<float>(i % kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
-    const float v = (static_cast<float>(i / kRaysAlongEdge) + 0.5f) / kRaysAlongEdge;
+    const int column = i % kRaysAlongEdge, row = i / kRaysAlongEdge;
+    const float u = (static_cast<float>(column) + 0.5f) / kRaysAlongEdge;
+    const float v = (static_cast<float>(row) + 0.5f) / kRaysAlongEdge;
     rays.push_back({{bounds.min.x + u * size.x, bounds.max.y + size.y, bounds.min.z + v * size.z},
                     0.0f,
                     {0.0f, -1.0f, 0.0f}});

@@ -11,7 +11,7 @@
 namespace lambent {
 namespace {
 
-using testing::run_program;
+using test::run_program;
 
 LayeredImage frame(float direct, float indirect) {
   LayeredImage image{16, 8, {}};
@@ -28,7 +28,7 @@ class Compare : public ::testing::Test {
     ASSERT_TRUE(write_exr(a, frame(0.5f, 0.3f)));
     ASSERT_TRUE(write_exr(b, frame(0.5f, 0.2f)));
   }
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
   std::string a = directory.file("a.exr"), b = directory.file("b.exr");
 };
 

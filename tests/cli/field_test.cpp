@@ -16,9 +16,9 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
-using testing::ProgramResult;
-using testing::run_program;
 
 const std::string kShape = " --probes 4x5x3 --rays 32 ";
 
@@ -35,7 +35,7 @@ class FieldFiles : public ::testing::Test {
     return field;
   }
 
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
   std::string field = directory.file("a.field"), exr = directory.file("a.exr");
 };
 

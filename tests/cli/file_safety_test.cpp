@@ -21,9 +21,9 @@ namespace lambent {
 namespace {
 
 namespace fs = std::filesystem;
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
-using testing::ProgramResult;
-using testing::run_program;
 
 const std::string kQuick = "--method direct --size 16x12 --samples 1 ";
 
@@ -48,7 +48,7 @@ class FileSafety : public ::testing::Test {
     EXPECT_EQ(kept.empty() ? "" : text_of(kept), before) << command;
   }
 
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(FileSafety, TwoOutputsOfRenderMayNotBeOneFile) {
@@ -163,7 +163,7 @@ TEST_F(FileSafety, AFullDiskIsAFailureThatLeavesNothing) {
 /// Starts the program, sends it a signal after a while, and returns how it ended.
 int interrupted(const std::vector<std::string>& arguments, int number,
                 std::chrono::microseconds after) {
-  const pid_t child = testing::start_program(arguments);
+  const pid_t child = test::start_program(arguments);
   std::this_thread::sleep_for(after);
   kill(child, number);
   int status = -1;

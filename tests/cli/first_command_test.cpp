@@ -15,10 +15,10 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
-using testing::ProgramResult;
-using testing::run_program;
 
 const std::string kDirect = " --method direct --samples 1 --size 16x9 ";
 
@@ -38,7 +38,7 @@ class FirstCommand : public ::testing::Test {
   bool exists(const std::string& name) const {
     return std::filesystem::exists(directory.file(name));
   }
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(FirstCommand, OfABuiltInSceneIsAPictureHere) {

@@ -11,8 +11,8 @@
 
 namespace {
 
-using lambent::testing::ProgramResult;
-using lambent::testing::run_program;
+using lambent::test::ProgramResult;
+using lambent::test::run_program;
 using testing::HasSubstr;
 
 // A triangle, a spot light and a camera; its mesh is named with a terminal escape.
@@ -38,9 +38,9 @@ class Info : public testing::Test {
  protected:
   Info() { std::ofstream(file()) << kScene; }
 
-  std::string file() const { return folder_.file("scene.gltf"); }
+  std::string file() const { return folder.file("scene.gltf"); }
 
-  lambent::testing::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder;
 };
 
 TEST_F(Info, SummarizesForPeople) {
@@ -80,7 +80,7 @@ TEST_F(Info, KnowsBuiltInScenes) {
 }
 
 TEST_F(Info, BadInputIsStatusTwoAndNamesFileAndCause) {
-  const ProgramResult missing = run_program("info " + folder_.file("none.glb"));
+  const ProgramResult missing = run_program("info " + folder.file("none.glb"));
   EXPECT_EQ(missing.status, 2);
   EXPECT_THAT(missing.errors, HasSubstr("none.glb: no such file"));
   std::ofstream(file()) << R"({"asset": {"version": "2.0"}, "scene": 3})";

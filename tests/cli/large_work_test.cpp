@@ -19,9 +19,9 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
-using testing::ProgramResult;
-using testing::run_program;
 
 // Sanitizers take address space and memory of their own.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -44,12 +44,12 @@ class LargeWork : public ::testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
 
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 /// Runs the program and returns the most memory that it had [bytes]; 0 where it failed.
 std::uint64_t peak_of(const std::vector<std::string>& arguments) {
-  const pid_t child = testing::start_program(arguments);
+  const pid_t child = test::start_program(arguments);
   int status = -1;
   rusage use{};
   wait4(child, &status, 0, &use);

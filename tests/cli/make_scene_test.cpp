@@ -10,16 +10,16 @@
 
 namespace {
 
-using lambent::testing::ProgramResult;
-using lambent::testing::run_program;
+using lambent::test::ProgramResult;
+using lambent::test::run_program;
 using testing::HasSubstr;
 
 class MakeScene : public testing::Test {
  protected:
-  std::string file(const char* name) const { return folder_.file(name); }
-  std::size_t files() const { return folder_.entries(); }
+  std::string file(const char* name) const { return folder.file(name); }
+  std::size_t files() const { return folder.entries(); }
 
-  lambent::testing::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder;
 };
 
 TEST_F(MakeScene, WritesOneFileAndSaysWhatIsInIt) {

@@ -10,8 +10,8 @@
 namespace lambent {
 namespace {
 
-using lambent::testing::run_program;
-using lambent::testing::TemporaryDirectory;
+using lambent::test::run_program;
+using lambent::test::TemporaryDirectory;
 using ::testing::HasSubstr;
 
 /// A picture of radiance 0.5 whose layer "direct" has a quarter.

@@ -11,17 +11,17 @@
 
 namespace {
 
-using lambent::testing::ProgramResult;
-using lambent::testing::run_program;
+using lambent::test::ProgramResult;
+using lambent::test::run_program;
 using testing::HasSubstr;
 
 class Prepare : public testing::Test {
  protected:
-  lambent::testing::TemporaryDirectory folder_;
+  lambent::test::TemporaryDirectory folder;
 };
 
 TEST_F(Prepare, WritesTheSceneWithItsLightsAndTheCameraAsked) {
-  const std::string path = folder_.file("cornell.scene");
+  const std::string path = folder.file("cornell.scene");
   const ProgramResult outcome =
       run_program("prepare cornell --sun=0,-1,0 --eye 1,2,3 --target 4,2,3 -o " + path);
   EXPECT_EQ(outcome.status, 0) << outcome.errors;
@@ -34,9 +34,9 @@ TEST_F(Prepare, WritesTheSceneWithItsLightsAndTheCameraAsked) {
 
 TEST_F(Prepare, KeepsTexturesSmallWhereAsked) {
   const ProgramResult outcome =
-      run_program("prepare atrium --texture-size 16 -o " + folder_.file("small"));
+      run_program("prepare atrium --texture-size 16 -o " + folder.file("small"));
   ASSERT_EQ(outcome.status, 0) << outcome.errors;
-  const auto scene = lambent::load_prepared(folder_.file("small"));
+  const auto scene = lambent::load_prepared(folder.file("small"));
   ASSERT_TRUE(scene) << scene.error().message();
   int largest = 0;
   for (const lambent::Texture& texture : scene->textures) {
@@ -46,9 +46,9 @@ TEST_F(Prepare, KeepsTexturesSmallWhereAsked) {
 }
 
 TEST_F(Prepare, WritesNothingOfWhatIsNotThere) {
-  const ProgramResult outcome = run_program("prepare nowhere.glb -o " + folder_.file("a"));
+  const ProgramResult outcome = run_program("prepare nowhere.glb -o " + folder.file("a"));
   EXPECT_EQ(outcome.status, 2);
-  EXPECT_EQ(folder_.entries(), 0u);
+  EXPECT_EQ(folder.entries(), 0u);
 }
 
 }  // namespace

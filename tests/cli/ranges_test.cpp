@@ -19,8 +19,8 @@ namespace {
 
 using ::testing::HasSubstr;
 using Json = nlohmann::json;
-using testing::ProgramResult;
-using testing::run_program;
+using test::ProgramResult;
+using test::run_program;
 
 // Two triangles in the plane z = 0, two metres wide.
 constexpr const char* kScene =
@@ -69,7 +69,7 @@ class Ranges : public ::testing::Test {
     EXPECT_GT(sum, 0.0);
   }
 
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
   std::string picture = directory.file("out.exr"), file = directory.file("scene.gltf");
 };
 

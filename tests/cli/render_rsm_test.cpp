@@ -11,9 +11,9 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
-using testing::ProgramResult;
-using testing::run_program;
 
 class RenderRsm : public ::testing::Test {
  protected:
@@ -26,7 +26,7 @@ class RenderRsm : public ::testing::Test {
     for (const float value : image->find(layer)->pixels) sum += value;
     return sum / static_cast<double>(image->find(layer)->pixels.size());
   }
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
   std::string exr = directory.file("out.exr");
 };
 

@@ -21,9 +21,9 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
-using testing::ProgramResult;
-using testing::run_program;
 
 const std::string kQuick = " --size 24x16 --samples 1 --probes 4x4x4 --rays 32 --updates 3 ";
 
@@ -42,7 +42,7 @@ double mean_of(const std::string& path) {
 
 class RenderSequence : public ::testing::Test {
  protected:
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(RenderSequence, WritesAPictureAFrameAndStatisticsOfEach) {
@@ -156,7 +156,7 @@ struct BadUse {
 class BadSequence : public ::testing::TestWithParam<BadUse> {};
 
 TEST_P(BadSequence, IsStatusTwoAndLeavesNoFile) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const ProgramResult result = run_program(std::string("render ") + GetParam().arguments +
                                            " --method direct -o " + directory.file("out.exr"));
   EXPECT_EQ(result.status, 2) << result.errors;

@@ -17,9 +17,9 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
-using testing::ProgramResult;
-using testing::run_program;
 
 // The cheapest picture that is one.
 const std::string kQuick = " --size 32x18 --samples 1 --probes 4x4x4 --rays 32 --updates 2 ";
@@ -41,7 +41,7 @@ class Render : public ::testing::Test {
   ProgramResult render(const std::string& arguments, const std::string& output) const {
     return run_program("render " + arguments + " -o " + output);
   }
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
   std::string exr = directory.file("out.exr"), png = directory.file("out.png");
 };
 
@@ -158,7 +158,7 @@ struct BadUse {
 class BadRender : public ::testing::TestWithParam<BadUse> {};
 
 TEST_P(BadRender, IsStatusTwoWithACauseAndLeavesNoFile) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string output = directory.file("out.exr");
   const ProgramResult result =
       run_program(std::string("render ") + GetParam().arguments + " -o " + output);
@@ -228,7 +228,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"sun_without_direction", "cornell --sun 0,0,0", "--sun"},
         BadUse{"irradiance_without_sun", "cornell --sun-irradiance 1,1,1", "--sun"},
         BadUse{"negative_sky", "cornell --sky=-1,0,0", "--sky"},
-        BadUse{"sky_and_environment", "cornell --sky 1,1,1 --environment nowhere.hdr", ""},
+        BadUse{"sky_and_environment", "cornell --sky 1,1,1 --environment nowhere.hdr",
+               "either --sky or --environment"},
         BadUse{"missing_environment", "cornell --environment nowhere.hdr", "nowhere.hdr"},
         BadUse{"no_threads", "cornell --threads 0", "--threads"},
         BadUse{"samples_not_a_number", "cornell --samples many", "--samples"},

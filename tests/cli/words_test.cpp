@@ -15,10 +15,10 @@
 namespace lambent {
 namespace {
 
+using test::ProgramResult;
+using test::run_program;
 using ::testing::HasSubstr;
 using ::testing::Not;
-using testing::ProgramResult;
-using testing::run_program;
 
 struct Mistake {
   const char* name;
@@ -120,7 +120,7 @@ class Files : public ::testing::Test {
     EXPECT_EQ(result.status, status) << arguments << "\n" << result.errors;
     return result.errors;
   }
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(Files, OfTheWrongKindAreNamedForWhatTheyAre) {
@@ -141,7 +141,7 @@ TEST_F(Files, OfTheWrongKindAreNamedForWhatTheyAre) {
   EXPECT_THAT(said("render cornell --environment " + field), HasSubstr("not an image"));
   std::ofstream(directory.file("a.obj")) << "v 0 0 0\n";
   EXPECT_THAT(said("info " + directory.file("a.obj")), HasSubstr("Wavefront OBJ"));
-  std::ofstream(directory.file("none.glb"));
+  std::ofstream(directory.file("none.glb")) << "";
   EXPECT_THAT(said("info " + directory.file("none.glb")), HasSubstr("is an empty file"));
   std::ofstream(directory.file("text.glb")) << "hello";
   EXPECT_THAT(said("info " + directory.file("text.glb")), HasSubstr("is not a glTF scene"));
@@ -252,7 +252,7 @@ TEST(Scenes, AreListedForPeopleAndForPrograms) {
 
 TEST(StandardOutput, ThatIsFullIsAFailure) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "there is no /dev/full";
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string image = directory.file("u.exr"), field = directory.file("a.field");
   ASSERT_TRUE(write_exr(image, {16, 16, {{"", Image(16, 16, 3)}}}));
   ASSERT_EQ(run_program("bake cornell --probes 2x2x2 --updates 1 -o " + field).status, 0);

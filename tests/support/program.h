@@ -14,7 +14,7 @@
 
 #include "support/temporary_directory.h"
 
-namespace lambent::testing {
+namespace lambent::test {
 
 struct ProgramResult {
   int status = -1;     ///< Exit status; -1 where the program was killed.
@@ -57,4 +57,4 @@ inline pid_t start_program(const std::vector<std::string>& arguments) {
   return child;
 }
 
-}  // namespace lambent::testing
+}  // namespace lambent::test

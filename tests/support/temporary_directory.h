@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-namespace lambent::testing {
+namespace lambent::test {
 
 /// A directory of the running test's own, removed with all it holds. `purpose` tells several of one
 /// test apart.
@@ -38,4 +38,4 @@ class TemporaryDirectory {
   std::filesystem::path path_;
 };
 
-}  // namespace lambent::testing
+}  // namespace lambent::test

@@ -232,7 +232,7 @@ TEST_F(FieldOverTime, ComesAndGoesWithItsLight) {
 }
 
 TEST_F(FieldOverTime, IsSavedAsItIs) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   Twins twins("cornell", small(), shared_device());
   for (int i = 0; i < 2; ++i) twins.update();
   const std::string path = directory.file("cornell.field");

@@ -30,7 +30,7 @@ std::string text_of(const std::string& path) {
 }
 
 TEST(AtomicFile, ReplacesTheFileAndLeavesNothingElse) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   ASSERT_TRUE(write_file_atomically(directory.file("a.txt"), "first"));
   ASSERT_TRUE(write_file_atomically(directory.file("a.txt"), "second"));
   EXPECT_EQ(text_of(directory.file("a.txt")), "second");
@@ -38,7 +38,7 @@ TEST(AtomicFile, ReplacesTheFileAndLeavesNothingElse) {
 }
 
 TEST(AtomicFile, MissingDirectoryIsAFailureThatNamesThePath) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string path = directory.file("missing/a.txt");
   const auto written = write_file_atomically(path, "text");
   ASSERT_FALSE(written);
@@ -49,7 +49,7 @@ TEST(AtomicFile, MissingDirectoryIsAFailureThatNamesThePath) {
 }
 
 TEST(AtomicFile, RefusesADirectoryAndLeavesItAlone) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   fs::create_directory(directory.path() / "d");
   const auto written = write_file_atomically(directory.file("d"), "text");
   ASSERT_FALSE(written);
@@ -58,7 +58,7 @@ TEST(AtomicFile, RefusesADirectoryAndLeavesItAlone) {
 }
 
 TEST(AtomicFile, WritesThroughASymbolicLink) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   ASSERT_TRUE(write_file_atomically(directory.file("target"), "old"));
   fs::create_symlink("target", directory.path() / "link");
   ASSERT_TRUE(write_file_atomically(directory.file("link"), "new"));
@@ -67,7 +67,7 @@ TEST(AtomicFile, WritesThroughASymbolicLink) {
 }
 
 TEST(AtomicFile, MakesTheFileThatADanglingLinkLeadsTo) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   fs::create_directory(directory.path() / "inner");
   fs::create_symlink("inner/later", directory.path() / "link");
   ASSERT_TRUE(write_file_atomically(directory.file("link"), "new"));
@@ -76,7 +76,7 @@ TEST(AtomicFile, MakesTheFileThatADanglingLinkLeadsTo) {
 }
 
 TEST(AtomicFile, KeepsTheRightsOfTheFileThatItReplaces) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   ASSERT_TRUE(write_file_atomically(directory.file("a"), "secret"));
   fs::permissions(directory.file("a"), fs::perms::owner_read | fs::perms::owner_write);
   ASSERT_TRUE(write_file_atomically(directory.file("a"), "another"));
@@ -90,7 +90,7 @@ std::span<const std::byte> bytes_of(std::string_view text) {
 
 class UnfinishedFile : public ::testing::TestWithParam<AtomicFile::Unfinished> {
  protected:
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_P(UnfinishedFile, LeavesWhatWasThere) {
@@ -142,7 +142,7 @@ INSTANTIATE_TEST_SUITE_P(How, UnfinishedFile,
                          });
 
 TEST(AtomicFile, SendsItsContentThroughAPipe) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string pipe = directory.file("pipe");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::string received;
@@ -159,7 +159,7 @@ TEST(AtomicFile, SendsItsContentThroughAPipe) {
 
 TEST(AtomicFile, AppendsToAnOpenDescriptor) {
   // As /dev/stdout is one where a shell appends it to a file
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const int open_file = ::open(directory.file("log").c_str(), O_WRONLY | O_CREAT, 0600);
   ASSERT_GE(open_file, 0);
   ASSERT_EQ(::write(open_file, "before ", 7), 7);
@@ -170,7 +170,7 @@ TEST(AtomicFile, AppendsToAnOpenDescriptor) {
 }
 
 TEST(AtomicFile, TellsBeforehandWhatCouldNotBeWritten) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   EXPECT_TRUE(check_writable(directory.file("new.txt")));
   EXPECT_TRUE(check_writable("/dev/null"));
   EXPECT_FALSE(check_writable(""));
@@ -188,7 +188,7 @@ TEST(AtomicFile, FullDiskIsAFailureNotBadInput) {
 }
 
 TEST(ReadFile, RefusesWhatIsMissingTooLargeOrADirectory) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   EXPECT_EQ(read_file("").error().cause, "the name of the file to read is empty");
   EXPECT_EQ(read_file(directory.file("none")).error().cause, "no such file");
   EXPECT_EQ(read_file(directory.path().string()).error().cause, "is a directory, not a file");

@@ -172,7 +172,7 @@ TEST(Cascades, FollowEditsWhileTheViewerMoves) {
 }
 
 TEST(Cascades, SurviveTheirFile) {
-  testing::TemporaryDirectory folder;
+  test::TemporaryDirectory folder;
   const std::string path = folder.file("a.field");
   const Stage& stage = cornell();
   IrradianceField field = settled_cascades(stage, cascades(2), kMiddle, 4);

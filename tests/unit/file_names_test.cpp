@@ -24,7 +24,7 @@ class FileNames : public ::testing::Test {
   }
   std::string file(const std::string& name) const { return directory.file(name); }
 
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(FileNames, KnowAFileByAnySpellingOfItsPath) {

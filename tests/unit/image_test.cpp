@@ -68,7 +68,7 @@ TEST(LayeredImage, RequireMakesAMissingLayerOnce) {
 }
 
 TEST(Exr, RoundTripKeepsEveryLayerExactly) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   LayeredImage image = layered_ramp();
   image.find("direct")->at(2, 3)[0] = std::numeric_limits<float>::infinity();
   image.find("direct")->at(2, 3)[1] = 1e-38f;
@@ -86,7 +86,7 @@ TEST(Exr, RoundTripKeepsEveryLayerExactly) {
 }
 
 TEST(Exr, ReadsHalfChannelsUnderForeignNamesAndAShiftedWindow) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string path = directory.file("blender.exr");
   const Imath::Box2i window({5, -3}, {8, -2});
   Imf::Header header(window, window);
@@ -121,14 +121,14 @@ TEST(Exr, ReadsHalfChannelsUnderForeignNamesAndAShiftedWindow) {
 }
 
 TEST(Exr, TruncatedFilesAreErrors) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   LayeredImage image{64, 48, {{"", ramp(64, 48, 3)}}};
   ASSERT_TRUE(write_exr(directory.file("a.exr"), image));
   expect_truncations_fail(directory.file("a.exr"), directory.file("cut.exr"));
 }
 
 TEST(Exr, CorruptFilesNeverThrowOrCrash) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const LayeredImage image = layered_ramp();
   ASSERT_TRUE(write_exr(directory.file("a.exr"), image));
   const auto whole = read_file(directory.file("a.exr"));
@@ -143,7 +143,7 @@ TEST(Exr, CorruptFilesNeverThrowOrCrash) {
 }
 
 TEST(Exr, AbsurdSizeInATinyFileIsRefused) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   LayeredImage image{4, 4, {{"", ramp(4, 4, 3)}}};
   ASSERT_TRUE(write_exr(directory.file("a.exr"), image));
   auto bytes = *read_file(directory.file("a.exr"));
@@ -158,7 +158,7 @@ TEST(Exr, AbsurdSizeInATinyFileIsRefused) {
 }
 
 TEST(Exr, LayersThatDisagreeAreRefusedBeforeWriting) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   LayeredImage image{4, 4, {{"", ramp(4, 4, 3)}, {"direct", ramp(4, 3, 3)}}};
   const auto written = write_exr(directory.file("a.exr"), image);
   ASSERT_FALSE(written);
@@ -172,7 +172,7 @@ TEST(Exr, LayersThatDisagreeAreRefusedBeforeWriting) {
 }
 
 TEST(Png, RoundTripIsWithinHalfALevelAndDecodesToLinear) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   for (const int channels : {1, 3, 4}) {
     const Image encoded = ramp(13, 7, channels);
     ASSERT_TRUE(write_png(directory.file("a.png"), encoded));
@@ -190,7 +190,7 @@ TEST(Png, RoundTripIsWithinHalfALevelAndDecodesToLinear) {
 }
 
 TEST(Png, ClampsAndShowsNanAsBlack) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   Image image(4, 1, 1);
   image.pixels = {-3.0f, 7.0f, std::nanf(""), std::numeric_limits<float>::infinity()};
   ASSERT_TRUE(write_png(directory.file("a.png"), image));
@@ -200,7 +200,7 @@ TEST(Png, ClampsAndShowsNanAsBlack) {
 }
 
 TEST(Png, TruncatedFilesAreErrors) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   ASSERT_TRUE(write_png(directory.file("a.png"), ramp(64, 48, 3)));
   expect_truncations_fail(directory.file("a.png"), directory.file("cut.png"));
 }
@@ -212,7 +212,7 @@ void append(void* context, void* data, int size) {
 }
 
 TEST(Jpeg, IsReadAndItsTruncationsAreErrors) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::vector<std::uint8_t> grey(64 * 48 * 3, 128);
   std::vector<std::byte> bytes;
   ASSERT_NE(stbi_write_jpg_to_func(append, &bytes, 64, 48, 3, grey.data(), 90), 0);
@@ -224,7 +224,7 @@ TEST(Jpeg, IsReadAndItsTruncationsAreErrors) {
 }
 
 TEST(Jpeg, IsWrittenAsItIsShown) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   Image shown(67, 45, 3);  // no multiple of a block's 8 pixels
   for (int y = 0; y < shown.height; ++y) {
     for (int x = 0; x < shown.width; ++x) {
@@ -250,7 +250,7 @@ TEST(Jpeg, IsWrittenAsItIsShown) {
 }
 
 TEST(Jpeg, TakesGreyAndAlphaAndWhatIsNoNumber) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   Image grey(8, 8, 1), with_alpha(8, 8, 4);
   for (float& value : grey.pixels) value = 0.5f;
   for (float& value : with_alpha.pixels) value = std::numeric_limits<float>::quiet_NaN();
@@ -265,7 +265,7 @@ TEST(Jpeg, TakesGreyAndAlphaAndWhatIsNoNumber) {
 }
 
 TEST(Jpeg, WhatNoJpegHoldsIsRefused) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const std::string path = directory.file("a.jpg");
   EXPECT_FALSE(write_jpeg(path, Image(8, 8, 2)));
   EXPECT_FALSE(write_jpeg(path, Image(0, 8, 3)));
@@ -290,7 +290,7 @@ TEST(Jpeg, ImpossibleHuffmanTablesAreRefusedBeforeDecoding) {
 }
 
 TEST(Hdr, RoundTripIsWithinTheSharedExponentAndTruncationsAreErrors) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   for (const int width : {5, 40}) {  // Narrow files are stored flat, wide ones run-length encoded.
     Image image = ramp(width, 9, 3);
     for (float& value : image.pixels) value *= 500.0f;
@@ -313,7 +313,7 @@ TEST(Hdr, RoundTripIsWithinTheSharedExponentAndTruncationsAreErrors) {
 }
 
 TEST(ReadImage, NamesWhatIsWrongWithFilesThatAreNoImages) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   EXPECT_EQ(read_image(directory.file("none.exr")).error().cause, "no such file");
   ASSERT_TRUE(write_file_atomically(directory.file("text.png"), "hello"));
   EXPECT_EQ(read_image(directory.file("text.png")).error().cause,

@@ -25,7 +25,7 @@ class AvailableMemory : public ::testing::Test {
   }
   std::uint64_t available() const { return available_memory(directory.path().string()); }
 
-  testing::TemporaryDirectory directory;
+  test::TemporaryDirectory directory;
 };
 
 TEST_F(AvailableMemory, IsWhatTheSystemCallsSo) {

@@ -117,7 +117,7 @@ class PreparedScene : public ::testing::Test {
     return load_prepared(path());
   }
 
-  testing::TemporaryDirectory folder_;
+  test::TemporaryDirectory folder_;
 };
 
 TEST_F(PreparedScene, ComesBackAsItWas) {

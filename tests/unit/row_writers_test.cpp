@@ -39,7 +39,7 @@ std::vector<std::byte> content(const std::string& path) {
 }
 
 TEST(ExrWriter, MakesTheSameBytesOfAnyRowsAtATime) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const LayeredImage image{kWidth, kHeight, {{"", pattern(3)}, {"depth", pattern(1)}}};
   ASSERT_TRUE(write_exr(directory.file("whole.exr"), image));
   for (const int at_once : kRowsAtOnce) {
@@ -59,7 +59,7 @@ TEST(ExrWriter, MakesTheSameBytesOfAnyRowsAtATime) {
 }
 
 TEST(PngWriter, MakesTheSameBytesOfAnyRowsAtATime) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   for (const int channels : {1, 3, 4}) {
     const Image image = pattern(channels);
     ASSERT_TRUE(write_png(directory.file("whole.png"), image));
@@ -76,7 +76,7 @@ TEST(PngWriter, MakesTheSameBytesOfAnyRowsAtATime) {
 }
 
 TEST(RowWriters, LeaveNothingOfAPictureThatWasNotFinished) {
-  const testing::TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   const LayeredImage image{kWidth, kHeight, {{"", pattern(3)}}};
   {
     auto exr = ExrWriter::open(directory.file("a.exr"), image, 2 * kHeight);

@@ -45,7 +45,7 @@ std::vector<FieldQuery> queries_in(const FieldGrid& grid) {
 
 class SavedField : public ::testing::Test {
  protected:
-  testing::TemporaryDirectory folder;
+  test::TemporaryDirectory folder;
   std::string path = folder.file("a.field");
   Stage stage{"cornell"};
 

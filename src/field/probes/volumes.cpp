@@ -262,6 +262,7 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
     return smallest_spacing(a.volume.grid) < smallest_spacing(b.volume.grid);
   });
   std::vector<Volume> volumes;
+  volumes.reserve(asked.size());
   for (const Asked& one : asked) volumes.push_back(one.volume);
 
   // Add the volume or the cascades that cover everything
