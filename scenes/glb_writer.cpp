@@ -8,7 +8,7 @@
 #include <glm/gtc/type_ptr.hpp>
 #include <set>
 
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "scenes/glb_container.h"
 #include "scenes/png_encoder.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file_names.h"
+#include "core/files/file_names.h"
 #include "lambent/error.h"
 
 namespace lambent::cli {

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 namespace lambent::cli {
 namespace {

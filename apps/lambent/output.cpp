@@ -9,7 +9,7 @@
 #include <system_error>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "lambent/parse.h"
 #include "lambent/words.h"
 #include "scenes/builtin.h"

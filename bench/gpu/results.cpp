@@ -6,8 +6,8 @@
 #include <limits>
 #include <span>
 
-#include "core/atomic_file.h"
-#include "core/file_bytes.h"
+#include "core/files/atomic_file.h"
+#include "core/files/file_bytes.h"
 #include "core/little_endian.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"

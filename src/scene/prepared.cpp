@@ -9,8 +9,8 @@
 #include <string_view>
 #include <type_traits>
 
-#include "core/atomic_file.h"
-#include "core/file_bytes.h"
+#include "core/files/atomic_file.h"
+#include "core/files/file_bytes.h"
 #include "core/little_endian.h"
 
 namespace lambent {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include <string_view>
 #include <thread>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "support/temporary_directory.h"
 
 namespace lambent {

@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "field/file/layout.h"
 
 namespace lambent {

@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "fuzz/gltf_input.h"
 #include "scene/gltf/import.h"
 #include "scene/texture.h"

@@ -14,8 +14,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/atomic_file.h"
-#include "core/file_bytes.h"
+#include "core/files/atomic_file.h"
+#include "core/files/file_bytes.h"
 #include "core/image/codecs/formats.h"
 #include "core/image/codecs/stb.h"
 #include "shared/color.h"

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "support/hand_made.h"
 #include "support/temporary_directory.h"
 

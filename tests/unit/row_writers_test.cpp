@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "support/temporary_directory.h"
 
 namespace lambent {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "field/file/field_file.h"
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"

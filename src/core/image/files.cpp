@@ -2,7 +2,7 @@
 // Images from and to files of any format.
 #include <new>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "core/image/codecs/formats.h"
 #include "core/memory.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/checksum.h"
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "core/little_endian.h"
 #include "field/file/field_file.h"
 #include "field/file/layout.h"

@@ -4,7 +4,7 @@
 #include <numeric>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "field/field_state.h"
 #include "field/file/field_file.h"
 #include "field/probes/tile_light.h"

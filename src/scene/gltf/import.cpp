@@ -6,7 +6,7 @@
 #include <new>
 #include <optional>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "scene/animation/pose.h"
 #include "scene/gltf/animations.h"
 #include "scene/gltf/document/accessors.h"

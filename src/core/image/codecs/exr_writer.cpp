@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/image/codecs/formats.h"
 #include "core/image/codecs/row_writers.h"
 

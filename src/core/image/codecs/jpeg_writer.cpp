@@ -12,7 +12,7 @@
 
 #include <jpeglib.h>
 
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 #include "core/image/codecs/formats.h"
 #include "core/image/codecs/row_writers.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 #include "scene/gltf/document/document.h"
 
 namespace lambent::gltf {

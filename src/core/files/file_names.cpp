@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/file_names.h"
+#include "core/files/file_names.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/atomic_file.h"
+#include "core/files/atomic_file.h"
 
 #include <fcntl.h>
 #include <pthread.h>
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/file_names.h"
+#include "core/files/file_names.h"
 
 namespace lambent {
 namespace {

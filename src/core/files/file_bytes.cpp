@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/file_bytes.h"
+#include "core/files/file_bytes.h"
 
 #include <cerrno>
 #include <cstdio>
