@@ -33,10 +33,10 @@ void update(benchmark::State& state) {
     update_ms.add(elapsed);
     tracing_ms.add(tracing);
     ratio.add(elapsed / tracing);
-    blend.add(last.blend_ms / tracing);
-    solve_bounces.add(last.solve_ms / last.solve_iterations / tracing);
-    trace.add(last.trace_ms / tracing);
-    shade.add(last.shade_ms / tracing);
+    blend.add((last.ms("blend_distances") + last.ms("store")) / tracing);
+    solve_bounces.add(last.ms("solve") / last.solve_iterations / tracing);
+    trace.add(last.ms("trace") / tracing);
+    shade.add((last.ms("shade") + last.ms("lookups")) / tracing);
     solve_iterations.add(last.solve_iterations);
   }
   state.counters["median_ms"] = update_ms.value();

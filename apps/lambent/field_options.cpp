@@ -12,6 +12,12 @@
 namespace lambent::cli {
 namespace {
 
+// Passes whose rows statistics have whether or not they ran, by the names of
+// UpdateStatistics::passes.
+constexpr const char* kPasses[] = {"placement",  "edits",   "schedule",   "trace",
+                                   "shade",      "lookups", "solve",      "blend_distances",
+                                   "visibility", "store",   "variability"};
+
 // Light is called settled when an update changes the field by less than this share of it ...
 constexpr double kSettledChange = 0.002;
 // ... or after so many updates.
@@ -57,16 +63,13 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
                           const ProgressFn& progress, nlohmann::ordered_json& stats) {
   FieldProgress reached;
   UpdateStatistics last, sum;
+  std::map<std::string, double> pass_ms;
+  for (const char* pass : kPasses) pass_ms[pass] = 0.0;
   while (reached.updates < most && !(until_settled && reached.settled)) {
     last = field.update(world, request);
     ++reached.updates;
     reached.settled = last.change < kSettledChange;
-    sum.place_ms += last.place_ms;
-    sum.edits_ms += last.edits_ms;
-    sum.trace_ms += last.trace_ms;
-    sum.shade_ms += last.shade_ms;
-    sum.solve_ms += last.solve_ms;
-    sum.blend_ms += last.blend_ms;
+    for (const PassTime& pass : last.passes) pass_ms[pass.name] += pass.ms;
     sum.probe_rays += last.probe_rays;
     sum.shadow_rays += last.shadow_rays;
     sum.probes_traced += last.probes_traced;
@@ -102,12 +105,7 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
   stats["solve_iterations_last_update"] = last.solve_iterations;
   stats["solve_residual"] = last.residual;
   stats["field_change_last_update"] = last.change;
-  stats["place_ms"] = sum.place_ms;
-  stats["edits_ms"] = sum.edits_ms;
-  stats["trace_ms"] = sum.trace_ms;
-  stats["shade_ms"] = sum.shade_ms;
-  stats["solve_ms"] = sum.solve_ms;
-  stats["blend_ms"] = sum.blend_ms;
+  for (const auto& [pass, ms] : pass_ms) stats[pass + "_ms"] = ms;
   return reached;
 }
 

@@ -42,13 +42,14 @@ struct UpdateTimes {
   Median trace, shade, solve_bounces, blend, place, all, rays;
 
   void add(const UpdateStatistics& update) {
-    trace.add(update.trace_ms);
-    shade.add(update.shade_ms);
-    solve_bounces.add(update.solve_ms);
-    blend.add(update.blend_ms);
-    place.add(update.place_ms + update.edits_ms);
-    all.add(update.trace_ms + update.shade_ms + update.solve_ms + update.blend_ms +
-            update.place_ms + update.edits_ms);
+    trace.add(update.ms("trace"));
+    shade.add(update.ms("shade") + update.ms("visibility") + update.ms("lookups"));
+    solve_bounces.add(update.ms("solve"));
+    blend.add(update.ms("blend_distances") + update.ms("store"));
+    place.add(update.ms("placement") + update.ms("edits"));
+    double sum = 0.0;
+    for (const PassTime& pass : update.passes) sum += pass.ms;
+    all.add(sum);
     rays.add(static_cast<double>(update.probe_rays));
   }
 };

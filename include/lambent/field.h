@@ -8,15 +8,18 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "lambent/error.h"
+#include "lambent/pass_time.h"
 #include "lambent/scene.h"
 
 namespace lambent {
 
 class World;
 class ProbeStore;
-class FieldBackend;
+class DeviceLookups;
 struct ProbeStatus;
 struct LoadedField;
 
@@ -165,14 +168,19 @@ struct ProbeCounts {
   int vigilant = 0;        ///< Light static surfaces.
 };
 
-/// What an update did. Times are wall-clock [ms].
+/// What an update did.
 struct UpdateStatistics {
-  double place_ms = 0.0;          ///< Scrolling, relocation and classification.
-  double edits_ms = 0.0;          ///< Bringing stale probes up to date with edits of the world.
-  double trace_ms = 0.0;          ///< Closest hits of the probe rays.
-  double shade_ms = 0.0;          ///< Surfaces, direct light with shadow rays, and lookup weights.
-  double solve_ms = 0.0;          ///< Multi-bounce solve.
-  double blend_ms = 0.0;          ///< Distances and irradiance into the store.
+  /// The passes that ran, in their order, and their times: wall-clock time on the processor, the
+  /// device's own time on a device. A pass that ran several times is there once.
+  /// "placement": scrolling, relocation and classification. "edits": bringing stale probes up to
+  /// date with edits of the world. "schedule": choosing the probes to trace. "trace": closest hits
+  /// of their rays. "shade": surfaces, and direct light with shadow rays. "blend_distances":
+  /// distances into the store. "visibility": which probes see each other, with hybrid visibility.
+  /// "lookups": lookup weights of surfels. "solve": multi-bounce solve, of edits too.
+  /// "variability": how much the light changed. "store": irradiance into the store.
+  std::vector<PassTime> passes;
+  /// Time of a pass [ms]; 0 where it did not run.
+  double ms(std::string_view pass) const;
   std::uint64_t probe_rays = 0;   ///< Traced from probes.
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
@@ -235,9 +243,9 @@ class IrradianceField {
   const ProbeStore& store() const;
   /// The state and history of each probe, for tools that look inside.
   std::span<const ProbeStatus> probe_statuses() const;
-  /// The backend that keeps the field in a device's memory, for passes there. Null where the
-  /// processor's memory holds the field.
-  const FieldBackend* on_device() const;
+  /// Looks the field up in a device's memory, for passes there. Null where the processor's memory
+  /// holds the field.
+  const DeviceLookups* on_device() const;
 
  private:
   friend Expected<void> save_field(const std::string& path, const IrradianceField& field,

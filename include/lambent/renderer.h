@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "lambent/image.h"
+#include "lambent/pass_time.h"
 #include "lambent/progress.h"
 #include "lambent/scene.h"
 
@@ -35,12 +36,6 @@ struct FrameSettings {
   /// and of two rays for each.
   int gather_rays = 0;
   std::uint32_t seed = 1;  ///< Of all random numbers. Frames of different seeds differ in noise.
-};
-
-/// Wall-clock time of one pass of the frame.
-struct PassTime {
-  std::string name;  ///< The pass's name wherever it appears: "gbuffer", "direct", "indirect", ...
-  double ms = 0.0;   ///< Summed over the frame's samples.
 };
 
 struct RenderedFrame {

@@ -190,6 +190,10 @@ class RecordedField {
   /// and as high as the device decided on probes; ray (x, y) is y * width + x. None else.
   BufferRange ray_launch() const;
 
+  /// What each pass took on the device in the last update that had finished when `plan` was called
+  /// [ms], in their order, by the names of UpdateStatistics::passes; none where the device has no
+  /// timestamps, and of parts that were not recorded.
+  const std::vector<PassTime>& pass_times() const;
   LookupBuffers lookup_buffers() const;
   /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are
   /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.

@@ -7,7 +7,7 @@
 #include "compose/pixel_math.h"
 #include "compose/rsm_frame.h"
 #include "core/parallel.h"
-#include "core/stopwatch.h"
+#include "core/pass_times.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
 #include "scene/light_sampling.h"
@@ -43,28 +43,6 @@ struct Layers {
 void add(Layers::Pixels& layer, std::size_t pixel, const vec3& value) {
   for (int c = 0; c < 3; ++c) layer.data[3 * pixel + c] += value[c];
 }
-
-/// Adds up the time of each pass over bands and samples.
-class PassTimer {
- public:
-  explicit PassTimer(std::vector<PassTime>& passes) : passes_(passes) {}
-
-  /// Books the time since the last call on a pass.
-  void finish(const char* name) {
-    const double ms = watch_.lap();
-    for (PassTime& pass : passes_) {
-      if (pass.name == name) {
-        pass.ms += ms;
-        return;
-      }
-    }
-    passes_.push_back({name, ms});
-  }
-
- private:
-  std::vector<PassTime>& passes_;
-  Stopwatch watch_;
-};
 
 /// Irradiance of the field at each pixel, on a surface that faces along normal(pixel).
 template <class Normal>

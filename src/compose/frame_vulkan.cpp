@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/pass_times.h"
 #include "raytracing/camera_rays.h"
 
 namespace lambent {
@@ -59,13 +60,7 @@ void FramePassesVulkan::run_steps() {
   });
   for (const Buffer& count : shadow_rays_) frame_.rays += count.as<uint>().front();
   for (const vulkan::DevicePassTime& time : timestamps_.read()) {
-    const auto known = std::find_if(frame_.passes.begin(), frame_.passes.end(),
-                                    [&](const PassTime& pass) { return pass.name == time.name; });
-    if (known == frame_.passes.end()) {
-      frame_.passes.push_back({time.name, time.ms});
-    } else {
-      known->ms += time.ms;
-    }
+    add_pass_time(frame_.passes, time.name, time.ms);
   }
   steps_.clear();
 }

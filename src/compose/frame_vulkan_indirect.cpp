@@ -25,7 +25,7 @@ constexpr std::uint32_t kViewPixels = 1u << 18;
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count,
                                 const Buffer& irradiance) {
-  const FieldBackend* there = field.on_device();
+  const DeviceLookups* there = field.on_device();
   if (there != nullptr && there->is_on(request_.world)) {
     add(name, [this, there, &queries, &irradiance, count](Recorder& to) {
       there->record_lookups(to, &request_.world, queries.address(), count, irradiance.address());

@@ -5,15 +5,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "core/parallel.h"
 #include "field/field_state.h"
-#include "field/lookup/lookup_volumes.h"
-#include "field/probes/tile_fit.h"
 
 namespace lambent {
 namespace {
-
-constexpr std::size_t kQueriesPerTask = 4096;
 
 std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
   std::vector<VolumeRole> roles;
@@ -52,20 +47,16 @@ Expected<void> check_settings(const FieldSettings& s) {
   return {};
 }
 
-IrradianceField::State::State(const FieldSettings& field_settings, std::span<const Volume> volumes)
+IrradianceField::State::State(const FieldSettings& field_settings,
+                              std::span<const Volume> asked_volumes)
     : settings(field_settings),
-      roles(roles_of(volumes)),
-      store(grids_of(volumes), field_settings),
-      tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
-      traces(store.probes()),
-      statuses(store.probes()),
-      cell_visibility(store.probes()),
-      classification_inputs(store.probes()),
-      light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
-      last_irradiance_estimate(light.size(), vec4(0.0f)),
-      last_estimate_is_coarse(store.probes()),
-      scheduler(store.probes(), roles, settings) {
-  for (const ProbeGrid& grid : store.grids()) grids.push_back(field_grid(grid));
+      volumes{roles_of(asked_volumes), {}},
+      data(grids_of(asked_volumes), settings),
+      statuses(data.store.probes()),
+      placement{.classification_inputs = std::vector<ClassificationInput>(data.store.probes())},
+      scheduling{ProbeScheduler(data.store.probes(), volumes.roles, settings)},
+      backend(make_field_backend_cpu(data)) {
+  for (const ProbeGrid& grid : data.store.grids()) volumes.grids.push_back(field_grid(grid));
 }
 
 IrradianceField::IrradianceField(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -84,44 +75,34 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 
 void IrradianceField::reset() {
   State& s = *state_;
-  s.device.reset();
-  s.host_light_is_stale = s.host_store_is_stale = false;
-  s.store.clear();
-  std::fill(s.light.begin(), s.light.end(), vec4(0.0f));
+  s.backend = make_field_backend_cpu(s.data);
+  s.data.clear();
   std::fill(s.statuses.begin(), s.statuses.end(), ProbeStatus{});
-  std::fill(s.traces.begin(), s.traces.end(), ProbeTrace{});
-  std::fill(s.classification_inputs.begin(), s.classification_inputs.end(), ClassificationInput{});
-  s.cell_visibility = CellVisibility(s.store.probes());
-  std::fill(s.last_irradiance_estimate.begin(), s.last_irradiance_estimate.end(), vec4(0.0f));
-  s.pending_edits = {};
-  s.edited_places.clear();
-  s.stale_sleeping.clear();
-  s.applied_revision = 0;
-  s.classified = false;
-  s.scheduler.mark_all_changed();
-  s.warming_up = true;
-  s.mean_light = 0.0f;
-  s.applied_edits_last = false;
+  std::fill(s.placement.classification_inputs.begin(), s.placement.classification_inputs.end(),
+            ClassificationInput{});
+  s.edits.pending = {};
+  s.placement.edited_places.clear();
+  s.edits.stale_sleeping.clear();
+  s.edits.applied_revision = 0;
+  s.placement.classified = false;
+  s.scheduling.scheduler.mark_all_changed();
+  s.scheduling.warming_up = true;
+  s.scheduling.mean_light = 0.0f;
+  s.edits.applied_last = false;
   s.updates = 0;
 }
 
 void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                                  const World* world) const {
   assert(queries.size() == result.size());
-  const State& s = *state_;
-  if (s.device) return s.device->irradiance(queries, world, result);
-  const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
-  parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
-    lookup_irradiance(s.store, {s.settings.visibility, tracer, &s.cell_visibility},
-                      queries.subspan(begin, end - begin), result.subspan(begin, end - begin));
-  });
+  state_->backend->irradiance(queries, world, result);
 }
 
 std::span<const FieldGrid> IrradianceField::grids() const {
-  return state_->grids;
+  return state_->volumes.grids;
 }
 int IrradianceField::probes() const {
-  return state_->store.probes();
+  return state_->data.store.probes();
 }
 const FieldSettings& IrradianceField::settings() const {
   return state_->settings;
@@ -130,20 +111,17 @@ int IrradianceField::updates() const {
   return state_->updates;
 }
 std::size_t IrradianceField::store_bytes() const {
-  return state_->store.bytes();
+  return state_->data.store.bytes();
 }
 std::size_t IrradianceField::surfel_bytes() const {
-  if (state_->device) return state_->device->surfel_bytes();
-  std::size_t bytes = 0;
-  for (const ProbeTrace& trace : state_->traces) bytes += trace.bytes();
-  return bytes;
+  return state_->backend->surfel_bytes();
 }
 const ProbeStore& IrradianceField::store() const {
-  state_->fetch_store();
-  return state_->store;
+  state_->backend->fetch_store();
+  return state_->data.store;
 }
-const FieldBackend* IrradianceField::on_device() const {
-  return state_->device.get();
+const DeviceLookups* IrradianceField::on_device() const {
+  return state_->backend->on_device();
 }
 std::span<const ProbeStatus> IrradianceField::probe_statuses() const {
   return state_->statuses;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an update asks of a device that keeps the field's tiles, surfels and light in its own
-// memory. IrradianceField::State decides what is done with which probes, as it does on the
-// processor. What it decides by (probe statuses, positions, and the light where edits are applied)
-// stays on the host or is read back.
+// Where a field lives, and who runs its passes there: the processor, or a device that keeps tiles,
+// surfels and light in its own memory. IrradianceField::State decides what is done with which
+// probes. What it decides by (probe statuses, positions, and the light where edits are applied) is
+// in the processor's memory, which a device's backend brings up to date when it is asked to.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "field/edits/invalidation.h"
+#include "field/probe_data.h"
 #include "field/transport/solve_bounces.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
@@ -27,95 +29,104 @@ struct LightChange {
   float before, now;      ///< Mean luminance of the probe's texels before and after the update.
 };
 
-/// The outcome of a solve for the light of some probes, without the solution itself.
-struct DeviceSolve {
-  int iterations = 0;
-  double error = 0.0;   ///< See SolveResult::error.
-  double change = 0.0;  ///< See SolveResult::change.
-};
-
-/// The arguments of FieldBackend::trace.
-struct DeviceTracing {
+/// The arguments of FieldBackend::update_probes.
+struct ProbeUpdate {
   const World& world;
-  std::span<const TraceGroup> groups;    ///< Probes by their rays. The hits stay empty.
-  std::span<const float> blend_weights;  ///< One per probe, group after group.
+  std::vector<TraceGroup> groups;    ///< Probes by their rays. The hits are empty.
+  std::vector<int> probes;           ///< The probes of all groups, group after group.
+  std::vector<float> blend_weights;  ///< How much each probe's new light counts, 0 to 1.
   SolveSettings solve;
-  int max_bounces = -1;  ///< See FieldSettings::max_bounces.
   float darkest = 0.0f;  ///< See relative_square() [luminance].
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 
-/// What tracing on a device came to.
-struct DeviceTraced {
-  DeviceSolve solve;
-  std::vector<LightChange> changes;  ///< One per probe, in the order of the blend weights.
+/// What an update of probes did.
+struct ProbeUpdateResult {
+  std::vector<LightChange> changes;  ///< One per probe, in the order of ProbeUpdate::probes.
   std::uint64_t probe_rays = 0, shadow_rays = 0;
-  double trace_ms = 0.0, shade_ms = 0.0, solve_ms = 0.0, blend_ms = 0.0;
+  int iterations = 0;            ///< Iterations of the solve.
+  double error = 0.0;            ///< See SolveResult::error.
+  double change = 0.0;           ///< See SolveResult::change.
+  std::vector<PassTime> passes;  ///< In the order in which they ran.
+};
+
+/// Looks a field up on the device that holds it.
+class DeviceLookups {
+ public:
+  virtual ~DeviceLookups() = default;
+
+  /// Whether the world is on the same device.
+  virtual bool is_on(const World& world) const = 0;
+  /// Records the lookup of `count` queries. `queries` and `irradiance` are addresses of QueryRecord
+  /// and vec3 [W/m^2]. Binds the world's textures.
+  virtual void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
+                              std::uint32_t count, std::uint64_t irradiance) const = 0;
 };
 
 class FieldBackend {
  public:
   virtual ~FieldBackend() = default;
 
-  /// Whether the world is on the same device.
-  virtual bool is_on(const World& world) const = 0;
+  /// Whether this is the backend for a field that follows the world. If not, make_field_backend
+  /// makes the one that is.
+  virtual bool suits(const World& world) const = 0;
+  /// Null where the processor's memory holds the field.
+  virtual const DeviceLookups* on_device() const = 0;
 
-  /// Uploads the grids and the probes' offsets.
-  virtual void set_places(const ProbeStore& store) = 0;
-  /// Uploads the encoded distance tiles of some probes.
-  virtual void set_distances(const ProbeStore& store, std::span<const int> probes) = 0;
-  /// Uploads grids, offsets and all encoded tiles.
-  virtual void write_store(const ProbeStore& store) = 0;
-  /// Reads all encoded tiles back.
-  virtual void read_store(ProbeStore& store) const = 0;
-  /// Uploads the light of all probes, before encoding, and what their last rays estimated.
-  virtual void write_light(const WorkingIrradiance& light,
-                           const WorkingIrradiance& last_irradiance_estimate) = 0;
-  /// Reads both back.
-  virtual void read_light(WorkingIrradiance& light,
-                          WorkingIrradiance& last_irradiance_estimate) const = 0;
-  /// Encodes the light of some probes into the store.
-  virtual void store_light(std::span<const int> probes, uint dither_seed) = 0;
+  // Transfers between ProbeData and the device that holds the field. On the processor ProbeData is
+  // the field, and none of these does anything.
 
-  /// Traces rays, blends distances, shades surfels, finds their lookups, solves for the light of
-  /// all bounces, and stores it: all that State::trace does on the processor.
-  virtual DeviceTraced trace(const DeviceTracing& tracing) = 0;
-  /// Traces and shades the rays that some probes traced last once more, moves the probes' stored
-  /// distances by as much as the rays' distances changed, and finds the lookups of all traced
-  /// probes' surfels. What the edits of the world do not affect keeps its value.
-  virtual DeviceTraced retrace(const World& world, std::span<const int> probes,
-                               uint dither_seed) = 0;
+  /// Reads the light and the last irradiance estimates back where the device's are newer.
+  virtual void fetch_light() = 0;
+  /// Reads the store's tiles back where the device's are newer.
+  virtual void fetch_store() = 0;
+  /// Uploads the light and the last irradiance estimates.
+  virtual void push_light() = 0;
+  /// Uploads the grids and the probes' offsets. Drops the surfels of the probes that moved, and
+  /// uploads their distance tiles.
+  virtual void push_places(std::span<const int> moved) = 0;
+
+  // Passes.
+
+  /// Runs all passes of update_probes() in passes.h.
+  virtual ProbeUpdateResult update_probes(ProbeUpdate update) = 0;
+  /// Brings the surfels and stored distances of `probes` up to date with the world, and finds the
+  /// lookups that this affects again, `among` all traced probes. `changes` name everything that may
+  /// differ from the world in which the surfels were found. What the edits do not affect keeps its
+  /// value.
+  virtual InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
+                                     std::span<const int> probes, std::span<const int> among,
+                                     uint dither_seed) = 0;
   /// CellVisibility::update of a field with hybrid visibility. `cells` come from cells_around().
   /// Returns the number of rays traced.
   virtual std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) = 0;
-  /// Finds the lookups of some probes' surfels. Returns the number of visibility rays traced.
-  virtual std::uint64_t find_lookups(const World& world, std::span<const int> probes) = 0;
-  /// Drops the surfels of some probes.
-  virtual void drop_surfels(std::span<const int> probes) = 0;
+  /// Finds the lookups of those `among` the traced probes whose surfels may read one of `moved`.
+  /// Returns the number of visibility rays traced.
+  virtual std::uint64_t find_lookups(const World& world, std::span<const int> moved,
+                                     std::span<const int> among) = 0;
 
-  /// Solves for the light of some probes as solve_bounces() does, starting from the light that the
-  /// device holds. Where `solution` is not null, it receives the solution before blending.
-  virtual DeviceSolve solve(std::span<const int> probes, std::span<const float> blend_weights,
-                            const WorkingIrradiance& history_ratio, const SolveSettings& settings,
-                            WorkingIrradiance* solution) = 0;
-  /// What some probes receive from the light that the device holds.
-  virtual void receive(std::span<const int> probes, const WorkingIrradiance& fallback,
-                       WorkingIrradiance& received) = 0;
-  /// Luminance of the direct and sky light that each probe receives, summed over its texels.
+  /// Solves for the light of some traced probes as solve_bounces() does, starting from the field's
+  /// light. ProbeData::light is up to date afterwards.
+  virtual SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
+                            const WorkingIrradiance& history_ratio,
+                            const SolveSettings& settings) = 0;
+  /// Computes what some probes receive from the field's light. Texels that no ray counts for keep
+  /// what `received` holds.
+  virtual void receive(std::span<const int> probes, WorkingIrradiance& received) = 0;
+  /// Luminance of the direct and sky light that each probe's rays bring back, summed over its rays
+  /// (processor) or texels (device).
   virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
+  /// Encodes the light of some probes into the store.
+  virtual void store_light(std::span<const int> probes, uint dither_seed) = 0;
 
   /// See ImportanceScatter in importance.h.
   virtual std::vector<float> scatter_importance(std::span<const float> received, float least) = 0;
   /// Irradiance for each query [W/m^2]. `world` is the world in which visibility rays are traced.
-  /// Where it is null or not on this device, visibility is by distances.
+  /// Where it is null or not on the field's device, visibility is by distances.
   virtual void irradiance(std::span<const FieldQuery> queries, const World* world,
                           std::span<vec3> result) const = 0;
-  /// Records the lookup of `count` queries. `queries` and `irradiance` are addresses of QueryRecord
-  /// and vec3 [W/m^2]. Binds the world's textures.
-  virtual void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
-                              std::uint32_t count, std::uint64_t irradiance) const = 0;
 
-  /// Bytes that surfels and their lookups take on the device.
+  /// Bytes that surfels and their lookups take.
   virtual std::size_t surfel_bytes() const = 0;
 };
 
@@ -124,9 +135,14 @@ class FieldBackend {
 /// and use the device to trace rays only.
 inline constexpr int kMaxBackendProbes = 1 << 18;
 
-/// Makes an empty field of the store's shape, of at most kMaxBackendProbes probes, on the device
-/// that the world is on. Returns null where the library was built without devices.
-std::unique_ptr<FieldBackend> make_field_backend(const World& world, const FieldSettings& settings,
-                                                 const ProbeStore& store);
+/// Whether a field of this many probes lives on the device of the world that it follows.
+bool lives_on_device(const World& world, int probes);
+
+/// Makes the backend for a field that follows the world: this is the one place that picks an
+/// executor. It takes over all data but surfels. The data must outlive it.
+std::unique_ptr<FieldBackend> make_field_backend(const World& world, ProbeData& data);
+std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeData& data);
+/// For worlds on a device.
+std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeData& data);
 
 }  // namespace lambent

@@ -40,14 +40,23 @@ Timestamps::~Timestamps() {
 }
 
 std::vector<DevicePassTime> Timestamps::read() const {
+  return read(VK_QUERY_RESULT_WAIT_BIT);
+}
+
+std::vector<DevicePassTime> Timestamps::read_if_finished() const {
+  return read(0);
+}
+
+std::vector<DevicePassTime> Timestamps::read(VkQueryResultFlags flags) const {
   std::vector<DevicePassTime> times;
   if (pool_ == VK_NULL_HANDLE || names_.empty()) return times;
   std::vector<std::uint64_t> ticks(2 * names_.size());
-  check(device_->fn().vkGetQueryPoolResults(
-            device_->handle(), pool_, 0, static_cast<std::uint32_t>(ticks.size()),
-            ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
-            VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "vkGetQueryPoolResults");
+  const VkResult result = device_->fn().vkGetQueryPoolResults(
+      device_->handle(), pool_, 0, static_cast<std::uint32_t>(ticks.size()),
+      ticks.size() * sizeof(ticks[0]), ticks.data(), sizeof(ticks[0]),
+      VK_QUERY_RESULT_64_BIT | flags);
+  if (result == VK_NOT_READY) return times;
+  check(result, "vkGetQueryPoolResults");
   for (std::size_t i = 0; i < names_.size(); ++i) {
     const std::uint64_t passed =
         (ticks[2 * i + 1] - ticks[2 * i]) & device_->limits().timestamp_mask;

@@ -30,9 +30,13 @@ class Timestamps {
   /// After the command buffer has finished: what each pass took, in the order of recording; passes
   /// of one name are added up. None where the device has no timestamps.
   std::vector<DevicePassTime> read() const;
+  /// The same without waiting; none where the command buffer has not finished.
+  std::vector<DevicePassTime> read_if_finished() const;
 
  private:
   friend class Recorder;
+  std::vector<DevicePassTime> read(VkQueryResultFlags flags) const;
+
   const Device* device_;
   VkQueryPool pool_ = VK_NULL_HANDLE;
   std::uint32_t capacity_ = 0;

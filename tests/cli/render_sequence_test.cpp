@@ -61,7 +61,7 @@ TEST_F(RenderSequence, WritesAPictureAFrameAndStatisticsOfEach) {
     EXPECT_EQ(frame["updates"], i == 0 ? 3 : 1);
     EXPECT_EQ(frame["moved_boxes"], i == 0 ? 0 : 4);
     EXPECT_EQ(frame["changed_lights"], i == 0 ? 0 : 1);
-    for (const char* key : {"trace_ms", "blend_ms", "gbuffer_ms", "world_update_ms"}) {
+    for (const char* key : {"trace_ms", "store_ms", "gbuffer_ms", "world_update_ms"}) {
       EXPECT_GE(frame[key].get<double>(), 0.0) << key;
     }
   }

@@ -90,7 +90,7 @@ TEST_F(Render, StatisticsAreAFlatObjectWithUnitsInItsKeys) {
   ASSERT_EQ(render("cornell" + kQuick + "--stats " + stats, exr).status, 0);
   const auto json = nlohmann::json::parse(bytes_of(stats));
   for (const auto& [key, value] : json.items()) EXPECT_FALSE(value.is_structured()) << key;
-  for (const char* key : {"build_ms", "trace_ms", "shade_ms", "solve_ms", "blend_ms", "gbuffer_ms",
+  for (const char* key : {"build_ms", "trace_ms", "shade_ms", "solve_ms", "store_ms", "gbuffer_ms",
                           "direct_ms", "indirect_ms", "compose_ms"}) {
     ASSERT_TRUE(json.contains(key)) << key;
     EXPECT_GE(json[key].get<double>(), 0.0) << key;

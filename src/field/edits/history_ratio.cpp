@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ratio of the averaged light of probes to what their last rays alone estimate. Edits keep this
 // ratio (apply_scene_edits.cpp), so that they do not lose what averaging has gained.
+#include "field/edits/history_ratio.h"
+
 #include <algorithm>
 
-#include "field/field_state.h"
 #include "field/probes/tile_light.h"
 
 namespace lambent {
@@ -27,22 +28,22 @@ vec4 history_ratio_between(const vec4& last_irradiance_estimate, const vec4& hel
 }  // namespace
 
 /// Computes by which factor averaging corrects each texel of the probes' last estimates.
-WorkingIrradiance IrradianceField::State::history_ratio_of(std::span<const int> probes) const {
-  const int texels = tile_texels();
-  WorkingIrradiance history_ratio = light_of(light, probes, texels);
-  const WorkingIrradiance estimate = light_of(last_irradiance_estimate, probes, texels);
+WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data) {
+  const int texels = data.tile_texels();
+  WorkingIrradiance history_ratio = light_of(data.light, probes, texels);
+  const WorkingIrradiance estimate = light_of(data.last_irradiance_estimate, probes, texels);
   for (std::size_t i = 0; i < history_ratio.size(); ++i)
     history_ratio[i] = history_ratio_between(estimate[i], history_ratio[i]);
   return history_ratio;
 }
 
 /// Stores the solution of a solve without history ratio as the probes' last estimates.
-void IrradianceField::State::store_last_estimates(std::span<const int> probes,
-                                                  const WorkingIrradiance& solution) {
-  const auto texels = static_cast<std::size_t>(tile_texels());
+void store_last_estimates(std::span<const int> probes, const WorkingIrradiance& solution,
+                          ProbeData& data) {
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
   for (std::size_t k = 0; k < probes.size(); ++k) {
-    std::copy_n(&solution[k * texels], texels, &last_irradiance_estimate[probes[k] * texels]);
-    last_estimate_is_coarse[probes[k]] = 1;
+    std::copy_n(&solution[k * texels], texels, &data.last_irradiance_estimate[probes[k] * texels]);
+    data.last_estimate_is_coarse[probes[k]] = 1;
   }
 }
 
@@ -50,21 +51,17 @@ void IrradianceField::State::store_last_estimates(std::span<const int> probes,
 /// that all probes hold now. In dark places the error of the solve that they come from is larger
 /// than the changes by edits that must be noticed. Other probes keep their estimates: otherwise a
 /// sequence of changes, each too small to be seen, would be lost.
-void IrradianceField::State::refine_last_estimates(std::span<const int> probes) {
+void refine_last_estimates(std::span<const int> probes, FieldBackend& backend, ProbeData& data) {
   std::vector<int> rough;
   for (const int probe : probes) {
-    if (last_estimate_is_coarse[probe] != 0) rough.push_back(probe);
+    if (data.last_estimate_is_coarse[probe] != 0) rough.push_back(probe);
   }
-  const auto texels = static_cast<std::size_t>(tile_texels());
-  WorkingIrradiance exact = light_of(last_irradiance_estimate, rough, tile_texels());
-  if (device) {
-    device->receive(rough, exact, exact);
-  } else {
-    transport(rough).apply(light, exact, exact);
-  }
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
+  WorkingIrradiance exact = light_of(data.last_irradiance_estimate, rough, data.tile_texels());
+  backend.receive(rough, exact);
   for (std::size_t k = 0; k < rough.size(); ++k) {
-    std::copy_n(&exact[k * texels], texels, &last_irradiance_estimate[rough[k] * texels]);
-    last_estimate_is_coarse[rough[k]] = 0;
+    std::copy_n(&exact[k * texels], texels, &data.last_irradiance_estimate[rough[k] * texels]);
+    data.last_estimate_is_coarse[rough[k]] = 0;
   }
 }
 

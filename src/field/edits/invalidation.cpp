@@ -12,6 +12,7 @@
 #include "field/transport/distances.h"
 #include "raytracing/boxes.h"
 #include "scene/light_sampling.h"
+#include "shared/color.h"
 
 namespace lambent {
 namespace {
@@ -240,7 +241,27 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
   });
 }
 
+/// The luminance of the direct and sky light that a probe's rays bring back, summed over the rays.
+double direct_light_of(const ProbeTrace& trace) {
+  double sum = 0.0;
+  for (const Surfel& surfel : trace.surfels) {
+    if (surfel.kind == SurfelKind::back_face) continue;
+    const vec3 share = surfel.kind == SurfelKind::sky ? vec3(1.0f) : surfel.albedo_over_pi;
+    sum += luminance(share * surfel.light);
+  }
+  return sum;
+}
+
 }  // namespace
+
+std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
+                                    std::span<const int> probes) {
+  std::vector<double> light(probes.size());
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) light[k] = direct_light_of(traces[probes[k]]);
+  });
+  return light;
+}
 
 InvalidationResult invalidate_surfels(const World& world, std::span<const WorldChanges> changes,
                                       const FieldSettings& settings, std::span<const int> probes,

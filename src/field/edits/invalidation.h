@@ -17,6 +17,10 @@
 
 namespace lambent {
 
+/// The luminance of the direct and sky light that each probe's rays bring back, summed over them.
+std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
+                                    std::span<const int> probes);
+
 /// What bringing probes up to date took and changed.
 struct InvalidationResult {
   std::uint64_t probe_rays = 0;   ///< Probe rays traced again.

@@ -37,23 +37,23 @@ bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
 
 /// Replaces all light that the field holds.
 void IrradianceField::State::restore(const FieldFile& file, const World& world) {
-  for (int v = 0; v < store.volumes(); ++v) {
+  for (int v = 0; v < data.store.volumes(); ++v) {
     const FieldVolume& volume = file.volumes[v];
-    const int first = store.grid(v).first;
-    store.restore(first, volume.offsets, volume.irradiance, volume.distance);
+    const int first = data.store.grid(v).first;
+    data.store.restore(first, volume.offsets, volume.irradiance, volume.distance);
     std::copy(volume.records.begin(), volume.records.end(), statuses.begin() + first);
   }
   updates = static_cast<int>(file.updates);
-  placed_revision = world.revision();
-  scheduler.mark_all_changed();
+  placement.placed_revision = world.revision();
+  scheduling.scheduler.mark_all_changed();
   const int n = settings.irradiance_texels;
-  const auto texels = static_cast<std::size_t>(tile_texels());
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
   double sum = 0.0;
   bool never_served = false;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    vec4* tile = &light[probe * texels];
+  for (int probe = 0; probe < data.store.probes(); ++probe) {
+    vec4* tile = &data.light[probe * texels];
     for (int t = 0; t < n * n; ++t) {
-      tile[t] = vec4(store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
+      tile[t] = vec4(data.store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
     }
     sum += mean_luminance(TileLight(tile, texels));
     statuses[probe].revision = world.revision();
@@ -61,8 +61,8 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;
     never_served = never_served || (is_live(statuses[probe]) && statuses[probe].served == 0);
   }
-  mean_light = static_cast<float>(sum / store.probes());
-  warming_up = updates == 0 || never_served;
+  scheduling.mean_light = static_cast<float>(sum / data.store.probes());
+  scheduling.warming_up = updates == 0 || never_served;
   // Compute what the first update finds out about the scene, if that update is in the past
   if (updates == 0) return;
   std::vector<int> all(statuses.size());
@@ -74,26 +74,26 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
 /// A volume as a file stores it: with its probes in the order of the grid, regardless of scrolling.
 FieldVolume IrradianceField::State::volume_for_file(int volume, const World& world) const {
   FieldVolume result;
-  result.grid = store.grid(volume);
-  result.role = roles[volume];
-  result.irradiance_texels = store.irradiance_texels();
-  result.distance_texels = store.distance_texels();
-  result.irradiance_format = store.irradiance_format();
-  result.distance_format = store.distance_format();
-  const ProbeGrid& stored = store.grid(volume);
+  result.grid = data.store.grid(volume);
+  result.role = volumes.roles[volume];
+  result.irradiance_texels = data.store.irradiance_texels();
+  result.distance_texels = data.store.distance_texels();
+  result.irradiance_format = data.store.irradiance_format();
+  result.distance_format = data.store.distance_format();
+  const ProbeGrid& stored = data.store.grid(volume);
   result.grid.scroll = ivec3(0);
   result.grid.first = 0;
-  const std::size_t irradiance_tile = store.irradiance_words().size() / store.probes();
-  const std::size_t distance_tile = store.distance_words().size() / store.probes();
+  const std::size_t irradiance_tile = data.store.irradiance_words().size() / data.store.probes();
+  const std::size_t distance_tile = data.store.distance_words().size() / data.store.probes();
   for (int i = 0; i < probe_count(stored); ++i) {
     const int probe = probe_index(stored, probe_coords(result.grid, i));
     ProbeStatus& status = result.records.emplace_back(statuses[probe]);
     // The average of a stale probe is of another light than the world's
     if (status.revision != world.revision()) status.samples = 0.0f;
-    result.offsets.push_back(store.offset_words()[probe]);
+    result.offsets.push_back(data.store.offset_words()[probe]);
     const auto irradiance =
-        store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
-    const auto distance = store.distance_words().subspan(probe * distance_tile, distance_tile);
+        data.store.irradiance_words().subspan(probe * irradiance_tile, irradiance_tile);
+    const auto distance = data.store.distance_words().subspan(probe * distance_tile, distance_tile);
     result.irradiance.insert(result.irradiance.end(), irradiance.begin(), irradiance.end());
     result.distance.insert(result.distance.end(), distance.begin(), distance.end());
   }
@@ -103,11 +103,11 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
 Expected<void> save_field(const std::string& path, const IrradianceField& field,
                           const World& world) {
   const IrradianceField::State& state = *field.state_;
-  state.fetch_store();
+  state.backend->fetch_store();
   FieldFile file;
   file.updates = static_cast<std::uint32_t>(state.updates);
   file.scene = identify(world.scene(), state.settings);
-  for (int volume = 0; volume < state.store.volumes(); ++volume) {
+  for (int volume = 0; volume < state.data.store.volumes(); ++volume) {
     file.volumes.push_back(state.volume_for_file(volume, world));
   }
   return write_file_atomically(path, encode_field(file));

@@ -34,64 +34,52 @@ std::vector<int> IrradianceField::State::place_probes(const World& world,
   if (settings.relocation) {
     // Start on the grid, so that the result depends on the scene only, not on where probes stood
     // before
-    const std::vector<uint> before(store.offset_words().begin(), store.offset_words().end());
-    for (const int probe : probes) store.set_probe_offset(probe, vec3(0.0f));
-    relocate_probes(world.scene(), world.tracer(), probes, moving, store);
+    const std::vector<uint> before(data.store.offset_words().begin(),
+                                   data.store.offset_words().end());
+    for (const int probe : probes) data.store.set_probe_offset(probe, vec3(0.0f));
+    relocate_probes(world.scene(), world.tracer(), probes, moving, data.store);
     for (const int probe : probes) {
-      if (store.offset_words()[probe] != before[probe]) moved.push_back(probe);
+      if (data.store.offset_words()[probe] != before[probe]) moved.push_back(probe);
     }
-    for (const int probe : moved) reset_probe(probe);
+    for (const int probe : moved) reset_probe(probe, data, statuses, scheduling.scheduler);
   }
   update_classification_inputs(world, probes);
-  if (device) {
-    device->set_places(store);
-    device->drop_surfels(moved);
-    device->set_distances(store, moved);
-  }
+  backend->push_places(moved);
   return moved;
 }
 
 std::uint64_t IrradianceField::State::update_cell_visibility(const World& world,
                                                              std::span<const int> probes) {
   if (settings.visibility != Visibility::hybrid) return 0;
-  const std::vector<int> cells = cells_around(store, probes);
-  return device ? device->update_cell_visibility(world, cells)
-                : cell_visibility.update(world.tracer(), store, cells);
+  const std::vector<int> cells = cells_around(data.store, probes);
+  return backend->update_cell_visibility(world, cells);
 }
 
 void IrradianceField::State::initialize_relocated(const World& world, std::span<const int> moved,
                                                   UpdateStatistics& statistics) {
   // Without surfels, the relocated probes no longer belong to those that the pending edits reached
   std::vector<int> still_updated;
-  std::set_difference(pending_edits.updated.begin(), pending_edits.updated.end(), moved.begin(),
+  std::set_difference(edits.pending.updated.begin(), edits.pending.updated.end(), moved.begin(),
                       moved.end(), std::back_inserter(still_updated));
-  pending_edits.updated = std::move(still_updated);
+  edits.pending.updated = std::move(still_updated);
   update_classification_inputs(world, moved, /*learn_distances=*/true);
-  const std::vector<int> traced = traced_probes();
-  if (device) {
-    device->set_places(store);
-    device->drop_surfels(moved);
-    device->set_distances(store, moved);
-    statistics.shadow_rays += update_cell_visibility(world, moved);
-    statistics.shadow_rays += device->find_lookups(world, traced);
-    return;
-  }
+  backend->push_places(moved);
   statistics.shadow_rays += update_cell_visibility(world, moved);
-  statistics.shadow_rays += find_surfel_lookups(
-      store, visibility(world), probes_reading(moved, traced, store, traces), traces);
+  statistics.shadow_rays += backend->find_lookups(world, moved, data.traced_probes());
 }
 
 void IrradianceField::State::relocate_edited(const World& world, UpdateStatistics& statistics) {
   // Note the static geometry that was edited since the last update
-  const auto changes = world.changes_since(placed_revision);
-  placed_revision = world.revision();
-  if (!changes) edited_places = {{kEverywhere, updates}};
+  const auto changes = world.changes_since(placement.placed_revision);
+  placement.placed_revision = world.revision();
+  if (!changes) placement.edited_places = {{kEverywhere, updates}};
   for (std::size_t i = 0; changes && i < changes->size(); ++i) {
     for (const Bounds& box : (*changes)[i].rebuilt) {
-      const auto known = std::find_if(edited_places.begin(), edited_places.end(),
-                                      [&](const EditedPlace& p) { return overlap(p.box, box); });
-      if (known == edited_places.end()) {
-        edited_places.push_back({box, updates});
+      const auto known =
+          std::find_if(placement.edited_places.begin(), placement.edited_places.end(),
+                       [&](const EditedPlace& p) { return overlap(p.box, box); });
+      if (known == placement.edited_places.end()) {
+        placement.edited_places.push_back({box, updates});
       } else {
         known->box.add(box.min);
         known->box.add(box.max);
@@ -102,19 +90,19 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
 
   // Find the probes near places where edits have stopped
   const auto at_rest =
-      std::partition(edited_places.begin(), edited_places.end(),
+      std::partition(placement.edited_places.begin(), placement.edited_places.end(),
                      [&](const EditedPlace& p) { return updates - p.update < kRestUpdates; });
-  if (at_rest == edited_places.end()) return;
+  if (at_rest == placement.edited_places.end()) return;
   std::vector<int> near;
-  for (int probe = 0; probe < store.probes(); ++probe) {
-    const vec3 home = store.probe_home_ws(probe);
-    const ProbeGrid& grid = store.grid_of(probe);
-    if (std::any_of(at_rest, edited_places.end(),
+  for (int probe = 0; probe < data.store.probes(); ++probe) {
+    const vec3 home = data.store.probe_home_ws(probe);
+    const ProbeGrid& grid = data.store.grid_of(probe);
+    if (std::any_of(at_rest, placement.edited_places.end(),
                     [&](const EditedPlace& p) { return may_light(p.box, home, grid); })) {
       near.push_back(probe);
     }
   }
-  edited_places.erase(at_rest, edited_places.end());
+  placement.edited_places.erase(at_rest, placement.edited_places.end());
   const std::vector<int> moved = place_probes(world, near);
   if (moved.empty()) return;
   initialize_relocated(world, moved, statistics);
@@ -128,48 +116,51 @@ void IrradianceField::State::inherit_history(int probe, const World& world) {
   ProbeStatus& status = statuses[probe];
   status = {};
   // A probe in open air keeps no samples, so that it is traced once in its new place
-  if (classification_inputs[probe].lights_surface) {
+  if (placement.classification_inputs[probe].lights_surface) {
     status.samples = static_cast<float>(fixed_ray_directions().size()) /
                      static_cast<float>(settings.rays_per_probe);
   }
   status.served = static_cast<std::uint32_t>(updates);
   status.revision = world.revision();
-  scheduler.mark_changed(probe);
+  scheduling.scheduler.mark_changed(probe);
 }
 
 /// Drops what a probe knows of its surroundings. Its light stays until it is traced.
-void IrradianceField::State::reset_probe(int probe) {
+void reset_probe(int probe, ProbeData& data, std::span<ProbeStatus> statuses,
+                 ProbeScheduler& scheduler) {
   const std::vector<vec2> nothing(
-      static_cast<std::size_t>(settings.distance_texels) * settings.distance_texels, vec2(0.0f));
+      static_cast<std::size_t>(data.settings.distance_texels) * data.settings.distance_texels,
+      vec2(0.0f));
   statuses[probe].samples = 0.0f;
-  traces[probe] = {};
+  data.traces[probe] = {};
   scheduler.mark_changed(probe);
-  store.blend_moments(probe, nothing, 1.0f, 0u);
+  data.store.blend_moments(probe, nothing, 1.0f, 0u);
 }
 
 void IrradianceField::State::update_classification_inputs(const World& world,
                                                           std::span<const int> probes,
                                                           bool learn_distances) {
-  classified = false;
+  placement.classified = false;
   const std::vector<std::uint8_t> moving = moving_instances(world.scene());
   const DistanceBlend blend(settings, fixed_ray_directions());
   const std::size_t directions = fixed_ray_directions().size();
   const auto learn = [&](int probe, std::span<const FixedRayHit> around) {
-    const ProbeGrid& grid = store.grid_of(probe);
-    classification_inputs[probe] = classification_input(
-        around, store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
+    const ProbeGrid& grid = data.store.grid_of(probe);
+    placement.classification_inputs[probe] = classification_input(
+        around, data.store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
     if (!learn_distances) return;
     std::vector<SeenDistance> seen;
     for (const FixedRayHit& hit : around) seen.push_back({hit.distance, hit.back_face != 0});
     std::vector<vec2> moments(blend.texels());
     blend.moments(seen, max_probe_distance(grid), moments);
-    store.blend_moments(probe, moments, 1.0f, dither_seed());
+    data.store.blend_moments(probe, moments, 1.0f, dither_seed());
   };
   const std::size_t batch = viewpoints_of_batch(world.tracer());
   parallel_chunks(probes.size(), batch, [&](std::size_t first, std::size_t last) {
     std::vector<Viewpoint> viewpoints;
     for (std::size_t k = first; k < last; ++k) {
-      viewpoints.push_back({store.probe_position_ws(probes[k]), store.grid_of(probes[k]).axes});
+      viewpoints.push_back(
+          {data.store.probe_position_ws(probes[k]), data.store.grid_of(probes[k]).axes});
     }
     std::vector<FixedRayHit> around(viewpoints.size() * directions);
     trace_fixed_rays(world.scene(), world.tracer(), viewpoints, moving, around);
@@ -182,34 +173,33 @@ void IrradianceField::State::update_classification_inputs(const World& world,
   });
 }
 
-void IrradianceField::State::classify(const World& world) {
-  // An exact number of bounces is carried through all probes at once
-  if (settings.max_bounces >= 0) return;
+void classify(const World& world, const ProbeStore& store, PlacementState& placement,
+              std::span<ProbeStatus> statuses, ProbeScheduler& scheduler) {
   std::vector<Bounds> moving;
   const std::vector<Instance>& instances = world.scene().instances;
   for (int i = 0; i < static_cast<int>(instances.size()); ++i) {
     if (instances[i].dynamic) moving.push_back(world.instance_bounds(i));
   }
-  if (!classified) {
-    classify_probes(store, classification_inputs, moving, statuses);
+  if (!placement.classified) {
+    classify_probes(store, placement.classification_inputs, moving, statuses);
     scheduler.mark_all_changed();
-  } else if (moving != moved_to) {
+  } else if (moving != placement.moved_to) {
     // Only probes near the old or new bounds of a dynamic instance can have another state
-    const std::size_t most = std::max(moved_to.size(), moving.size());
+    const std::size_t most = std::max(placement.moved_to.size(), moving.size());
     for (std::size_t i = 0; i < most; ++i) {
-      const Bounds before = i < moved_to.size() ? moved_to[i] : Bounds{};
+      const Bounds before = i < placement.moved_to.size() ? placement.moved_to[i] : Bounds{};
       const Bounds now = i < moving.size() ? moving[i] : Bounds{};
       if (before == now) continue;
       for (const Bounds& box : {before, now}) {
         for (const int probe :
-             classify_probes_near(box, store, classification_inputs, moving, statuses)) {
+             classify_probes_near(box, store, placement.classification_inputs, moving, statuses)) {
           scheduler.mark_changed(probe);
         }
       }
     }
   }
-  moved_to = std::move(moving);
-  classified = true;
+  placement.moved_to = std::move(moving);
+  placement.classified = true;
 }
 
 }  // namespace lambent

@@ -45,16 +45,21 @@ void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float 
 
 }  // namespace
 
+std::vector<float> scatter_from_surfels(const ProbeStore& store, std::span<const ProbeTrace> traces,
+                                        std::span<const float> received, float least) {
+  // Work on one probe after the other, so that sums have the same bits on any number of threads
+  std::vector<float> sent(store.probes(), 0.0f);
+  for (int probe = 0; probe < store.probes(); ++probe) {
+    if (received[probe] <= least || traces[probe].rays == nullptr) continue;
+    scatter_importance(store, traces[probe], received[probe], sent);
+  }
+  return sent;
+}
+
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     std::span<const ProbeTrace> traces) {
-  // Work on one probe after the other, so that sums have the same bits on any number of threads
   return probe_importance(store, points, [&](std::span<const float> received, float least) {
-    std::vector<float> sent(store.probes(), 0.0f);
-    for (int probe = 0; probe < store.probes(); ++probe) {
-      if (received[probe] <= least || traces[probe].rays == nullptr) continue;
-      scatter_importance(store, traces[probe], received[probe], sent);
-    }
-    return sent;
+    return scatter_from_surfels(store, traces, received, least);
   });
 }
 

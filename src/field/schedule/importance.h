@@ -28,6 +28,10 @@ std::vector<float> probe_importance(const ProbeStore& store, std::span<const Fie
 using ImportanceScatter =
     std::function<std::vector<float>(std::span<const float> received, float least)>;
 
+/// The scattering by the surfels that probes see.
+std::vector<float> scatter_from_surfels(const ProbeStore& store, std::span<const ProbeTrace> traces,
+                                        std::span<const float> received, float least);
+
 /// probe_importance() with another implementation of the scattering.
 std::vector<float> probe_importance(const ProbeStore& store, std::span<const FieldQuery> points,
                                     const ImportanceScatter& scatter_importance);

@@ -230,6 +230,10 @@ WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> 
   return light;
 }
 
+SolveSettings solve_settings(const FieldSettings& settings) {
+  return {settings.max_albedo, settings.solve_tolerance, settings.max_solve_iterations};
+}
+
 SolveResult solve_counted_bounces(const TransportOperator& transport,
                                   std::span<const float> blend_weights, int bounces,
                                   WorkingIrradiance& field) {

@@ -65,6 +65,9 @@ struct SolveSettings {
   int max_iterations = 32;   ///< The solve stops after this many iterations in any case.
 };
 
+/// When a solve of a field with these settings stops.
+SolveSettings solve_settings(const FieldSettings& settings);
+
 /// The outcome of a solve.
 struct SolveResult {
   int iterations = 0;

@@ -6,10 +6,16 @@
 
 #include <span>
 
-#include "field/field_backend.h"
 #include "field/vulkan/field_resources.h"
 
 namespace lambent {
+
+/// What a solve came to.
+struct DeviceSolve {
+  int iterations = 0;
+  double error = 0.0;   ///< As SolveResult's.
+  double change = 0.0;  ///< As SolveResult's.
+};
 
 class DeviceSolver {
  public:

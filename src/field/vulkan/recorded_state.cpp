@@ -6,6 +6,7 @@
 #include <array>
 #include <numeric>
 
+#include "core/pass_times.h"
 #include "field/lookup/field_record.h"
 #include "field/transport/blend.h"
 #include "shaders/closest_rchit.h"
@@ -21,6 +22,10 @@
 
 namespace lambent::vulkan {
 namespace {
+
+// Parts that an engine records an update in, and passes of one, at most.
+constexpr int kUpdateParts = 4;
+constexpr std::uint32_t kMaxPartPasses = 16;
 
 template <class T>
 Buffer device_buffer(const Device& device, std::size_t count, const char* name) {
@@ -121,6 +126,20 @@ UpdateMemory::UpdateMemory(const FieldResources& field, int most_probes, int ray
   set.as<RaySetRecord>()[0] = {
       {directions.address()}, irradiance_weights, distance_weights, rays, 0u};
   list.sets = {set.address()};
+  for (int part = 0; part < kUpdateParts; ++part) {
+    timers.push_back(std::make_unique<Timestamps>(device, kMaxPartPasses));
+  }
+}
+
+std::vector<PassTime> UpdateMemory::take_times() {
+  std::vector<PassTime> times;
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (const DevicePassTime& pass : timers[part]->read_if_finished()) {
+      add_pass_time(times, pass.name, pass.ms);
+    }
+  }
+  parts = 0;
+  return times;
 }
 
 void UpdateMemory::write(const ProbeBatch& batch, const FieldSettings& settings) {

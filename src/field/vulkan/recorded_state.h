@@ -9,6 +9,7 @@
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
 #include "field/vulkan/field_resources.h"
+#include "field/vulkan/passes_vulkan.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 #include "vulkan/device.h"
@@ -54,12 +55,20 @@ struct UpdateMemory {
                FloatArray irradiance_weights, FloatArray distance_weights);
   /// Writes the probes and ray directions of a batch.
   void write(const ProbeBatch& batch, const FieldSettings& settings);
+  /// The passes of all parts that have finished, since the last call.
+  std::vector<PassTime> take_times();
+  /// Returns what times the next part of the update, or null where all parts have been recorded.
+  Timestamps* next_timer() { return parts < timers.size() ? timers[parts++].get() : nullptr; }
 
   DeviceProbes list;
+  std::vector<std::unique_ptr<Timestamps>> timers;  ///< One per part of an update.
+  std::size_t parts = 0;                            ///< The number of parts recorded so far.
   Buffer directions, set;
 };
 
 struct RecordedField::State {
+  class EngineRays;
+
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         const ProbeStore& shape);
 
@@ -75,7 +84,8 @@ struct RecordedField::State {
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
-  void record_results(Recorder& to);
+  /// Records a part of an update into an engine's command buffer, between barriers.
+  void record_part(EngineRays& source, VkCommandBuffer commands, void (*part)(FieldPasses&));
 
   std::shared_ptr<Device> device;
   FieldSettings settings;
@@ -93,6 +103,30 @@ struct RecordedField::State {
   // One entry per probe or ray of an update, and the ray set's matrices
   Buffer rays, hits, results, blend_weights, irradiance_weights, distance_weights;
   std::vector<UpdateMemory> ring;
+  std::vector<PassTime> times;  // of the last update that has finished
+};
+
+/// The rays of a recorded field. An engine traces and shades them; the device decides on the
+/// schedule and the placement from their results.
+class RecordedField::State::EngineRays final : public RaySourceVulkan, public VariabilityVulkan {
+ public:
+  explicit EngineRays(State& field) : s_(field) {}
+
+  /// The acceleration structure in which `trace` finds hits.
+  VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
+
+  int batches() const override { return 1; }
+  void schedule(Recorder& to) override;
+  void trace(Recorder& to, int batch) override;
+  void shade(Recorder& to, int batch) override;
+  void visibility(Recorder& to) override;
+  const DeviceTracer* tracer() const override { return nullptr; }
+  void placement(Recorder& to) override;
+  void record(Recorder& to, const DeviceProbes& list, FloatArray blend_weights,
+              Vec4Array before) override;
+
+ private:
+  State& s_;
 };
 
 }  // namespace lambent::vulkan

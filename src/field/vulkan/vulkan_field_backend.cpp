@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <utility>
 
+#include "field/passes.h"
 #include "shared/color.h"
 #include "vulkan/device_memory.h"
 #include "vulkan/recorder.h"
@@ -15,83 +17,81 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// The most rays that are in memory at a time: enough to fill any device, in about 40 MB.
-constexpr int kMaxBatchRays = 1 << 18;
-
 // The sum of all importance, in the fixed-point numbers in which it is summed. Rounding each
 // summand to the nearest number adds less than the range that is left to 2^32.
 constexpr double kMaxScattered = 2147483648.0;
 
-// The most passes of a command buffer that are timed, besides two per group of rays.
+// Passes of an update besides those of its batches, at most; and passes of a batch.
 constexpr std::uint32_t kTimedPasses = 16;
+constexpr std::uint32_t kBatchPasses = 2;
 
-/// Splits a list into groups that trace the same ray set, each small enough for kMaxBatchRays.
-std::vector<DeviceGroup> groups_of_rays(const FieldResources& field, const DeviceProbes& list) {
-  std::vector<DeviceGroup> groups;
-  for (int first = 0; first < list.count();) {
-    const auto rays = field.rays_of(list.probes[first]);
-    const int most = std::max(kMaxBatchRays / rays->rays(), 1);
-    int end = first + 1;
-    while (end < list.count() && end - first < most && field.rays_of(list.probes[end]) == rays) {
-      ++end;
-    }
-    groups.push_back({first, end - first, rays->rays()});
-    first = end;
-  }
-  return groups;
+std::uint32_t timed_passes(const WorldRaysVulkan& rays) {
+  return kTimedPasses + kBatchPasses * static_cast<std::uint32_t>(rays.batches());
 }
 
-/// Buffers into which the numbers of shadow and visibility rays are read back.
-struct RayCounts {
-  explicit RayCounts(const vulkan::Device& device)
-      : shadows(device, sizeof(uint), vulkan::Memory::readback, "shadow rays"),
-        lookups(device, sizeof(uint), vulkan::Memory::readback, "rays of lookups") {}
+/// Brings the changes of light to where the host reads them, which schedules.
+class ChangesForHost final : public VariabilityVulkan {
+ public:
+  ChangesForHost(const FieldResources& field, std::size_t probes, float darkest)
+      : found(field.device(), probes * sizeof(LightChange), vulkan::Memory::readback,
+              "changes of light"),
+        field_(field),
+        darkest_(darkest) {}
 
-  std::uint64_t sum() const {
-    return std::uint64_t{shadows.as<uint>().front()} + lookups.as<uint>().front();
+  void record(Recorder& to, const DeviceProbes& list, FloatArray, Vec4Array before) override {
+    field_.record_compare_light(to, list, before, darkest_, {found.address()});
   }
 
-  Buffer shadows, lookups;
+  const Buffer found;
+
+ private:
+  const FieldResources& field_;
+  float darkest_;
 };
-
-/// Adds the times of passes to the results, by the passes' names.
-void assign_pass_times(const std::vector<vulkan::DevicePassTime>& times, DeviceTraced& traced) {
-  for (const vulkan::DevicePassTime& time : times) {
-    if (time.name == "trace") traced.trace_ms = time.ms;
-    if (time.name == "shade") traced.shade_ms = time.ms;
-    if (time.name == "solve") traced.solve_ms = time.ms;
-    if (time.name == "blend") traced.blend_ms = time.ms;
-  }
-}
 
 }  // namespace
 
-VulkanFieldBackend::VulkanFieldBackend(const World& world, const FieldSettings& settings,
-                                       const ProbeStore& store)
-    : device_(world.on_device()->shared_device()),
-      settings_(settings),
-      field_(*device_, settings, store),
+VulkanFieldBackend::VulkanFieldBackend(const World& world, ProbeData& data)
+    : data_(data),
+      device_(world.on_device()->shared_device()),
+      field_(*device_, data.settings, data.store),
       solver_(field_),
-      shading_(*device_) {}
+      shading_(*device_) {
+  push_light();
+}
 
 bool VulkanFieldBackend::is_on(const World& world) const {
   return world.on_device() != nullptr && &world.on_device()->device() == device_.get();
 }
 
-void VulkanFieldBackend::set_distances(const ProbeStore& store, std::span<const int> probes) {
-  field_.write_distances(store, probes);
+void VulkanFieldBackend::fetch_light() {
+  if (!light_is_newer_) return;
+  vulkan::read<vec4>(*device_, field_.light(), data_.light);
+  vulkan::read<vec4>(*device_, field_.last_irradiance_estimate(), data_.last_irradiance_estimate);
+  light_is_newer_ = false;
 }
 
-void VulkanFieldBackend::write_light(const WorkingIrradiance& light,
-                                     const WorkingIrradiance& last_irradiance_estimate) {
-  vulkan::write<vec4>(*device_, light, field_.light());
-  vulkan::write<vec4>(*device_, last_irradiance_estimate, field_.last_irradiance_estimate());
+void VulkanFieldBackend::fetch_store() {
+  if (!store_is_newer_) return;
+  field_.read_store(data_.store);
+  store_is_newer_ = false;
 }
 
-void VulkanFieldBackend::read_light(WorkingIrradiance& light,
-                                    WorkingIrradiance& last_irradiance_estimate) const {
-  vulkan::read<vec4>(*device_, field_.light(), light);
-  vulkan::read<vec4>(*device_, field_.last_irradiance_estimate(), last_irradiance_estimate);
+void VulkanFieldBackend::push_light() {
+  vulkan::write<vec4>(*device_, data_.light, field_.light());
+  vulkan::write<vec4>(*device_, data_.last_irradiance_estimate, field_.last_irradiance_estimate());
+  light_is_newer_ = false;
+}
+
+/// Takes over what the host may have changed, unless the device's is newer.
+void VulkanFieldBackend::upload_light() {
+  if (!light_is_newer_) push_light();
+}
+
+void VulkanFieldBackend::push_places(std::span<const int> moved) {
+  field_.set_places(data_.store);
+  field_.set_rays(moved, nullptr);
+  field_.write_distances(data_.store, moved);
 }
 
 void VulkanFieldBackend::store_light(std::span<const int> probes, uint dither_seed) {
@@ -99,6 +99,7 @@ void VulkanFieldBackend::store_light(std::span<const int> probes, uint dither_se
   list.probes.assign(probes.begin(), probes.end());
   list.indices = host_buffer(*device_, probes, "probes to store");
   device_->run([&](Recorder& to) { field_.record_store_light(to, list, dither_seed); });
+  store_is_newer_ = true;
 }
 
 template <class T>
@@ -111,152 +112,89 @@ std::vector<T> VulkanFieldBackend::in_order_of(const DeviceProbes& list, std::sp
   return ordered;
 }
 
-void VulkanFieldBackend::reserve_rays(std::size_t rays, std::size_t probes) {
-  reserve<RayRecord>(*device_, rays, "probe rays", rays_);
-  reserve<HitRecord>(*device_, rays, "probe hits", hits_);
-  reserve<LitPointRecord>(*device_, rays, "points of surfels", points_);
-  reserve<ShadedHitRecord>(*device_, rays, "shaded surfels", shaded_);
-  reserve<vec3>(*device_, rays, "direct light of surfels", direct_);
-  reserve<uint>(*device_, probes, "ray indices", first_indices_);
+/// Those that have been traced.
+std::vector<int> VulkanFieldBackend::traced_among(std::span<const int> probes) const {
+  std::vector<int> traced;
+  for (const int probe : probes) {
+    if (field_.rays_of(probe)) traced.push_back(probe);
+  }
+  return traced;
 }
 
-/// Reserves memory for the rays of a list, and counts them. Returns the number of passes to time.
-std::uint32_t VulkanFieldBackend::prepare_rays(const DeviceProbes& list, DeviceTraced& traced) {
-  std::vector<uint> first_indices;
-  for (const int probe : list.probes) {
-    first_indices.push_back(static_cast<uint>(first_ray_index(probe)));
-  }
-  std::size_t most_rays = 0;
-  std::uint32_t groups = 0;
-  for (const DeviceGroup& group : groups_of_rays(field_, list)) {
-    const auto rays = static_cast<std::size_t>(group.count) * group.rays;
-    traced.probe_rays += rays;
-    most_rays = std::max(most_rays, rays);
-    ++groups;
-  }
-  reserve_rays(most_rays, list.probes.size());
-  vulkan::write<uint>(*device_, first_indices, first_indices_);
-  return 2 * groups + kTimedPasses;
-}
-
-void VulkanFieldBackend::record_tracing(Recorder& to, const DeviceWorld& world,
-                                        const DeviceProbes& list, bool seen) {
-  const DeviceStage stage{world.scene(), world.tracer()};
-  for (const DeviceGroup& group : groups_of_rays(field_, list)) {
-    const auto rays = static_cast<std::uint32_t>(group.count * group.rays);
-    to.begin_pass("trace");
-    to.bind_textures(world.scene().textures());
-    field_.record_rays(to, list, group, {rays_.address()});
-    world.tracer().closest_hits(to, {{rays_.address()}, rays}, {hits_.address()});
-    to.barrier();
-    to.end_pass();
-    to.begin_pass("shade");
-    const RaySet& set = *field_.rays_of(list.probes[group.first]);
-    shading_.shade_hits(to, stage, {{rays_.address()}, {hits_.address()}, rays},
-                        {first_indices_.address() + group.first * sizeof(uint)},
-                        static_cast<std::uint32_t>(group.rays), surfel_shading(settings_, set),
-                        {{points_.address()}, {shaded_.address()}, {direct_.address()}});
-    field_.record_surfels(to, list, group, {points_.address()}, {shaded_.address()},
-                          {direct_.address()});
-    to.end_pass();
-    if (seen) field_.record_seen_distances(to, list, group, {hits_.address()});
-  }
-}
-
-DeviceTraced VulkanFieldBackend::trace(const DeviceTracing& tracing) {
-  std::vector<int> probes;
-  for (const TraceGroup& group : tracing.groups) {
-    field_.set_rays(group.probes, group.rays);
-    probes.insert(probes.end(), group.probes.begin(), group.probes.end());
-  }
-  DeviceTraced traced;
-  if (probes.empty()) return traced;
-  const DeviceProbes list = field_.list(probes);
-  const std::vector<float> blend_weights = in_order_of(list, tracing.blend_weights, 1);
+ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
+  ProbeUpdateResult result;
+  if (update.probes.empty()) return result;
+  upload_light();
+  for (const TraceGroup& group : update.groups) field_.set_rays(group.probes, group.rays);
+  const DeviceProbes list = field_.list(update.probes);
+  const std::vector<float> blend_weights = in_order_of<float>(list, update.blend_weights, 1);
   const Buffer blend_weight_buffer = host_buffer<float>(*device_, blend_weights, "blend weights");
-  Buffer changes(*device_, probes.size() * sizeof(LightChange), vulkan::Memory::readback,
-                 "changes of light");
-  const std::uint32_t timed = prepare_rays(list, traced);
+  const bool hybrid = data_.settings.visibility == Visibility::hybrid;
+  const std::vector<int> cells =
+      hybrid ? cells_around(data_.store, update.probes) : std::vector<int>();
+  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *update.world.on_device(), list, cells,
+                       /*sees=*/true);
+  ChangesForHost changes(field_, update.probes.size(), update.darkest);
   field_.reserve_seen(list);
   field_.reserve_transport(list);
   solver_.reserve(list);
-  const RayCounts counts(*device_);
 
-  const float largest = *std::max_element(blend_weights.begin(), blend_weights.end());
-  vulkan::Timestamps timestamps(*device_, timed);
+  vulkan::Timestamps timestamps(*device_, timed_passes(rays));
   device_->run([&](Recorder& untimed) {
     Recorder to(*device_, untimed.commands(), &timestamps);
-    record_tracing(to, *tracing.world.on_device(), list, /*seen=*/true);
-    shading_.take_ray_count(to, counts.shadows);
-    to.begin_pass("blend");
-    field_.record_blend_distances(to, list, {blend_weight_buffer.address()}, tracing.dither_seed);
-    to.end_pass();
-    to.begin_pass("shade");
-    field_.record_lookups(to, list, &tracing.world.on_device()->tracer());
-    field_.take_ray_count(to, counts.lookups);
-    to.end_pass();
-    to.begin_pass("solve");
-    if (tracing.max_bounces >= 0) {
-      solver_.record_bounces(to, list, blend_weight_buffer, tracing.max_bounces);
-    } else {
-      solver_.record(to, list, blend_weight_buffer, largest, {}, tracing.solve);
-    }
-    field_.record_last_estimates(to, list, {solver_.solution().address()});
-    field_.record_compare_light(to, list, {solver_.history().address()}, tracing.darkest,
-                                {changes.address()});
-    to.end_pass();
-    to.begin_pass("blend");
-    field_.record_store_light(to, list, tracing.dither_seed);
-    to.end_pass();
+    const float largest = *std::max_element(blend_weights.begin(), blend_weights.end());
+    FieldPassesVulkan passes(to, {field_, solver_, rays, changes, list, blend_weight_buffer,
+                                  largest, update.dither_seed});
+    lambent::update_probes(passes);
+    rays.record_counts(to);
   });
-  assign_pass_times(timestamps.read(), traced);
-  traced.shadow_rays = counts.sum();
-  traced.solve = solver_.result();
-  const std::span<const LightChange> found = changes.as<LightChange>();
-  for (const std::size_t position : list.position) traced.changes.push_back(found[position]);
-  return traced;
+  light_is_newer_ = store_is_newer_ = true;
+  for (const vulkan::DevicePassTime& pass : timestamps.read()) {
+    result.passes.push_back({pass.name, pass.ms});
+  }
+  result.probe_rays = rays.probe_rays();
+  result.shadow_rays = rays.other_rays();
+  const DeviceSolve solved = solver_.result();
+  result.iterations = solved.iterations;
+  result.error = solved.error;
+  result.change = solved.change;
+  const std::span<const LightChange> found = changes.found.as<LightChange>();
+  for (const std::size_t position : list.position) result.changes.push_back(found[position]);
+  return result;
 }
 
-DeviceTraced VulkanFieldBackend::retrace(const World& world, std::span<const int> probes,
-                                         uint dither_seed) {
-  std::vector<int> traced_before, all;
-  for (const int probe : probes) {
-    if (field_.rays_of(probe)) traced_before.push_back(probe);
-  }
-  for (int probe = 0; probe < field_.probes(); ++probe) {
-    if (field_.rays_of(probe)) all.push_back(probe);
-  }
-  DeviceTraced traced;
-  if (traced_before.empty()) return traced;
-  const DeviceProbes list = field_.list(traced_before), everyone = field_.list(all);
-  const std::uint32_t timed = prepare_rays(list, traced);
-  const RayCounts counts(*device_);
-  vulkan::Timestamps timestamps(*device_, timed);
-  device_->run([&](Recorder& untimed) {
-    Recorder to(*device_, untimed.commands(), &timestamps);
+/// Rays are cheap here and finding out which may differ is not: all are traced again.
+InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<const WorldChanges>,
+                                               std::span<const int> probes,
+                                               std::span<const int> among, uint dither_seed) {
+  const std::vector<int> traced = traced_among(probes);
+  if (traced.empty()) return {};
+  const DeviceProbes list = field_.list(traced), everyone = field_.list(traced_among(among));
+  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *world.on_device(), list, {},
+                       /*sees=*/false);
+  device_->run([&](Recorder& to) {
     field_.record_distances_before(to, list);
-    record_tracing(to, *world.on_device(), list, /*seen=*/false);
-    shading_.take_ray_count(to, counts.shadows);
-    to.begin_pass("blend");
+    for (int batch = 0; batch < rays.batches(); ++batch) {
+      rays.trace(to, batch);
+      rays.shade(to, batch);
+    }
     field_.record_move_distances(to, list, dither_seed);
-    to.end_pass();
-    to.begin_pass("shade");
-    field_.record_lookups(to, everyone, &world.on_device()->tracer());
-    field_.take_ray_count(to, counts.lookups);
-    to.end_pass();
+    field_.record_lookups(to, everyone, rays.tracer());
+    rays.record_counts(to);
   });
-  assign_pass_times(timestamps.read(), traced);
-  traced.shadow_rays = counts.sum();
-  return traced;
+  store_is_newer_ = true;
+  return {rays.probe_rays(), rays.other_rays(), {}};
 }
 
-DeviceSolve VulkanFieldBackend::solve(std::span<const int> probes,
+SolveResult VulkanFieldBackend::solve(std::span<const int> probes,
                                       std::span<const float> blend_weights,
                                       const WorkingIrradiance& history_ratio,
-                                      const SolveSettings& settings, WorkingIrradiance* solution) {
+                                      const SolveSettings& settings) {
   const auto texels = static_cast<std::size_t>(field_.tile_texels());
-  if (solution != nullptr) solution->assign(probes.size() * texels, vec4(0.0f));
-  if (probes.empty()) return {};
+  SolveResult result;
+  result.solution.assign(probes.size() * texels, vec4(0.0f));
+  if (probes.empty()) return result;
+  upload_light();
   const DeviceProbes list = field_.list(probes);
   const std::vector<float> ordered = in_order_of(list, blend_weights, 1);
   const Buffer blend_weight_buffer = host_buffer<float>(*device_, ordered, "blend weights");
@@ -273,23 +211,26 @@ DeviceSolve VulkanFieldBackend::solve(std::span<const int> probes,
     solver_.record(to, list, blend_weight_buffer, largest,
                    {history_ratio.empty() ? 0 : history_ratios.address()}, settings);
   });
-  if (solution != nullptr) {
-    std::vector<vec4> found(probes.size() * texels);
-    vulkan::read<vec4>(*device_, solver_.solution(), found);
-    for (std::size_t named = 0; named < probes.size(); ++named) {
-      std::copy_n(&found[list.position[named] * texels], texels, &(*solution)[named * texels]);
-    }
+  std::vector<vec4> found(probes.size() * texels);
+  vulkan::read<vec4>(*device_, solver_.solution(), found);
+  for (std::size_t named = 0; named < probes.size(); ++named) {
+    std::copy_n(&found[list.position[named] * texels], texels, &result.solution[named * texels]);
   }
-  return solver_.result();
+  light_is_newer_ = true;
+  fetch_light();
+  const DeviceSolve solved = solver_.result();
+  result.iterations = solved.iterations;
+  result.error = solved.error;
+  result.change = solved.change;
+  return result;
 }
 
-void VulkanFieldBackend::receive(std::span<const int> probes, const WorkingIrradiance& fallback,
-                                 WorkingIrradiance& received) {
+void VulkanFieldBackend::receive(std::span<const int> probes, WorkingIrradiance& received) {
   if (probes.empty()) return;
   const auto texels = static_cast<std::size_t>(field_.tile_texels());
   const DeviceProbes list = field_.list(probes);
   const Buffer before = host_buffer<vec4>(
-      *device_, in_order_of(list, std::span<const vec4>(fallback), texels), "light before");
+      *device_, in_order_of(list, std::span<const vec4>(received), texels), "light before");
   const Buffer found(*device_, probes.size() * texels * sizeof(vec4), vulkan::Memory::readback,
                      "received light");
   field_.reserve_transport(list);

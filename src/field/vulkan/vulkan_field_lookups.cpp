@@ -31,11 +31,10 @@ std::uint64_t VulkanFieldBackend::update_cell_visibility(const World& world,
   return cells.size() * kCellPairs;
 }
 
-std::uint64_t VulkanFieldBackend::find_lookups(const World& world, std::span<const int> probes) {
-  std::vector<int> traced;
-  for (const int probe : probes) {
-    if (field_.rays_of(probe)) traced.push_back(probe);
-  }
+/// Finding out which surfels read a probe that moved costs more than finding all lookups again.
+std::uint64_t VulkanFieldBackend::find_lookups(const World& world, std::span<const int>,
+                                               std::span<const int> among) {
+  const std::vector<int> traced = traced_among(among);
   if (traced.empty()) return 0;
   const DeviceProbes list = field_.list(traced);
   const Buffer rays(*device_, sizeof(uint), vulkan::Memory::readback, "rays of lookups");
@@ -72,10 +71,9 @@ void VulkanFieldBackend::record_lookups(Recorder& recorder, const World* world,
   field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer);
 }
 
-std::unique_ptr<FieldBackend> make_field_backend(const World& world, const FieldSettings& settings,
-                                                 const ProbeStore& store) {
-  assert(store.probes() <= kMaxBackendProbes);
-  return std::make_unique<VulkanFieldBackend>(world, settings, store);
+std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeData& data) {
+  assert(lives_on_device(world, data.store.probes()));
+  return std::make_unique<VulkanFieldBackend>(world, data);
 }
 
 }  // namespace lambent

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "core/stopwatch.h"
+#include "lambent/pass_time.h"
+
+namespace lambent {
+
+/// Adds to a pass's time. Passes are in the order in which they ran first.
+inline void add_pass_time(std::vector<PassTime>& passes, std::string_view name, double ms) {
+  const auto known = std::find_if(passes.begin(), passes.end(),
+                                  [&](const PassTime& pass) { return pass.name == name; });
+  if (known == passes.end()) {
+    passes.push_back({std::string(name), ms});
+  } else {
+    known->ms += ms;
+  }
+}
+
+/// Measures passes that run one after the other.
+class PassTimer {
+ public:
+  /// The list of passes must outlive it.
+  explicit PassTimer(std::vector<PassTime>& passes) : passes_(passes) {}
+
+  /// Counts the time since the last call, or since the start, for a pass.
+  void finish(std::string_view name) { add_pass_time(passes_, name, watch_.lap()); }
+  /// Counts the time since the last call for no pass.
+  void skip() { watch_.lap(); }
+
+ private:
+  std::vector<PassTime>& passes_;
+  Stopwatch watch_;
+};
+
+}  // namespace lambent

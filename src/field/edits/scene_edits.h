@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which edits of the world have reached which probes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "field/transport/anderson.h"
+
+namespace lambent {
+
+/// Edits of the world that have reached some probes and not yet others.
+struct PendingEdits {
+  std::uint64_t revision = 0;  ///< The world's revision that the edits led to.
+  /// The light of all probes before the edits. Empty where no edits are pending.
+  WorkingIrradiance before;
+  /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
+  /// alone estimated (history_ratio.cpp).
+  WorkingIrradiance history_ratio;
+  std::vector<int> updated;  ///< The probes that the edits have reached, in ascending order.
+};
+
+/// How far an update got with the edits of the world: no probe was stale, some stale probes are
+/// left, or all stale probes have been brought up to date.
+enum class EditProgress { none, partial, complete };
+
+/// The probes that have been traced at all, and those whose surfels belong to an older revision of
+/// the world.
+struct StaleProbes {
+  std::vector<int> traced;    ///< All probes that have surfels.
+  std::vector<int> waiting;   ///< The stale probes among them, without the sleeping ones.
+  std::vector<int> sleeping;  ///< The stale probes among them that sleep.
+};
+
+/// What a field knows of the edits of its world.
+struct SceneEdits {
+  PendingEdits pending;
+  std::uint64_t applied_revision = 0;  ///< The revision that all but sleeping probes know.
+  std::vector<int> stale_sleeping;     ///< Stale sleeping probes, the oldest first.
+  std::size_t sleeping_per_slice = 0;  ///< How many of those an update brings up to date.
+  bool applied_last = false;           ///< The last update applied edits and traced nothing else.
+};
+
+}  // namespace lambent

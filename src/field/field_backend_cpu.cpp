@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// A field in the processor's memory, and the passes of an update there.
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "core/pass_times.h"
+#include "field/edits/history_ratio.h"
+#include "field/field_backend.h"
+#include "field/lookup/lookup_volumes.h"
+#include "field/passes.h"
+#include "field/probes/tile_light.h"
+#include "field/schedule/importance.h"
+#include "field/transport/distances.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kProbesPerTask = 64;
+constexpr std::size_t kQueriesPerTask = 4096;
+
+VisibilityRays visibility_in(const World& world, const ProbeData& data) {
+  return {data.settings.visibility, &world.tracer(), &data.cell_visibility};
+}
+
+void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& data) {
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    std::vector<vec3> interior(texels);
+    for (std::size_t k = begin; k < end; ++k) {
+      const vec4* tile = &data.light[probes[k] * texels];
+      for (std::size_t t = 0; t < texels; ++t) interior[t] = vec3(tile[t]);
+      data.store.store_irradiance(probes[k], interior, dither_seed);
+    }
+  });
+}
+
+class FieldPassesCpu final : public FieldPasses {
+ public:
+  FieldPassesCpu(ProbeUpdate& update, ProbeData& data)
+      : update_(update), data_(data), timer_(result.passes) {}
+
+  ProbeUpdateResult result;
+
+  const FieldSettings& settings() const override { return data_.settings; }
+  int batches() const override { return static_cast<int>(update_.groups.size()); }
+
+  void trace(int batch) override {
+    TraceGroup& group = update_.groups[batch];
+    trace_probe_rays(update_.world.tracer(), data_.store, group);
+    result.probe_rays += group.hits.size();
+  }
+
+  void shade(int batch) override {
+    result.shadow_rays += shade_surfels(update_.world, data_.store, update_.groups[batch],
+                                        data_.settings, data_.traces);
+  }
+
+  void blend_distances() override {
+    std::span<const float> blend_weights = update_.blend_weights;
+    for (const TraceGroup& group : update_.groups) {
+      const DistanceBlend blend(data_.settings, group.rays->directions);
+      lambent::blend_distances(update_.world.scene(), blend, group,
+                               blend_weights.first(group.probes.size()), update_.dither_seed,
+                               data_.store);
+      blend_weights = blend_weights.subspan(group.probes.size());
+    }
+  }
+
+  void visibility() override {
+    result.shadow_rays += data_.cell_visibility.update(update_.world.tracer(), data_.store,
+                                                       cells_around(data_.store, update_.probes));
+  }
+
+  void lookups() override {
+    result.shadow_rays += find_surfel_lookups(data_.store, visibility_in(update_.world, data_),
+                                              update_.probes, data_.traces);
+  }
+
+  void solve() override {
+    const TransportOperator to_these = data_.transport(update_.probes);
+    const int bounces = data_.settings.max_bounces;
+    history_ = light_of(data_.light, update_.probes, data_.tile_texels());
+    const SolveResult solved =
+        bounces >= 0
+            ? solve_counted_bounces(to_these, update_.blend_weights, bounces, data_.light)
+            : solve_bounces(to_these, update_.blend_weights, {}, update_.solve, data_.light);
+    result.iterations = solved.iterations;
+    result.error = solved.error;
+    result.change = solved.change;
+    store_last_estimates(update_.probes, solved.solution, data_);
+  }
+
+  void variability() override {
+    const auto texels = static_cast<std::size_t>(data_.tile_texels());
+    for (std::size_t k = 0; k < update_.probes.size(); ++k) {
+      const TileLight held(&data_.light[update_.probes[k] * texels], texels),
+          before(&history_[k * texels], texels);
+      result.changes.push_back({relative_square(held, before, update_.darkest),
+                                mean_luminance(before), mean_luminance(held)});
+    }
+  }
+
+  void store() override { store_irradiance(update_.probes, update_.dither_seed, data_); }
+
+  // The host has scheduled and placed the probes before the update.
+  void schedule() override {}
+  void placement() override {}
+
+  void begin(const char* name) override { name_ = name; }
+  void end() override { timer_.finish(name_); }
+
+ private:
+  ProbeUpdate& update_;
+  ProbeData& data_;
+  PassTimer timer_;
+  const char* name_ = nullptr;
+  WorkingIrradiance history_;  // what the update's probes held
+};
+
+class FieldBackendCpu final : public FieldBackend {
+ public:
+  explicit FieldBackendCpu(ProbeData& data) : data_(data) {}
+
+  bool suits(const World& world) const override {
+    return !lives_on_device(world, data_.store.probes());
+  }
+  const DeviceLookups* on_device() const override { return nullptr; }
+
+  void fetch_light() override {}
+  void fetch_store() override {}
+  void push_light() override {}
+  void push_places(std::span<const int>) override {}
+
+  ProbeUpdateResult update_probes(ProbeUpdate update) override {
+    FieldPassesCpu passes(update, data_);
+    lambent::update_probes(passes);
+    return std::move(passes.result);
+  }
+
+  InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
+                             std::span<const int> probes, std::span<const int> among,
+                             uint dither_seed) override {
+    return invalidate_surfels(world, changes, data_.settings, probes, among,
+                              visibility_in(world, data_), data_.store, data_.traces, dither_seed);
+  }
+
+  std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) override {
+    return data_.cell_visibility.update(world.tracer(), data_.store, cells);
+  }
+
+  std::uint64_t find_lookups(const World& world, std::span<const int> moved,
+                             std::span<const int> among) override {
+    return find_surfel_lookups(data_.store, visibility_in(world, data_),
+                               probes_reading(moved, among, data_.store, data_.traces),
+                               data_.traces);
+  }
+
+  SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
+                    const WorkingIrradiance& history_ratio,
+                    const SolveSettings& settings) override {
+    return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings,
+                         data_.light);
+  }
+
+  void receive(std::span<const int> probes, WorkingIrradiance& received) override {
+    data_.transport(probes).apply(data_.light, received, received);
+  }
+
+  std::vector<double> direct_light(std::span<const int> probes) override {
+    return direct_light_of(data_.traces, probes);
+  }
+
+  void store_light(std::span<const int> probes, uint dither_seed) override {
+    store_irradiance(probes, dither_seed, data_);
+  }
+
+  std::vector<float> scatter_importance(std::span<const float> received, float least) override {
+    return scatter_from_surfels(data_.store, data_.traces, received, least);
+  }
+
+  void irradiance(std::span<const FieldQuery> queries, const World* world,
+                  std::span<vec3> result) const override {
+    const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
+    const VisibilityRays by = {data_.settings.visibility, tracer, &data_.cell_visibility};
+    parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
+      lookup_irradiance(data_.store, by, queries.subspan(begin, end - begin),
+                        result.subspan(begin, end - begin));
+    });
+  }
+
+  std::size_t surfel_bytes() const override {
+    std::size_t bytes = 0;
+    for (const ProbeTrace& trace : data_.traces) bytes += trace.bytes();
+    return bytes;
+  }
+
+ private:
+  ProbeData& data_;
+};
+
+}  // namespace
+
+std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeData& data) {
+  return std::make_unique<FieldBackendCpu>(data);
+}
+
+}  // namespace lambent

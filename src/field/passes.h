@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passes of an update of the field, as executors supply them; update.cpp says in which order
+// they run.
+//
+// There are two executors: the processor (field_backend_cpu.cpp), which does what it is asked at
+// once, and Vulkan (vulkan/passes_vulkan.h), which only records. Where rays come from is the
+// executor's ray source: Embree, our Vulkan world, or an engine. An engine shades what rays meet
+// with commands of its own, so that its update is recorded in parts.
+#pragma once
+
+#include "lambent/field.h"
+
+namespace lambent {
+
+/// Names of passes. A pass has one name everywhere: as its row in statistics, its timer and its
+/// debug label.
+namespace field_pass {
+inline constexpr const char* kPlacement = "placement";
+inline constexpr const char* kEdits = "edits";
+inline constexpr const char* kSchedule = "schedule";
+inline constexpr const char* kTrace = "trace";
+inline constexpr const char* kShade = "shade";
+inline constexpr const char* kBlendDistances = "blend_distances";
+inline constexpr const char* kVisibility = "visibility";
+inline constexpr const char* kLookups = "lookups";
+inline constexpr const char* kSolve = "solve";
+inline constexpr const char* kVariability = "variability";
+inline constexpr const char* kStore = "store";
+}  // namespace field_pass
+
+/// The passes over the probes of one update. Each call leaves its result for those that follow.
+class FieldPasses {
+ public:
+  virtual ~FieldPasses() = default;
+
+  virtual const FieldSettings& settings() const = 0;
+  /// The number of batches in which the update's rays are traced and shaded. Each fits into memory.
+  virtual int batches() const = 0;
+
+  /// Chooses the probes and draws their rays, where the executor decides and not the host.
+  virtual void schedule() = 0;
+  /// Finds what a batch's rays meet.
+  virtual void trace(int batch) = 0;
+  /// Makes surfels of a batch's hits, with the direct light on them.
+  virtual void shade(int batch) = 0;
+  /// Blends the distances that all rays saw into the store.
+  virtual void blend_distances() = 0;
+  /// Finds which probes of the cells around the update's probes see each other.
+  virtual void visibility() = 0;
+  /// Finds which probes light each surfel, and by how much.
+  virtual void lookups() = 0;
+  /// Solves for the light of all bounces, and blends it into what the probes hold.
+  virtual void solve() = 0;
+  /// Finds by how much the solution changed the probes' light.
+  virtual void variability() = 0;
+  /// Encodes the probes' light for lookups.
+  virtual void store() = 0;
+  /// Relocates and classifies the probes, where the update's own rays are all there is to decide
+  /// by.
+  virtual void placement() = 0;
+
+  /// Is called before each pass, with its name, ...
+  virtual void begin(const char* name) = 0;
+  /// ... and after it.
+  virtual void end() = 0;
+};
+
+/// Runs all passes of an update whose probes the host has placed and chosen.
+void update_probes(FieldPasses& passes);
+
+// An engine records an update in four parts, in this order, with commands of its own in between.
+
+/// Runs the schedule.
+void choose_rays(FieldPasses& passes);
+/// Finds the hits of the chosen rays. The engine shades them afterwards.
+void find_hits(FieldPasses& passes);
+/// Runs all passes from shaded hits to stored light.
+void follow_hits(FieldPasses& passes);
+/// Runs the placement.
+void maintain_probes(FieldPasses& passes);
+
+}  // namespace lambent

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the passes of an update work on, in the processor's data.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/lookup/visibility.h"
+#include "field/probes/probe_store.h"
+#include "field/transport/blend.h"
+#include "field/transport/solve_bounces.h"
+#include "field/transport/surfels.h"
+#include "lambent/field.h"
+
+namespace lambent {
+
+/// What probes hold and what their rays met. Where a device holds the field, this is the host's
+/// copy, as of the last transfer (FieldBackend).
+struct ProbeData {
+  /// The settings must outlive it.
+  ProbeData(std::span<const ProbeGrid> volumes, const FieldSettings& field_settings);
+
+  const FieldSettings& settings;
+  ProbeStore store;
+  BlendMatrix tile_fit;
+  std::vector<ProbeTrace> traces;  ///< Where a device holds the field, their ray sets only.
+  CellVisibility cell_visibility;  ///< Only hybrid visibility keeps it up to date.
+  WorkingIrradiance light;         ///< The irradiance that the store encodes.
+  WorkingIrradiance last_irradiance_estimate;  ///< What each probe's last rays alone estimated.
+  /// 1 where a probe's last estimate comes from a solve that stopped at its tolerance, so that it
+  /// is less exact than what edits are compared by.
+  std::vector<std::uint8_t> last_estimate_is_coarse;
+
+  int tile_texels() const { return settings.irradiance_texels * settings.irradiance_texels; }
+  /// Returns the probes that have been traced, in ascending order.
+  std::vector<int> traced_probes() const;
+  TransportOperator transport(std::span<const int> probes) const {
+    return {store.corner_table(), traces, probes, tile_fit, settings.irradiance_texels};
+  }
+  /// Removes all light, surfels and offsets.
+  void clear();
+};
+
+}  // namespace lambent

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/schedule/scheduling.h"
+
+#include "field/placement/classify.h"
+
+namespace lambent {
+
+TracedProbes blend_weights_of(std::span<const TraceGroup> groups, const FieldSettings& settings,
+                              std::span<const ProbeStatus> statuses) {
+  const float longest = longest_average(settings);
+  TracedProbes traced;
+  for (const TraceGroup& group : groups) {
+    const float weight =
+        static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
+    for (const int probe : group.probes) {
+      const float held = min(statuses[probe].samples, max(longest - weight, 0.0f));
+      traced.blend_weights.push_back(weight / (held + weight));
+    }
+    traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
+    traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
+  }
+  return traced;
+}
+
+void update_variability(const TracedProbes& traced, std::span<const LightChange> changes,
+                        const TracedIn& in, const FieldSettings& settings,
+                        std::span<ProbeStatus> statuses, Scheduling& scheduling) {
+  const float longest = longest_average(settings);
+  double light_sum = 0.0;
+  for (std::size_t k = 0; k < traced.probes.size(); ++k) {
+    const int probe = traced.probes[k];
+    ProbeStatus& status = statuses[probe];
+    const LightChange& change = changes[k];
+    light_sum += change.now;
+    learn_noise(estimate_relative_square(change.relative_square, change.before,
+                                         traced.blend_weights[k], scheduling.mean_light),
+                traced.weights[k], status);
+    status.samples = min(status.samples, longest);
+    status.served = in.update;
+    status.state = state_once_traced(status.state);
+    status.revision = in.revision;
+    scheduling.scheduler.mark_changed(probe);
+  }
+  if (traced.probes.empty()) return;
+  const auto count = static_cast<float>(traced.probes.size());
+  const float now = static_cast<float>(light_sum) / count;
+  const ProbeCounts& states = scheduling.scheduler.states();
+  const int live = static_cast<int>(statuses.size()) - states.off - states.sleeping;
+  scheduling.mean_light =
+      learned_light(scheduling.mean_light, now, count, static_cast<float>(live));
+}
+
+void reset_history(int probe, std::uint64_t revision, std::span<ProbeStatus> statuses,
+                   ProbeScheduler& scheduler) {
+  statuses[probe].samples = 0.0f;
+  statuses[probe].revision = revision;
+  scheduler.mark_changed(probe);
+}
+
+}  // namespace lambent

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays of a recorded field's probes: what the device itself decides and an engine finds out.
+#include <cassert>
+
+#include "field/schedule/schedule.h"
+#include "field/vulkan/recorded_state.h"
+#include "raytracing/trace_arguments.h"
+#include "vulkan/recorder.h"
+
+namespace lambent::vulkan {
+
+void RecordedField::State::EngineRays::schedule(Recorder& to) {
+  const RecordedRaysArguments arguments = {{s_.field.grids().address()},
+                                           s_.probe_states(),
+                                           s_.list().index_array(),
+                                           {s_.memory().directions.address()},
+                                           {s_.rays.address()},
+                                           s_.chosen(offsetof(ListState, probes)),
+                                           s_.batch.count,
+                                           s_.settings.rays_per_probe,
+                                           s_.ray_mask,
+                                           s_.batch.all ? 1u : 0u,
+                                           s_.batch.on_device ? 1u : 0u,
+                                           0u};
+  if (s_.batch.history < 1.0f) {
+    const FadeSamplesArguments fade = {
+        {s_.standing.address()}, s_.field.probes(), s_.batch.history};
+    to.run(s_.kernels.fade_samples, fade, s_.field.probes());
+    to.barrier();
+  }
+  if (s_.batch.on_device) {
+    s_.schedule->record_choose(to, s_.probe_states(), s_.batch.update, s_.batch.all);
+  }
+  to.run(s_.kernels.rays, arguments, s_.settings.rays_per_probe, s_.batch.count);
+}
+
+void RecordedField::State::EngineRays::trace(Recorder& to, int) {
+  VkAccelerationStructureDeviceAddressInfoKHR info{};
+  info.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR;
+  info.accelerationStructure = structure;
+  const VkDeviceAddress address =
+      s_.device->fn().vkGetAccelerationStructureDeviceAddressKHR(s_.device->handle(), &info);
+  const std::uint32_t count = s_.ray_count();
+  const EngineClosestArguments arguments = {
+      uvec2(static_cast<uint>(address), static_cast<uint>(address >> 32)),
+      {s_.rays.address()},
+      {s_.hits.address()},
+      count,
+      0u};
+  if (s_.batch.on_device) {
+    to.trace_indirect(s_.tracer.closest, arguments, s_.schedule->state(),
+                      kOverLaunch * sizeof(GroupCounts));
+    return;
+  }
+  to.trace(s_.tracer.closest, arguments, count);
+}
+
+/// Turns the engine's results into surfels and computes the blend weights and the ray weights.
+void RecordedField::State::EngineRays::shade(Recorder& to, int) {
+  const UpdateMemory& m = s_.memory();
+  const DeviceProbes& list = s_.list();
+  const RecordedBlendWeightsArguments blend_weight = {
+      s_.probe_states(),
+      {s_.field.offsets().address()},
+      list.index_array(),
+      {s_.blend_weights.address()},
+      s_.chosen(offsetof(ListState, probes)),
+      s_.chosen(offsetof(ListState, largest_blend_weight)),
+      s_.batch.count,
+      s_.batch.on_device ? 1u : 0u,
+      longest_average(s_.settings),
+      s_.batch.all ? 1u : 0u,
+      s_.batch.discards_history ? 1u : 0u};
+  const RecordedSurfelsArguments surfel = {list.index_array(),       {s_.rays.address()},
+                                           {s_.results.address()},   s_.field.surfels(),
+                                           s_.batch.count,           s_.settings.rays_per_probe,
+                                           s_.field.surfel_stride(), s_.settings.max_albedo};
+  s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, list, kOverLanes);
+  s_.field.run_over(to, s_.kernels.surfels, surfel, list, kOverRays);
+  s_.field.record_weights(to, {m.directions.address()}, s_.settings.rays_per_probe,
+                          {s_.irradiance_weights.address()}, {s_.distance_weights.address()});
+  s_.field.record_seen_surfels(to, list);
+}
+
+void RecordedField::State::EngineRays::visibility(Recorder&) {
+  assert(!"recorded fields are not made with visibility by rays");
+}
+
+void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& list,
+                                              FloatArray blend_weights, Vec4Array before) {
+  // Where probes take turns, nobody asks how noisy they are
+  if (s_.schedule)
+    s_.schedule->record_update_variability(to, list, blend_weights, before, s_.batch.update);
+}
+
+void RecordedField::State::EngineRays::placement(Recorder& to) {
+  const MaintainArguments arguments = {
+      {s_.field.grids().address()}, s_.probe_states(),      s_.list().index_array(),
+      {s_.rays.address()},          {s_.results.address()}, s_.batch.count,
+      s_.settings.rays_per_probe,   s_.batch.place,         s_.batch.all ? 1u : 0u};
+  s_.field.run_over(to, s_.kernels.maintain, arguments, s_.list(), kOverProbes);
+}
+
+}  // namespace lambent::vulkan

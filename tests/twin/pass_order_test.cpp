@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// All executors of the field's passes run them in one order, under the same names.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "twin/recorded_field.h"
+
+namespace lambent {
+namespace {
+
+using test::cornell, test::recorded_settings;
+using vulkan::RecordedField;
+
+using Names = std::vector<std::string>;
+
+Names names_of(const std::vector<PassTime>& passes) {
+  Names names;
+  for (const PassTime& pass : passes) names.push_back(pass.name);
+  return names;
+}
+
+/// Passes of an update of a field that places its probes before it traces them, from `first` on: as
+/// those of one that places them afterwards follow one another.
+Names from(const std::string& first, Names names) {
+  std::rotate(names.begin(), std::find(names.begin(), names.end(), first), names.end());
+  return names;
+}
+
+/// Passes of the second update of a field in a world.
+Names passes_in(const World& world, const FieldSettings& settings) {
+  IrradianceField field = IrradianceField::make(settings, cornell().bounds()).value();
+  field.update(world);
+  return names_of(field.update(world).passes);
+}
+
+class PassOrder : public test::RecordedFieldTest {
+ protected:
+  static World on_device() { return World(cornell().scene, shared_device()); }
+};
+
+TEST_F(PassOrder, OfAnUpdateIsTheSameOnTheProcessorAndOnADevice) {
+  const World there = on_device();
+  FieldSettings settings = recorded_settings();
+  for (const Visibility visibility : {Visibility::moments, Visibility::hybrid}) {
+    settings.visibility = visibility;
+    const Names on_cpu = passes_in(cornell().world, settings);
+    EXPECT_EQ(on_cpu.front(), "placement");
+    EXPECT_EQ(on_cpu.back(), "store");
+    EXPECT_EQ(passes_in(there, settings), on_cpu);
+  }
+}
+
+TEST_F(PassOrder, OfARecordedUpdateIsThatOfTheProcessors) {
+  RecordedField field = make(recorded_settings(), {.frames_in_flight = 1});
+  update(field);
+  field.plan();
+  Names expected = from("schedule", passes_in(cornell().world, recorded_settings()));
+  // The host plays the engine here, and has its own way to find hits
+  std::erase(expected, "trace");
+  EXPECT_EQ(names_of(field.pass_times()), expected);
+
+  // Of parts that are not recorded nothing is told
+  field.plan();
+  EXPECT_TRUE(field.pass_times().empty());
+}
+
+}  // namespace
+}  // namespace lambent
