@@ -87,10 +87,10 @@ void RecordedField::State::EngineRays::visibility(Recorder&) {
 }
 
 void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& list,
-                                              FloatArray blend_weights, Vec4Array before) {
+                                              FloatArray weights, Vec4Array before) {
   // Where probes take turns, nobody asks how noisy they are
   if (s_.schedule)
-    s_.schedule->record_update_variability(to, list, blend_weights, before, s_.batch.update);
+    s_.schedule->record_update_variability(to, list, weights, before, s_.batch.update);
 }
 
 void RecordedField::State::EngineRays::placement(Recorder& to) {
