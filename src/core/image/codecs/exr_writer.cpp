@@ -132,7 +132,6 @@ Expected<ExrWriter> ExrWriter::open(const std::string& path, const LayeredImage&
 Expected<void> ExrWriter::write(const LayeredImage& rows) {
   State& s = *state_;
   Imf::FrameBuffer frame;
-  std::size_t channels = 0;
   for (const Layer& layer : rows.layers) {
     const std::vector<std::string> names = channel_names(layer);
     const std::size_t floats = static_cast<std::size_t>(rows.width) * rows.height * names.size();
@@ -147,7 +146,6 @@ Expected<void> ExrWriter::write(const LayeredImage& rows) {
       frame.insert(names[c], Imf::Slice::Make(Imf::FLOAT, base, {0, s.next_row}, rows.width,
                                               rows.height, pixel_bytes, pixel_bytes * rows.width));
     }
-    channels += names.size();
   }
   assert(s.next_row + rows.height <= s.height);
   try {
