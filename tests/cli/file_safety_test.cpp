@@ -187,7 +187,11 @@ TEST_F(FileSafety, AnInterruptAtAnyMomentLeavesTheOldFileOrTheNewOne) {
   constexpr int kTimes = 20;
   int ended_by_signal = 0;
   for (int i = 0; i < kTimes; ++i) {
-    if (i < kTimes / 2) fs::remove(output);
+    if (i < kTimes / 2) {
+      fs::remove(output);
+    } else {
+      std::ofstream(output, std::ios::binary) << complete;
+    }
     const int number = i % 2 == 0 ? SIGINT : SIGTERM;
     const int status = interrupted(arguments, number, whole * (i % (kTimes / 2)) / (kTimes / 2));
     if (WIFSIGNALED(status)) {
