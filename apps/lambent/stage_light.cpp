@@ -8,12 +8,10 @@
 #include "lambent/validators.h"
 #include "lambent/world.h"
 #include "scene/limits.h"
+#include "stage/studio.h"
 
 namespace lambent::cli {
 namespace {
-
-// A clear afternoon's sun on a surface that faces it [W/m^2].
-constexpr glm::vec3 kDefaultSunIrradiance{20.0f, 18.0f, 15.0f};
 
 // Length of --sun below which its direction would drown in rounding.
 constexpr float kMinDirection = 1e-6f;
@@ -37,7 +35,7 @@ Expected<void> add_sun(const LightOptions& options, Scene& scene) {
   // In double, where no vector of floats is too long for its square
   const glm::dvec3 way(*direction);
   if (glm::length(way) < kMinDirection) return fail("--sun", "", "the direction has no length");
-  glm::vec3 irradiance = kDefaultSunIrradiance;
+  glm::vec3 irradiance = kFirstSunIrradiance;
   if (!options.sun_irradiance.empty()) {
     const auto given = parse_vec3("--sun-irradiance", options.sun_irradiance);
     if (!given) return tl::unexpected(given.error());

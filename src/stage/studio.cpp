@@ -34,9 +34,6 @@ constexpr float kSoftEdge = 7.0f;
 // sends.
 constexpr float kKeyIrradiance = 5.0f;
 
-// A clear afternoon: irradiance on a surface that faces the sun [W/m^2].
-constexpr glm::vec3 kFirstSunIrradiance{20.0f, 18.0f, 15.0f};
-
 /// 1 within `half` of the middle, falling to 0 over kSoftEdge.
 float edge(float offset, float half) {
   return 1.0f - glm::smoothstep(half - kSoftEdge, half, std::abs(offset));

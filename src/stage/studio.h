@@ -21,7 +21,9 @@ Light make_key_light(const glm::vec3& front_ws);
 /// afternoon.
 Light make_first_sun(const glm::vec3& direction_ws);
 
-/// The sky that goes with it [W/(m^2 sr)].
+/// What the sun of a clear afternoon sends to a surface that faces it [W/m^2], and the radiance of
+/// the sky that goes with it [W/(m^2 sr)].
+inline constexpr glm::vec3 kFirstSunIrradiance{20.0f, 18.0f, 15.0f};
 inline constexpr glm::vec3 kFirstSky{1.5f, 2.0f, 2.6f};
 
 }  // namespace lambent
