@@ -10,6 +10,11 @@ namespace {
 
 constexpr int kRepetitions = 9;
 
+const SolidSides& solid_sides() {
+  static const SolidSides sides = solid_sides_by_winding(workload().scene);
+  return sides;
+}
+
 void shade(benchmark::State& state) {
   const Workload& work = workload();
   const TraceGroup traced = trace_all_probes(work);
@@ -20,7 +25,8 @@ void shade(benchmark::State& state) {
   for (auto _ : state) {
     const double shadows = time_occlusions(work, rays.shadow_rays, occluded);
     const double elapsed = time_ms([&] {
-      shade_surfels(work.world, work.field.store(), traced, work.field.settings(), traces);
+      shade_surfels(work.world, solid_sides(), work.field.store(), traced, work.field.settings(),
+                    traces);
     });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
@@ -35,7 +41,8 @@ void find_lookups(benchmark::State& state) {
   const Workload& work = workload();
   const TraceGroup traced = trace_all_probes(work);
   std::vector<ProbeTrace> traces(traced.probes.size());
-  shade_surfels(work.world, work.field.store(), traced, work.field.settings(), traces);
+  shade_surfels(work.world, solid_sides(), work.field.store(), traced, work.field.settings(),
+                traces);
   Median ms;
   for (auto _ : state) {
     const double elapsed =

@@ -69,7 +69,8 @@ struct ProbeBlend {
     group.probes = probes;
     trace_probe_rays(workload().world.tracer(), store, group);
     std::vector<ProbeTrace> traces(probes.size());
-    shade_surfels(workload().world, store, group, settings, traces);
+    shade_surfels(workload().world, solid_sides_by_winding(workload().scene), store, group,
+                  settings, traces);
     find_surfel_lookups(store, {}, probes, traces);
     field.write_surfels(probes, traces);
     std::vector<HitRecord> records;

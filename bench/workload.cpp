@@ -56,7 +56,7 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const FieldSettings& settings = work.field.settings();
   const ProbeStore& store = work.field.store();
   const RaySet set(settings, settings.rays_per_probe, static_cast<uint>(update));
-  const ShadeHitsSettings shading = surfel_shading(settings, set);
+  const ShadeHitsSettings shading = surfel_shading(settings, set, nullptr);
 
   // Shade each probe's hits for the sake of the shadow rays
   const std::vector<VolumeRole> roles(1);  // the field's own grid alone

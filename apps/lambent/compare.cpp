@@ -106,6 +106,10 @@ void add_numbers(const Comparison& comparison, const std::string& prefix, Json& 
   if (m.noise_corrected_relative_rmse) {
     set("noise_corrected_relative_rmse", *m.noise_corrected_relative_rmse);
   }
+  set("block_ratio_first_percentile", m.blocks.first_percentile);
+  set("block_ratio_last_percentile", m.blocks.last_percentile);
+  set("darkest_spot", m.blocks.darkest_spot);
+  set("brightest_spot", m.blocks.brightest_spot);
   set("relmse", m.relmse);
   set("max_error", m.max_error);
   set("peak", m.peak);

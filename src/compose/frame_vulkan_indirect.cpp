@@ -84,7 +84,6 @@ void FramePassesVulkan::gather() {
   ShadeHitsSettings shading;
   shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
   shading.max_albedo = request_.sources.field->settings().max_albedo;
-  shading.back_faces_count = true;
   shading.salt = sample_;
   shading.seed = request_.settings.seed;
 

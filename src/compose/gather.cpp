@@ -44,7 +44,6 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   ShadeHitsSettings shading;
   shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(rays_per_pixel));
   shading.max_albedo = field.settings().max_albedo;
-  shading.back_faces_count = true;
   shading.salt = static_cast<uint>(sample);
   shading.seed = settings.seed;
 

@@ -86,6 +86,9 @@ class FieldBackend {
   /// uploads their distance tiles.
   virtual void push_places(std::span<const int> moved) = 0;
 
+  /// Uploads ProbeData::solid_sides.
+  virtual void push_solid_sides() = 0;
+
   // Passes.
 
   /// Runs all passes of update_probes() in passes.h.

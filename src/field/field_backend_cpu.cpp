@@ -51,15 +51,15 @@ class FieldPassesCpu final : public FieldPasses {
   }
 
   void shade(int batch) override {
-    result.shadow_rays += shade_surfels(update_.world, data_.store, update_.groups[batch],
-                                        data_.settings, data_.traces);
+    result.shadow_rays += shade_surfels(update_.world, data_.solid_sides, data_.store,
+                                        update_.groups[batch], data_.settings, data_.traces);
   }
 
   void blend_distances() override {
     std::span<const float> blend_weights = update_.blend_weights;
     for (const TraceGroup& group : update_.groups) {
       const DistanceBlend blend(data_.settings, group.rays->directions);
-      lambent::blend_distances(update_.world.scene(), blend, group,
+      lambent::blend_distances(data_.solid_sides, blend, group,
                                blend_weights.first(group.probes.size()), update_.dither_seed,
                                data_.store);
       blend_weights = blend_weights.subspan(group.probes.size());
@@ -129,6 +129,7 @@ class FieldBackendCpu final : public FieldBackend {
   void fetch_light() override {}
   void fetch_store() override {}
   void push_light() override {}
+  void push_solid_sides() override {}
   void push_places(std::span<const int>) override {}
 
   ProbeUpdateResult update_probes(ProbeUpdate update) override {
@@ -140,7 +141,7 @@ class FieldBackendCpu final : public FieldBackend {
   InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
                              std::span<const int> probes, std::span<const int> among,
                              uint dither_seed) override {
-    return invalidate_surfels(world, changes, data_.settings, probes, among,
+    return invalidate_surfels(world, data_.solid_sides, changes, data_.settings, probes, among,
                               visibility_in(world, data_), data_.store, data_.traces, dither_seed);
   }
 

@@ -12,6 +12,7 @@
 #include "field/transport/solve_bounces.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
+#include "raytracing/solid_sides.h"
 
 namespace lambent {
 
@@ -24,6 +25,8 @@ struct ProbeData {
   const FieldSettings& settings;
   ProbeStore store;
   BlendMatrix tile_fit;
+  /// Of the world that the field follows; made before its first probe is placed.
+  SolidSides solid_sides;
   std::vector<ProbeTrace> traces;  ///< Where a device holds the field, their ray sets only.
   CellVisibility cell_visibility;  ///< Only hybrid visibility keeps it up to date.
   WorkingIrradiance light;         ///< The irradiance that the store encodes.

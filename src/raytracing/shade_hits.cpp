@@ -70,7 +70,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     result.position_ws = surface.position_ws;
     result.normal_ws = surface.normal_ws;
     result.geometric_normal_ws = surface.geometric_normal_ws;
-    if (!surface.front_face && !surface.double_sided && !settings.back_faces_count) {
+    if (settings.solid_sides != nullptr && settings.solid_sides->is_solid(hits[i])) {
       result.counts = false;
       continue;
     }

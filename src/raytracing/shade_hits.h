@@ -8,6 +8,7 @@
 
 #include "raytracing/direct_light.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/solid_sides.h"
 
 namespace lambent {
 
@@ -21,7 +22,7 @@ struct ShadedHit {
   glm::vec3 sky_radiance{0.0f};       ///< Of a ray that left the scene [W/(m^2 sr)], else 0.
   glm::vec3 emission{0.0f};           ///< Radiance of the surface itself [W/(m^2 sr)].
   bool receives_gi = true;            ///< Indirect light reaches the surface.
-  bool counts = true;                 ///< false: the back of a single-sided surface.
+  bool counts = true;                 ///< false: the side that the ray met bounds solid matter.
 };
 
 /// How hits are shaded.
@@ -30,8 +31,9 @@ struct ShadeHitsSettings {
       0.0f;  ///< Width of a ray's cone per metre, which picks MIP levels; 0: full resolution.
   float max_albedo = 1.0f;   ///< Albedo is clamped to this, 0 to 1.
   int emissive_samples = 1;  ///< Points drawn on emissive triangles a hit, >= 1.
-  bool back_faces_count =
-      false;  ///< Single-sided surfaces are lit from behind, too, as the camera sees them.
+  /// A ray that meets a side that bounds solid matter comes from inside it and does not count;
+  /// null: all rays count. It must outlive the shading.
+  const SolidSides* solid_sides = nullptr;
   std::uint32_t salt = 0;  ///< Of the random numbers; with a hit's index it makes them its own.
   std::uint32_t seed = 1;
 };

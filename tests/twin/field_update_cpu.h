@@ -43,11 +43,12 @@ struct UpdateOnCpu {
       trace_probe_rays(stage.world.tracer(), store, group);
       groups.push_back(std::move(group));
     }
+    const SolidSides sides = solid_sides_by_winding(stage.scene);
     for (const TraceGroup& group : groups) {
       const DistanceBlend blend(settings, group.rays->directions);
-      blend_distances(stage.scene, blend, group, std::vector<float>(group.probes.size(), kShare),
-                      kSalt, store);
-      shade_surfels(stage.world, store, group, settings, traces);
+      blend_distances(sides, blend, group, std::vector<float>(group.probes.size(), kShare), kSalt,
+                      store);
+      shade_surfels(stage.world, sides, store, group, settings, traces);
     }
     find_surfel_lookups(store, {}, all, traces);
   }

@@ -70,7 +70,8 @@ class RecordedFieldTest : public OnDevice {
     device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
     const auto records = download<RayRecord>(field.rays());
     const RaySet set(field.settings(), static_cast<int>(planned.rays_per_probe), number);
-    const ShadeHitsSettings shading = surfel_shading(field.settings(), set);
+    const SolidSides sides = solid_sides_by_winding(cornell().scene);
+    const ShadeHitsSettings shading = surfel_shading(field.settings(), set, &sides);
     const Buffer results(device(), planned.rays * sizeof(RayResult), Memory::upload, "results");
     std::vector<Ray> rays;
     for (std::uint32_t i = 0; i < planned.rays; ++i) {

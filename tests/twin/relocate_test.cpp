@@ -37,7 +37,7 @@ Scene clutter() {
 RayResult ray_result(const FixedRayHit& hit, const mat3& axes) {
   if (missed(hit)) return ray_left(vec3(0.0f));
   const vec3 normal = axes * hit.normal;
-  if (hit.back_face != 0) return ray_met_back_face(hit.distance, normal);
+  if (hit.from_inside != 0) return ray_met_back_face(hit.distance, normal);
   return ray_met_surface(hit.distance, normal, normal, vec3(0.5f), vec3(0.0f), vec3(0.0f));
 }
 
@@ -103,7 +103,8 @@ class Relocated {
       viewpoints.push_back({store_.probe_position_ws(static_cast<int>(k)), store_.grid(0).axes});
     }
     fixed_hits_.resize(rays());
-    trace_fixed_rays(stage_.scene, stage_.world.tracer(), viewpoints, {}, fixed_hits_);
+    const SolidSides sides = solid_sides_by_winding(stage_.scene);
+    trace_fixed_rays({stage_.scene, stage_.world.tracer(), sides, {}}, viewpoints, fixed_hits_);
     const std::span<const vec3> directions = fixed_ray_directions();
     for (std::size_t i = 0; i < rays(); ++i) {
       rays_.as<RayRecord>()[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,

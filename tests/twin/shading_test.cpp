@@ -80,9 +80,16 @@ Shaded shade_on_device(const vulkan::Device& device, const World& world, const D
   const vulkan::Buffer irradiance = room(sizeof(glm::vec3));
   HostTracer tracer(device, world.tracer());
   HitShading& shading = shading_on(device);
+  DeviceSolidSides sides;
+  vulkan::Buffer first_words, words;
+  if (settings.solid_sides != nullptr) {
+    first_words = vulkan::upload(device, settings.solid_sides->first_word, "first words");
+    words = vulkan::upload(device, settings.solid_sides->words, "solid sides");
+    sides = {{first_words.address()}, {words.address()}};
+  }
   tracer.run([&](vulkan::Recorder& to) {
-    shading.shade_hits(to, {scene, tracer}, hits.view, {indices.address()}, per_index, settings,
-                       {{points.address()}, {shaded.address()}, {irradiance.address()}});
+    shading.shade_hits(to, {scene, tracer, sides}, hits.view, {indices.address()}, per_index,
+                       settings, {{points.address()}, {shaded.address()}, {irradiance.address()}});
   });
   return {vulkan::download<LitPointRecord>(device, points),
           vulkan::download<ShadedHitRecord>(device, shaded),
@@ -140,10 +147,11 @@ TEST_F(ShadingTwin, LightsMaterialsOfAllKindsAsTheHostDoes) {
   const TwinWorld twin(device(), test::material_scene());
   ShadeHitsSettings settings;
   settings.max_albedo = 0.9f;
+  const SolidSides sides = solid_sides_by_winding(twin.world.scene());
   for (const float cone_width : {0.0f, 0.02f, 0.3f}) {
     SCOPED_TRACE(cone_width);
     settings.cone_width = cone_width;
-    settings.back_faces_count = cone_width == 0.02f;
+    settings.solid_sides = cone_width == 0.02f ? nullptr : &sides;
     expect_same_shading(device(), twin.world, twin.on_device, settings,
                         cone_width > 0.0f ? kTolerance : kFilterTolerance);
   }

@@ -27,9 +27,10 @@ TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
   TraceGroup group{std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u), all, {}};
   std::vector<ProbeTrace> traces(store.probes());
   trace_probe_rays(world.tracer(), store, group);
-  blend_distances(scene, DistanceBlend(settings, group.rays->directions), group,
+  const SolidSides sides = solid_sides_by_winding(scene);
+  blend_distances(sides, DistanceBlend(settings, group.rays->directions), group,
                   std::vector<float>(all.size(), 1.0f), 0u, store);
-  shade_surfels(world, store, group, settings, traces);
+  shade_surfels(world, sides, store, group, settings, traces);
   find_surfel_lookups(store, {}, all, traces);
   const std::vector<ProbeTrace> before = traces;
 
@@ -38,7 +39,7 @@ TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
   scene.instances.back().world_from_object[3].x += 0.33f * (room.max.x - room.min.x);
   const WorldChanges changes = world.update().value();
   const InvalidationResult followed =
-      invalidate_surfels(world, {&changes, 1}, settings, all, all, {}, store, traces, 0u);
+      invalidate_surfels(world, sides, {&changes, 1}, settings, all, all, {}, store, traces, 0u);
   EXPECT_FALSE(followed.moved.empty());
 
   std::vector<ProbeTrace> expected = traces;

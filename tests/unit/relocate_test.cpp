@@ -34,7 +34,8 @@ constexpr int kAtOrigin = 7;
 vec3 relocated(const Scene& scene, std::span<const std::uint8_t> moving = {}) {
   const World world(scene);
   ProbeStore store = one_cell();
-  relocate_probes(scene, world.tracer(), {&kAtOrigin, 1}, moving, store);
+  relocate_probes({scene, world.tracer(), solid_sides_by_winding(scene), moving}, {&kAtOrigin, 1},
+                  store);
   return store.probe_position_ws(kAtOrigin);
 }
 
@@ -109,8 +110,9 @@ std::vector<vec3> offsets_in(const Stage& stage, int rounds, int threads) {
   std::vector<vec3> offsets;
   arena.execute([&] {
     ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
+    const SolidSides sides = solid_sides_by_winding(stage.scene);
     for (int i = 0; i < rounds; ++i) {
-      relocate_probes(stage.scene, stage.world.tracer(), all_probes(store), {}, store);
+      relocate_probes({stage.scene, stage.world.tracer(), sides, {}}, all_probes(store), store);
     }
     for (int i = 0; i < store.probes(); ++i) offsets.push_back(store.probe_offset(i));
   });
@@ -158,9 +160,10 @@ TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
   std::vector<std::uint8_t> moving(stage.scene.instances.size(), 0);
   for (std::size_t i = 0; i < moving.size(); i += 3) moving[i] = 1;
   const FarTracer far(stage.world.tracer());
+  const SolidSides sides = solid_sides_by_winding(stage.scene);
   const auto offsets = [&](const RayTracer& tracer) {
     ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
-    relocate_probes(stage.scene, tracer, all_probes(store), moving, store);
+    relocate_probes({stage.scene, tracer, sides, moving}, all_probes(store), store);
     return std::vector<uint>(store.offset_words().begin(), store.offset_words().end());
   };
   EXPECT_EQ(offsets(far), offsets(stage.world.tracer()));
@@ -184,10 +187,11 @@ TEST(Relocation, TellsWhichProbesMoved) {
   const Scene wall = scene_of({box_mesh({0.4f, -9.0f, -9.0f}, {0.6f, 9.0f, 9.0f})});
   const World world(wall);
   ProbeStore store = one_cell();
+  const SolidSides sides = solid_sides_by_winding(wall);
+  const StaticScene still = {wall, world.tracer(), sides, {}};
   // Probes at x = -1 m are too far from the wall
-  EXPECT_EQ(relocate_probes(wall, world.tracer(), all_probes(store), {}, store),
-            (std::vector<int>{1, 3, 5, 7}));
-  EXPECT_TRUE(relocate_probes(wall, world.tracer(), all_probes(store), {}, store).empty());
+  EXPECT_EQ(relocate_probes(still, all_probes(store), store), (std::vector<int>{1, 3, 5, 7}));
+  EXPECT_TRUE(relocate_probes(still, all_probes(store), store).empty());
 }
 
 TEST(Relocation, IsASettingOfTheField) {

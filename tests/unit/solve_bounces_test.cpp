@@ -34,8 +34,9 @@ class Transport {
     std::iota(group_.probes.begin(), group_.probes.end(), 0);
     const DistanceBlend distance_blend(settings, group_.rays->directions);
     trace_probe_rays(stage.world.tracer(), store_, group_);
-    blend_distances(stage.scene, distance_blend, group_, all(), 0u, store_);
-    shade_surfels(stage.world, store_, group_, settings, traces_);
+    const SolidSides sides = solid_sides_by_winding(stage.scene);
+    blend_distances(sides, distance_blend, group_, all(), 0u, store_);
+    shade_surfels(stage.world, sides, store_, group_, settings, traces_);
     find_surfel_lookups(store_, {}, group_.probes, traces_);
   }
 

@@ -87,6 +87,19 @@ void add_squared_errors(const Blocks& a, const Blocks& b, Metrics& metrics) {
   metrics.relmse = relative_squares / static_cast<double>(count);
 }
 
+/// The luminance of each block, or its mean where the image has one or two channels; NaN for blocks
+/// without a pixel.
+std::vector<double> block_luminance(const Blocks& blocks) {
+  std::vector<double> result(blocks.counts.size(), std::numeric_limits<double>::quiet_NaN());
+  const int channels = blocks.means.channels;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    if (blocks.counts[i] == 0) continue;
+    const float* p = blocks.means.pixels.data() + i * static_cast<std::size_t>(channels);
+    result[i] = channels == 3 ? luminance(vec3(p[0], p[1], p[2])) : p[0];
+  }
+  return result;
+}
+
 /// Mean over blocks of the variance of B's block means, from its standard error per pixel.
 double mean_block_variance(const Image& standard_error, const std::vector<char>& valid, int block) {
   Image variance = standard_error;
@@ -206,8 +219,11 @@ Expected<Metrics> compare_images(const Image& a, const Image& b, const MetricsOp
   metrics.mean_a = mean_of_valid(pair->a, pair->valid);
   metrics.mean_b = mean_of_valid(pair->b, pair->valid);
   metrics.mean_ratio = metrics.mean_a / metrics.mean_b;
-  add_squared_errors(block_means(pair->a, pair->valid, options.block),
-                     block_means(pair->b, pair->valid, options.block), metrics);
+  const Blocks blocks_a = block_means(pair->a, pair->valid, options.block);
+  const Blocks blocks_b = block_means(pair->b, pair->valid, options.block);
+  add_squared_errors(blocks_a, blocks_b, metrics);
+  metrics.blocks =
+      block_ratios(block_luminance(blocks_a), block_luminance(blocks_b), blocks_a.means.width);
   metrics.relative_rmse = metrics.rmse / metrics.mean_b;
 
   if (options.standard_error != nullptr) {

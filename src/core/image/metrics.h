@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/image/block_ratios.h"
 #include "lambent/error.h"
 #include "lambent/image.h"
 
@@ -35,6 +36,8 @@ struct Metrics {
   /// relative_rmse without what B's own noise adds: the mean variance of B is taken from the mean
   /// square.
   std::optional<double> noise_corrected_relative_rmse;
+  /// Of luminance, over the same blocks as the squared errors.
+  BlockRatios blocks;
   double relmse = 0.0;     ///< Mean of (A - B)^2 / (B^2 + kRelMseEpsilon).
   double max_error = 0.0;  ///< The largest |A - B|: means hide spots.
   double peak =

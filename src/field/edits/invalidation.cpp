@@ -81,8 +81,9 @@ bool may_change_light(const World& world, const Edits& edits, const LitPoint& po
 /// Brings the surfels of one probe after another up to date. Each task has its own.
 class SurfelInvalidation {
  public:
-  SurfelInvalidation(const World& world, const Edits& edits, const FieldSettings& settings)
-      : world_(world), edits_(edits), settings_(settings) {}
+  SurfelInvalidation(const World& world, const SolidSides& solid_sides, const Edits& edits,
+                     const FieldSettings& settings)
+      : world_(world), solid_sides_(solid_sides), edits_(edits), settings_(settings) {}
 
   std::uint64_t probe_rays = 0, shadow_rays = 0;
 
@@ -105,6 +106,7 @@ class SurfelInvalidation {
   void reshade_direct(int probe, ProbeTrace& trace);
 
   const World& world_;
+  const SolidSides& solid_sides_;
   const Edits& edits_;
   const FieldSettings& settings_;
   ShadeHitsScratch scratch_;
@@ -117,7 +119,7 @@ class SurfelInvalidation {
 /// Traces the rays again whose hits the edits may have changed.
 void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trace,
                                  Outcome& outcome) {
-  ShadeHitsSettings shading = surfel_shading(settings_, *trace.rays);
+  ShadeHitsSettings shading = surfel_shading(settings_, *trace.rays, &solid_sides_);
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     Surfel& surfel = trace.surfels[i];
     const vec3& direction = trace.rays->directions[i];
@@ -162,8 +164,8 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
     places_.push_back(static_cast<int>(i));
   }
   direct_.resize(queries_.size());
-  shadow_rays += direct_irradiance(world_, queries_, surfel_shading(settings_, *trace.rays),
-                                   scratch_, direct_);
+  shadow_rays += direct_irradiance(
+      world_, queries_, surfel_shading(settings_, *trace.rays, &solid_sides_), scratch_, direct_);
   for (std::size_t i = 0; i < queries_.size(); ++i) {
     trace.surfels[places_[i]].light = direct_[i];
   }
@@ -176,7 +178,7 @@ void seen_distances(const ProbeTrace& trace, const vec3& origin, std::vector<See
     const Surfel& surfel = trace.surfels[i];
     seen[i] = {
         surfel.kind == SurfelKind::sky ? kInfiniteDistance : length(surfel.position_ws - origin),
-        surfel.kind == SurfelKind::back_face};
+        surfel.kind == SurfelKind::solid_side};
   }
 }
 
@@ -245,7 +247,7 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
 double direct_light_of(const ProbeTrace& trace) {
   double sum = 0.0;
   for (const Surfel& surfel : trace.surfels) {
-    if (surfel.kind == SurfelKind::back_face) continue;
+    if (surfel.kind == SurfelKind::solid_side) continue;
     const vec3 share = surfel.kind == SurfelKind::sky ? vec3(1.0f) : surfel.albedo_over_pi;
     sum += luminance(share * surfel.light);
   }
@@ -263,7 +265,8 @@ std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
   return light;
 }
 
-InvalidationResult invalidate_surfels(const World& world, std::span<const WorldChanges> changes,
+InvalidationResult invalidate_surfels(const World& world, const SolidSides& solid_sides,
+                                      std::span<const WorldChanges> changes,
                                       const FieldSettings& settings, std::span<const int> probes,
                                       std::span<const int> all, const VisibilityRays& by,
                                       ProbeStore& store, std::span<ProbeTrace> traces,
@@ -273,7 +276,7 @@ InvalidationResult invalidate_surfels(const World& world, std::span<const WorldC
   std::vector<Part> parts(tasks);
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     Part& part = parts[begin / kProbesPerTask];
-    SurfelInvalidation invalidation(world, edits, settings);
+    SurfelInvalidation invalidation(world, solid_sides, edits, settings);
     for (std::size_t k = begin; k < end; ++k) {
       const int probe = probes[k];
       const vec3 origin = store.probe_position_ws(probe);

@@ -33,7 +33,8 @@ struct InvalidationResult {
 /// world. `changes` name everything that may differ from the world in which the surfels were found;
 /// naming more does no harm. Where the distances of a probe changed, the lookups of those surfels
 /// of `all` traced probes that read it are found again.
-InvalidationResult invalidate_surfels(const World& world, std::span<const WorldChanges> changes,
+InvalidationResult invalidate_surfels(const World& world, const SolidSides& solid_sides,
+                                      std::span<const WorldChanges> changes,
                                       const FieldSettings& settings, std::span<const int> probes,
                                       std::span<const int> all, const VisibilityRays& by,
                                       ProbeStore& store, std::span<ProbeTrace> traces,

@@ -37,7 +37,7 @@ std::vector<int> IrradianceField::State::place_probes(const World& world,
     const std::vector<uint> before(data.store.offset_words().begin(),
                                    data.store.offset_words().end());
     for (const int probe : probes) data.store.set_probe_offset(probe, vec3(0.0f));
-    relocate_probes(world.scene(), world.tracer(), probes, moving, data.store);
+    relocate_probes({world.scene(), world.tracer(), data.solid_sides, moving}, probes, data.store);
     for (const int probe : probes) {
       if (data.store.offset_words()[probe] != before[probe]) moved.push_back(probe);
     }
@@ -150,7 +150,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
         around, data.store.probe_offset(probe) * grid.spacing, vec3(0.0f), grid.spacing);
     if (!learn_distances) return;
     std::vector<SeenDistance> seen;
-    for (const FixedRayHit& hit : around) seen.push_back({hit.distance, hit.back_face != 0});
+    for (const FixedRayHit& hit : around) seen.push_back({hit.distance, hit.from_inside != 0});
     std::vector<vec2> moments(blend.texels());
     blend.moments(seen, max_probe_distance(grid), moments);
     data.store.blend_moments(probe, moments, 1.0f, dither_seed());
@@ -163,7 +163,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
           {data.store.probe_position_ws(probes[k]), data.store.grid_of(probes[k]).axes});
     }
     std::vector<FixedRayHit> around(viewpoints.size() * directions);
-    trace_fixed_rays(world.scene(), world.tracer(), viewpoints, moving, around);
+    trace_fixed_rays({world.scene(), world.tracer(), data.solid_sides, moving}, viewpoints, around);
     // A device traces large batches, whose results all cores work on
     parallel_chunks(viewpoints.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {

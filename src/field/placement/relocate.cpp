@@ -110,8 +110,7 @@ class Relocation {
 };
 
 /// Relocates some probes together, so that their rays are traced in large batches.
-void settle(const Scene& scene, const RayTracer& tracer, std::span<const int> probes,
-            std::span<const std::uint8_t> moving, ProbeStore& store) {
+void settle(const StaticScene& stage, std::span<const int> probes, ProbeStore& store) {
   const std::size_t directions = fixed_ray_directions().size();
   std::vector<Relocation> relocations;
   for (const int probe : probes) relocations.emplace_back(probe, store);
@@ -124,7 +123,7 @@ void settle(const Scene& scene, const RayTracer& tracer, std::span<const int> pr
           {store.probe_position_ws(relocation.probe()), store.grid_of(relocation.probe()).axes});
     }
     fixed_hits.resize(relocations.size() * directions);
-    trace_fixed_rays(scene, tracer, viewpoints, moving, fixed_hits);
+    trace_fixed_rays(stage, viewpoints, fixed_hits);
     parallel_chunks(relocations.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t w = begin; w < end; ++w) {
         relocations[w].step({&fixed_hits[w * directions], directions}, store);
@@ -151,8 +150,7 @@ std::size_t viewpoints_of_batch(const RayTracer& tracer) {
   return batch_of(tracer, kFixedRays, kProbesPerTask);
 }
 
-void trace_fixed_rays(const Scene& scene, const RayTracer& tracer,
-                      std::span<const Viewpoint> viewpoints, std::span<const std::uint8_t> moving,
+void trace_fixed_rays(const StaticScene& stage, std::span<const Viewpoint> viewpoints,
                       std::span<FixedRayHit> fixed_hits) {
   const std::span<const vec3> directions = fixed_ray_directions();
   assert(fixed_hits.size() == viewpoints.size() * directions.size());
@@ -162,27 +160,29 @@ void trace_fixed_rays(const Scene& scene, const RayTracer& tracer,
     rays[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,
                directions[i % directions.size()], kInfiniteDistance, kRayOfProbe};
   }
-  tracer.closest_hits(rays, hits);
-  pass_moving_surfaces(tracer, moving, rays, hits);
-  parallel_chunks(
-      rays.size(), kProbesPerTask * kFixedRays, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const mat3& axes = viewpoints[i / directions.size()].axes;
-          const vec3& direction = rays[i].direction;
-          fixed_hits[i] = {direction * axes, kInfiniteDistance, -direction * axes, 0u};
-          if (hits[i].missed() || is_moving(hits[i], moving)) continue;
-          const Surface surface = surface_at(scene, rays[i], hits[i]);
-          fixed_hits[i].distance = hits[i].distance;
-          fixed_hits[i].normal = surface.geometric_normal_ws * axes;
-          fixed_hits[i].back_face = !surface.front_face && !surface.double_sided ? 1u : 0u;
-        }
-      });
+  stage.tracer.closest_hits(rays, hits);
+  pass_moving_surfaces(stage.tracer, stage.moving, rays, hits);
+  parallel_chunks(rays.size(), kProbesPerTask * kFixedRays,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t i = begin; i < end; ++i) {
+                      const mat3& axes = viewpoints[i / directions.size()].axes;
+                      const vec3& direction = rays[i].direction;
+                      fixed_hits[i] = {direction * axes, kInfiniteDistance, -direction * axes, 0u};
+                      if (hits[i].missed() || is_moving(hits[i], stage.moving)) continue;
+                      const Surface surface = surface_at(stage.scene, rays[i], hits[i]);
+                      fixed_hits[i].distance = hits[i].distance;
+                      fixed_hits[i].normal = surface.geometric_normal_ws * axes;
+                      fixed_hits[i].from_inside = stage.solid_sides.is_solid(hits[i]) ? 1u : 0u;
+                    }
+                  });
 }
 
 bool inside_geometry(std::span<const FixedRayHit> fixed_hits) {
-  const auto back_faces = std::count_if(fixed_hits.begin(), fixed_hits.end(),
-                                        [](const FixedRayHit& hit) { return hit.back_face != 0; });
-  return is_inside_geometry(static_cast<int>(back_faces), static_cast<int>(fixed_hits.size())) != 0;
+  const auto from_inside =
+      std::count_if(fixed_hits.begin(), fixed_hits.end(),
+                    [](const FixedRayHit& hit) { return hit.from_inside != 0; });
+  return is_inside_geometry(static_cast<int>(from_inside), static_cast<int>(fixed_hits.size())) !=
+         0;
 }
 
 vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
@@ -191,14 +191,13 @@ vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, 
       .better_place(from, home, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
 }
 
-std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,
-                                 std::span<const int> probes, std::span<const std::uint8_t> moving,
+std::vector<int> relocate_probes(const StaticScene& stage, std::span<const int> probes,
                                  ProbeStore& store) {
   std::vector<vec3> before;
   for (const int probe : probes) before.push_back(store.probe_offset(probe));
-  parallel_chunks(probes.size(), viewpoints_of_batch(tracer),
+  parallel_chunks(probes.size(), viewpoints_of_batch(stage.tracer),
                   [&](std::size_t begin, std::size_t end) {
-                    settle(scene, tracer, probes.subspan(begin, end - begin), moving, store);
+                    settle(stage, probes.subspan(begin, end - begin), store);
                   });
   std::vector<int> result;
   for (std::size_t k = 0; k < probes.size(); ++k) {

@@ -11,6 +11,7 @@
 #include "field/probes/probe_store.h"
 #include "lambent/scene.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/solid_sides.h"
 
 namespace lambent {
 
@@ -21,6 +22,16 @@ std::span<const vec3> fixed_ray_directions();
 /// Returns one flag per instance: 1 where it is dynamic.
 std::vector<std::uint8_t> moving_instances(const Scene& scene);
 
+/// What fixed rays meet: the static part of a scene.
+struct StaticScene {
+  const Scene& scene;
+  const RayTracer& tracer;
+  const SolidSides& solid_sides;
+  /// One flag per instance: 1 where rays pass through it, because it moves. Instances beyond its
+  /// end are static.
+  std::span<const std::uint8_t> moving;
+};
+
 /// A point from which fixed rays are traced, and the axes of the frame in which their hits are
 /// returned.
 struct Viewpoint {
@@ -28,18 +39,17 @@ struct Viewpoint {
   mat3 axes;
 };
 
-/// Traces the fixed rays from some points. They pass through instances whose flag in `moving` is 1;
-/// instances beyond its end are static. `fixed_hits` has one entry per direction, point after
+/// Traces the fixed rays from some points. `fixed_hits` has one entry per direction, point after
 /// point. The rays are traced as one batch, except for those that continue behind moving instances.
-void trace_fixed_rays(const Scene& scene, const RayTracer& tracer,
-                      std::span<const Viewpoint> viewpoints, std::span<const std::uint8_t> moving,
+void trace_fixed_rays(const StaticScene& stage, std::span<const Viewpoint> viewpoints,
                       std::span<FixedRayHit> fixed_hits);
 
 /// The number of probes whose fixed rays are traced together: few on processors, so that all cores
 /// get some.
 std::size_t viewpoints_of_batch(const RayTracer& tracer);
 
-/// Whether so many fixed rays hit back faces that the point must be inside geometry.
+/// Whether so many fixed rays hit sides that bound solid matter that the point must be inside
+/// geometry.
 bool inside_geometry(std::span<const FixedRayHit> fixed_hits);
 
 /// A better position for a probe with these hits at `from`, or `from` itself where it should stay.
@@ -51,8 +61,7 @@ vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, 
 /// Relocates some probes until they have converged. Returns those that moved, in the order of
 /// `probes`: what they hold belongs to their old places. Gives the same bits on any number of
 /// threads.
-std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,
-                                 std::span<const int> probes, std::span<const std::uint8_t> moving,
+std::vector<int> relocate_probes(const StaticScene& stage, std::span<const int> probes,
                                  ProbeStore& store);
 
 }  // namespace lambent

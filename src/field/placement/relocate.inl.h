@@ -13,7 +13,7 @@ LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 home, vec3 spacing, float margi
   float nearest = infinity();
   for (int i = 0; i < hit_count(); ++i) {
     FixedRayHit hit = hit_at(i);
-    if (hit.back_face == 0u) continue;
+    if (hit.from_inside == 0u) continue;
     vec3 outside = position + hit.distance * hit.direction - margin * hit.normal;
     float away = length(outside - home);
     if (away >= nearest || !within_reach(outside, home, spacing)) continue;

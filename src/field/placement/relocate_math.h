@@ -39,10 +39,10 @@ const float kInsideGeometryCost = 100.0f;
 
 /// The hit of a probe's fixed ray on static geometry, in the frame of the probe's grid.
 struct FixedRayHit {
-  vec3 direction;  ///< Direction of the ray, unit.
-  float distance;  ///< [m]; infinite for a miss.
-  vec3 normal;     ///< Normal of the triangle, unit, towards the probe.
-  uint back_face;  ///< 1: the ray hit the back of a single-sided surface.
+  vec3 direction;    ///< Direction of the ray, unit.
+  float distance;    ///< [m]; infinite for a miss.
+  vec3 normal;       ///< Normal of the triangle, unit, towards the probe.
+  uint from_inside;  ///< 1: the side that the ray hit bounds solid matter.
 };
 
 LAMBENT_FN bool missed(FixedRayHit hit) {
@@ -57,7 +57,7 @@ struct PlaneBelow {
 
 LAMBENT_FN bool passes_below(FixedRayHit hit) {
   float cosine = -dot(hit.direction, hit.normal);
-  return hit.back_face == 0u && !missed(hit) && cosine >= kMinFacingCosine;
+  return hit.from_inside == 0u && !missed(hit) && cosine >= kMinFacingCosine;
 }
 
 LAMBENT_FN PlaneBelow plane_below(FixedRayHit hit) {

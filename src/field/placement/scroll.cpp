@@ -82,7 +82,8 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
     }
   }
   if (settings.relocation) {
-    relocate_probes(world.scene(), world.tracer(), recycled, moving_instances(world.scene()),
+    const std::vector<std::uint8_t> moving = moving_instances(world.scene());
+    relocate_probes({world.scene(), world.tracer(), data.solid_sides, moving}, recycled,
                     data.store);
   }
   initialize_relocated(world, recycled, statistics);

@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 16;
 
-bool is_back_face(const Scene& scene, const Hit& hit) {
-  if (hit.missed() || hit.front_face) return false;
-  return !scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
-}
-
 }  // namespace
 
 DistanceBlend::DistanceBlend(const FieldSettings& settings, std::span<const vec3> directions)
@@ -28,18 +23,18 @@ DistanceBlend::DistanceBlend(const FieldSettings& settings, std::span<const vec3
 
 void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
                             std::span<vec2> moments) const {
-  // Clamp the distances and count the back faces
+  // Clamp the distances and count the rays from inside solid matter
   thread_local std::vector<vec2> values, sums;
   values.resize(seen.size());
   sums.resize(moments.size());
-  int back_faces = 0;
+  int from_inside = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const uint back_face = seen[i].back_face ? 1u : 0u;
-    back_faces += static_cast<int>(back_face);
-    const float distance = counted_distance(seen[i].distance, back_face, farthest);
+    const uint inside = seen[i].from_inside ? 1u : 0u;
+    from_inside += static_cast<int>(inside);
+    const float distance = counted_distance(seen[i].distance, inside, farthest);
     values[i] = {distance, distance * distance};
   }
-  if (is_inside_geometry(back_faces, static_cast<int>(seen.size())) != 0u) {
+  if (is_inside_geometry(from_inside, static_cast<int>(seen.size())) != 0u) {
     std::fill(moments.begin(), moments.end(), vec2(0.0f));
     return;
   }
@@ -47,8 +42,9 @@ void DistanceBlend::moments(std::span<const SeenDistance> seen, float farthest,
   for (std::size_t t = 0; t < moments.size(); ++t) moments[t] = sums[t] / totals_[t];
 }
 
-void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
-                     std::span<const float> blend_weights, uint dither_seed, ProbeStore& store) {
+void blend_distances(const SolidSides& solid_sides, const DistanceBlend& blend,
+                     const TraceGroup& group, std::span<const float> blend_weights,
+                     uint dither_seed, ProbeStore& store) {
   const auto rays = static_cast<std::size_t>(blend.rays());
   parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     std::vector<SeenDistance> seen(rays);
@@ -56,7 +52,7 @@ void blend_distances(const Scene& scene, const DistanceBlend& blend, const Trace
     for (std::size_t k = begin; k < end; ++k) {
       for (std::size_t i = 0; i < rays; ++i) {
         const Hit& hit = group.hits[k * rays + i];
-        seen[i] = {hit.distance, is_back_face(scene, hit)};
+        seen[i] = {hit.distance, solid_sides.is_solid(hit)};
       }
       const float farthest = max_probe_distance(store.grid_of(group.probes[k]));
       blend.moments(seen, farthest, moments);

@@ -13,8 +13,8 @@ namespace lambent {
 
 /// The distance to the hit of a ray.
 struct SeenDistance {
-  float distance;  ///< [m]; infinite: the ray left the scene.
-  bool back_face;  ///< The ray hit the back of a single-sided surface.
+  float distance;    ///< [m]; infinite: the ray left the scene.
+  bool from_inside;  ///< The side that the ray hit bounds solid matter.
 };
 
 /// Blends distances of rays into the moments of a tile's texels.
@@ -36,7 +36,8 @@ class DistanceBlend {
 
 /// Blends the distances of a group's hits into the store. `blend_weights` has one weight of the new
 /// moments per probe of the group, 0 to 1.
-void blend_distances(const Scene& scene, const DistanceBlend& blend, const TraceGroup& group,
-                     std::span<const float> blend_weights, uint dither_seed, ProbeStore& store);
+void blend_distances(const SolidSides& solid_sides, const DistanceBlend& blend,
+                     const TraceGroup& group, std::span<const float> blend_weights,
+                     uint dither_seed, ProbeStore& store);
 
 }  // namespace lambent

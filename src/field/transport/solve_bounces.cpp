@@ -72,7 +72,7 @@ void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
                                                             : vec3(0.0f);
     const vec3 sent = reflectance * surfel.light;
     for (int c = 0; c < 3; ++c) radiance[4 * i + c] = sent[c];
-    radiance[4 * i + 3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
+    radiance[4 * i + 3] = surfel.kind == SurfelKind::solid_side ? 0.0f : 1.0f;
   }
 }
 
@@ -111,7 +111,7 @@ LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance)
   for (std::size_t i = 0; i < in.trace.surfels.size(); ++i) {
     const Surfel& surfel = in.trace.surfels[i];
     float* out = radiance + 4 * i;
-    out[3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
+    out[3] = surfel.kind == SurfelKind::solid_side ? 0.0f : 1.0f;
 
     // Surfels that reflect nothing are the sky, or black
     if (!surfel.reflects()) {

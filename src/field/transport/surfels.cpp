@@ -39,7 +39,7 @@ Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) 
     surfel.light = shaded.sky_radiance;
     return surfel;
   }
-  surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::back_face;
+  surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::solid_side;
   surfel.material =
       static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
   surfel.albedo_over_pi = shaded.albedo_over_pi;
@@ -70,23 +70,26 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGro
   });
 }
 
-ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays) {
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays,
+                                 const SolidSides* solid_sides) {
   ShadeHitsSettings shading;
   // Compute the width of a ray's cone per metre, from its part of the sphere
   shading.cone_width =
       2.0f * sqrt(4.0f / static_cast<float>(rays.rays())) * exp2(settings.texture_lod_bias);
   shading.max_albedo = settings.max_albedo;
   shading.emissive_samples = settings.emissive_samples;
+  shading.solid_sides = solid_sides;
   shading.salt = rays.update;
   shading.seed = settings.seed;
   return shading;
 }
 
-std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
+std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
+                            const ProbeStore& store, const TraceGroup& group,
                             const FieldSettings& settings, std::span<ProbeTrace> traces) {
   const std::vector<vec3>& directions = group.rays->directions;
   const std::size_t rays = directions.size();
-  const ShadeHitsSettings shading = surfel_shading(settings, *group.rays);
+  const ShadeHitsSettings shading = surfel_shading(settings, *group.rays, &solid_sides);
   std::atomic<std::uint64_t> shadow_rays = 0;
 
   parallel_chunks(group.probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {

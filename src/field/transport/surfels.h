@@ -19,9 +19,9 @@ namespace lambent {
 
 /// What a probe ray hit.
 enum class SurfelKind : std::uint8_t {
-  surface,    ///< A surface, which may reflect nothing.
-  sky,        ///< Nothing: the ray left the scene.
-  back_face,  ///< The back of a single-sided surface. Such a ray does not count.
+  surface,     ///< A surface, which may reflect nothing.
+  sky,         ///< Nothing: the ray left the scene.
+  solid_side,  ///< A side that bounds solid matter: the ray came from inside and does not count.
 };
 
 /// The hit of one probe ray, shaded.
@@ -77,8 +77,10 @@ struct TraceGroup {
 /// Traces the rays of a group's probes.
 void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGroup& group);
 
-/// The settings with which hits of a ray set are shaded.
-ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays);
+/// The settings with which hits of a ray set are shaded. `solid_sides` may be null, as
+/// ShadeHitsSettings says.
+ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays,
+                                 const SolidSides* solid_sides);
 
 /// The ray of a probe along a direction.
 Ray probe_ray(const vec3& origin_ws, const vec3& direction);
@@ -91,7 +93,8 @@ std::size_t first_ray_index(int probe);
 
 /// Makes surfels from a group's hits, without their lookups. Returns the number of shadow rays
 /// traced.
-std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const TraceGroup& group,
+std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
+                            const ProbeStore& store, const TraceGroup& group,
                             const FieldSettings& settings, std::span<ProbeTrace> traces);
 
 /// Finds the lookups of the probes' surfels. Returns the number of visibility rays traced.

@@ -18,7 +18,7 @@ const uint kRg32f = 1u;
 // What a surfel's ray hit. The numbers are those of SurfelKind.
 const uint kSurfelSurface = 0u;
 const uint kSurfelSky = 1u;
-const uint kSurfelBackFace = 2u;
+const uint kSurfelSolidSide = 2u;
 
 /// A surfel, like struct Surfel.
 struct SurfelRecord {

@@ -24,7 +24,7 @@ static_assert(kRg16f == static_cast<uint>(DistanceFormat::rg16f) &&
               kRg32f == static_cast<uint>(DistanceFormat::rg32f));
 static_assert(kSurfelSurface == static_cast<uint>(SurfelKind::surface) &&
               kSurfelSky == static_cast<uint>(SurfelKind::sky) &&
-              kSurfelBackFace == static_cast<uint>(SurfelKind::back_face));
+              kSurfelSolidSide == static_cast<uint>(SurfelKind::solid_side));
 
 SurfelRecord to_record(const Surfel& surfel) {
   return {surfel.position_ws,

@@ -58,6 +58,7 @@ VulkanFieldBackend::VulkanFieldBackend(const World& world, ProbeData& data)
       solver_(field_),
       shading_(*device_) {
   push_light();
+  push_solid_sides();
 }
 
 bool VulkanFieldBackend::is_on(const World& world) const {
@@ -81,6 +82,14 @@ void VulkanFieldBackend::push_light() {
   vulkan::write<vec4>(*device_, data_.light, field_.light());
   vulkan::write<vec4>(*device_, data_.last_irradiance_estimate, field_.last_irradiance_estimate());
   light_is_newer_ = false;
+}
+
+void VulkanFieldBackend::push_solid_sides() {
+  if (data_.solid_sides.words.empty()) return;
+  ray_buffers_.solid_first_words = host_buffer(
+      *device_, std::span(std::as_const(data_.solid_sides.first_word)), "solid sides of instances");
+  ray_buffers_.solid_words =
+      host_buffer(*device_, std::span(std::as_const(data_.solid_sides.words)), "solid sides");
 }
 
 /// Takes over what the host may have changed, unless the device's is newer.

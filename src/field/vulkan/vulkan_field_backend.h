@@ -22,6 +22,7 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
   void fetch_light() override;
   void fetch_store() override;
   void push_light() override;
+  void push_solid_sides() override;
   void push_places(std::span<const int> moved) override;
 
   ProbeUpdateResult update_probes(ProbeUpdate update) override;

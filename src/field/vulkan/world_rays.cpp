@@ -81,10 +81,13 @@ void WorldRaysVulkan::shade(Recorder& to, int batch) {
   const auto rays = static_cast<std::uint32_t>(rays_of(group));
   const RaySet& set = *field_.rays_of(list_.probes[group.first]);
   shading_.shade_hits(
-      to, {world_.scene(), world_.tracer()},
+      to,
+      {world_.scene(),
+       world_.tracer(),
+       {{buffers_.solid_first_words.address()}, {buffers_.solid_words.address()}}},
       {{buffers_.rays.address()}, {buffers_.hits.address()}, rays},
       {buffers_.first_indices.address() + group.first * sizeof(uint)},
-      static_cast<std::uint32_t>(group.rays), surfel_shading(field_.settings(), set),
+      static_cast<std::uint32_t>(group.rays), surfel_shading(field_.settings(), set, nullptr),
       {{buffers_.points.address()}, {buffers_.shaded.address()}, {buffers_.direct.address()}});
   field_.record_surfels(to, list_, group, {buffers_.points.address()}, {buffers_.shaded.address()},
                         {buffers_.direct.address()});

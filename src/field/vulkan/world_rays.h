@@ -14,6 +14,7 @@ namespace lambent {
 /// Memory for the rays of one batch at a time.
 struct WorldRayBuffers {
   vulkan::Buffer rays, hits, points, shaded, direct, first_indices;
+  vulkan::Buffer solid_first_words, solid_words;  ///< ProbeData::solid_sides.
 };
 
 class WorldRaysVulkan final : public RaySourceVulkan {

@@ -4,12 +4,19 @@
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/shaders/surface_at.glsl"
+#include "raytracing/solid_sides_math.h"
 #include "raytracing/vulkan/shading_records.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
   HitSurfacesArguments args;
 };
+
+/// Whether the side that a ray met bounds solid matter. The twin of SolidSides::is_solid().
+bool is_solid_side(HitRecord hit) {
+  uint word = args.solid_first_words.at[hit.instance] + solid_sides_word(hit.triangle);
+  return bounds_solid(args.solid_words.at[word], hit.triangle, hit.front_face) != 0u;
+}
 
 void main() {
   if (gl_GlobalInvocationID.x >= args.count) return;
@@ -33,7 +40,7 @@ void main() {
   point.normal_ws = surface.normal_ws;
   point.geometric_normal_ws = surface.geometric_normal_ws;
   shaded.material = surface.material;
-  if (!surface.front_face && !surface.double_sided && args.back_faces_count == 0u) {
+  if (args.discounts_solid_sides != 0u && is_solid_side(hit)) {
     shaded.flags = kSurfaceDiscounted | kSurfaceReceivesGi;
   } else {
     shaded.flags = surface.receives_gi ? kSurfaceReceivesGi : 0u;

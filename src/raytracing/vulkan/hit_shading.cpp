@@ -152,7 +152,9 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
     arguments.rays_per_index = rays_per_index;
     arguments.cone_width = settings.cone_width;
     arguments.max_albedo = settings.max_albedo;
-    arguments.back_faces_count = settings.back_faces_count ? 1 : 0;
+    arguments.solid_first_words = stage.solid_sides.first_words;
+    arguments.solid_words = stage.solid_sides.words;
+    arguments.discounts_solid_sides = stage.solid_sides.words.address != 0 ? 1 : 0;
     recorder.run(kernels_.hit_surfaces, arguments, arguments.count);
   }
   recorder.barrier();

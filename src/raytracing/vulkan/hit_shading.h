@@ -17,10 +17,17 @@
 
 namespace lambent {
 
+/// SolidSides on a device: the addresses of its two arrays, or none.
+struct DeviceSolidSides {
+  UintArray first_words = {};
+  UintArray words = {};
+};
+
 /// What passes read: the scene, and what traces rays through it.
 struct DeviceStage {
   const DeviceScene& scene;
   const DeviceTracer& tracer;
+  DeviceSolidSides solid_sides = {};  ///< Where none are given, all rays count.
 };
 
 /// Rays that were traced.

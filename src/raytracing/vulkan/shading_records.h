@@ -23,7 +23,7 @@ struct LitPointRecord {
 // Flags of ShadedHitRecord and PixelSurfaceRecord.
 const uint kSurfaceMissed = 1u;  ///< The ray left the scene.
 const uint kSurfaceDiscounted =
-    2u;  ///< The back of a single-sided surface: the ray does not count.
+    2u;  ///< The side that the ray met bounds solid matter: the ray does not count.
 const uint kSurfaceReceivesGi = 4u;  ///< Indirect light reaches the surface.
 
 /// What a ray brings back but for its direct light and its point; as struct ShadedHit of
@@ -57,12 +57,14 @@ struct HitSurfacesArguments {
   UintArray first_indices;
   LitPointArray points;
   ShadedHitArray shaded;
+  /// As in SolidSides. Read only where discounts_solid_sides is 1.
+  UintArray solid_first_words, solid_words;
   uint first;  ///< Ray that the kernel's first invocation takes.
   uint count;  ///< Rays from there on.
   uint rays_per_index;
   float cone_width;  ///< As in ShadeHitsSettings, and so on.
   float max_albedo;
-  uint back_faces_count;
+  uint discounts_solid_sides;  ///< 1: rays that meet a side that bounds solid matter do not count.
 };
 
 /// The same for rays of a camera, at full resolution of textures.

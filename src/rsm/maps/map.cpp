@@ -134,7 +134,6 @@ RsmProjection camera_projection(const Camera& camera, float aspect) {
 
 ShadeHitsSettings camera_shading(const RsmSettings& settings) {
   ShadeHitsSettings shading;
-  shading.back_faces_count = true;
   shading.seed = settings.seed;
   return shading;
 }

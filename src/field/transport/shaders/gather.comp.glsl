@@ -58,7 +58,7 @@ void main() {
       if (lookup.tile_corner != kNoLookup) arrives += read_field(lookup);
     }
   }
-  float counts = there && surfel.kind != kSurfelBackFace ? 1.0 : 0.0;
+  float counts = there && surfel.kind != kSurfelSolidSide ? 1.0 : 0.0;
   vec4 radiance = there ? vec4(reflectance * arrives, counts) : vec4(0.0);
   args.radiance.at[k * args.radiance_stride + ray] = radiance;
 }

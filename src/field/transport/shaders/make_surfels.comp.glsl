@@ -23,7 +23,7 @@ void main() {
   surfel.geometric_normal_ws = encode_unit_vector(point.geometric_normal_ws);
   bool sky = (shaded.flags & kSurfaceMissed) != 0u;
   bool counts = (shaded.flags & kSurfaceDiscounted) == 0u;
-  surfel.kind = sky ? kSurfelSky : counts ? kSurfelSurface : kSurfelBackFace;
+  surfel.kind = sky ? kSurfelSky : counts ? kSurfelSurface : kSurfelSolidSide;
   surfel.material = sky ? 0u : shaded.material;
   surfel.albedo_over_pi = sky ? vec3(0.0) : shaded.albedo_over_pi;
   surfel.light = sky ? shaded.radiance : args.irradiance.at[i];

@@ -29,7 +29,7 @@ void main() {
   bool surface = result.kind == kRayMetSurface;
 
   SurfelRecord surfel;
-  surfel.kind = left ? kSurfelSky : surface ? kSurfelSurface : kSurfelBackFace;
+  surfel.kind = left ? kSurfelSky : surface ? kSurfelSurface : kSurfelSolidSide;
   surfel.position_ws = from.origin_ws + (left ? 0.0 : result.distance) * from.direction_ws;
   surfel.normal_ws = encode_unit_vector(left ? -from.direction_ws : result.normal_ws);
   surfel.geometric_normal_ws =

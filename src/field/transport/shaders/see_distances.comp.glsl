@@ -22,7 +22,7 @@ void main() {
     float counted = 0.0;
     if (ray < args.rays_per_probe) {
       uint kind = args.surfels.at[probe * args.stride + ray].kind;
-      uint back_face = kind == kSurfelBackFace ? 1u : 0u;
+      uint back_face = kind == kSurfelSolidSide ? 1u : 0u;
       float seen = args.hits.at[k * args.rays_per_probe + ray].distance;
       counted = counted_distance(seen, back_face, farthest);
       back_faces += int(back_face);

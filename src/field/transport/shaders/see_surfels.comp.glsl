@@ -26,7 +26,7 @@ void main() {
     float counted = 0.0;
     if (ray < rays) {
       SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
-      uint back_face = surfel.kind == kSurfelBackFace ? 1u : 0u;
+      uint back_face = surfel.kind == kSurfelSolidSide ? 1u : 0u;
       float seen =
           surfel.kind == kSurfelSky ? farthest : length(surfel.position_ws - origin_ws);
       counted = counted_distance(seen, back_face, farthest);

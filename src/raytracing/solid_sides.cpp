@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "raytracing/solid_sides.h"
+
+namespace lambent {
+namespace {
+
+std::size_t triangles_of(const Scene& scene, const Instance& instance) {
+  return scene.meshes[instance.mesh].triangles.size();
+}
+
+std::size_t words_of(const Scene& scene, const Instance& instance) {
+  return (triangles_of(scene, instance) + kSidesPerWord - 1) / kSidesPerWord;
+}
+
+}  // namespace
+
+bool SolidSides::fits(const Scene& scene) const {
+  if (first_word.size() != scene.instances.size()) return false;
+  std::size_t word = 0;
+  for (std::size_t i = 0; i < first_word.size(); ++i) {
+    if (first_word[i] != word) return false;
+    word += words_of(scene, scene.instances[i]);
+  }
+  return words.size() == word;
+}
+
+SolidSides no_solid_sides(const Scene& scene) {
+  SolidSides sides;
+  std::size_t word = 0;
+  for (const Instance& instance : scene.instances) {
+    sides.first_word.push_back(static_cast<std::uint32_t>(word));
+    word += words_of(scene, instance);
+  }
+  sides.words.assign(word, 0u);
+  return sides;
+}
+
+SolidSides solid_sides_by_winding(const Scene& scene) {
+  SolidSides sides = no_solid_sides(scene);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+    if (scene.materials[mesh.material].double_sided) continue;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) sides.set(i, t, kSolidBack);
+  }
+  return sides;
+}
+
+}  // namespace lambent

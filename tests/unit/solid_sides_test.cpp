@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solid matter is found by what rays meet, whichever way surfaces are wound.
+#include "raytracing/solid_sides.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "field/placement/relocate.h"
+#include "raytracing/find_solid_sides.h"
+#include "support/box_scenes.h"
+#include "support/field_scenes.h"
+#include "support/hand_made.h"
+
+namespace lambent {
+namespace {
+
+using test::box_mesh;
+using test::scene_of;
+
+/// Has the triangles of a mesh run the other way round.
+void reverse(Mesh& mesh) {
+  for (glm::uvec3& t : mesh.triangles) std::swap(t.y, t.z);
+}
+
+/// A room in walls half a metre thick around a lamp, 5 m wide inside.
+Scene thick_walled_room() {
+  Scene scene =
+      scene_of({box_mesh(vec3(-3.0f), vec3(3.0f)), box_mesh(vec3(-2.5f), vec3(2.5f), true)});
+  scene.lights.push_back(test::point_light(vec3(10.0f), vec3(0.2f, 0.1f, 0.3f)));
+  return scene;
+}
+
+/// Probes in and around it, some of them in the walls.
+PlaceGrid around_room() {
+  return {vec3(-3.4f), mat3(1.0f), vec3(0.85f), ivec3(9)};
+}
+
+SolidSides sides_in(const Scene& scene) {
+  const World world(scene);
+  const PlaceGrid grid = around_room();
+  return find_solid_sides(world, {&grid, 1});
+}
+
+/// Whether a point is inside solid matter, by all that its rays meet.
+bool is_inside(const Scene& scene, const SolidSides& sides, const vec3& point) {
+  const World world(scene);
+  std::vector<FixedRayHit> hits(fixed_ray_directions().size());
+  const Viewpoint from{point, mat3(1.0f)};
+  trace_fixed_rays({scene, world.tracer(), sides, {}}, {&from, 1}, hits);
+  return inside_geometry(hits);
+}
+
+void expect_solid_walls(const Scene& scene) {
+  const SolidSides sides = sides_in(scene);
+  EXPECT_TRUE(is_inside(scene, sides, {0.0f, 2.75f, 0.0f}));
+  EXPECT_TRUE(is_inside(scene, sides, {-2.8f, 0.5f, -0.3f}));
+  EXPECT_FALSE(is_inside(scene, sides, {0.0f, 2.3f, 0.0f}));
+  EXPECT_FALSE(is_inside(scene, sides, {0.0f, 3.2f, 0.0f}));
+}
+
+TEST(SolidSides, AreTheInsidesOfWalls) {
+  expect_solid_walls(thick_walled_room());
+}
+
+TEST(SolidSides, AreTheSameWhicheverWayMeshesAreWound) {
+  for (const std::size_t mesh : {0u, 1u}) {
+    Scene scene = thick_walled_room();
+    reverse(scene.meshes[mesh]);
+    expect_solid_walls(scene);
+  }
+}
+
+TEST(SolidSides, AreTheSameWhereAMeshIsWoundBothWays) {
+  Scene scene = thick_walled_room();
+  for (Mesh& mesh : scene.meshes) {
+    for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+      std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+    }
+  }
+  expect_solid_walls(scene);
+}
+
+TEST(SolidSides, DoNotDependOnMaterialsOfTwoSides) {
+  Scene scene = thick_walled_room();
+  for (Material& material : scene.materials) material.double_sided = true;
+  expect_solid_walls(scene);
+}
+
+TEST(SolidSides, AreNoneOfASheetInTheOpen) {
+  Scene scene;
+  scene.materials.push_back(test::lambert(vec3(0.5f)));
+  test::add(scene, test::quad({-1.0f, 0.1f, -1.0f}, {0.0f, 0.0f, 2.0f}, {2.0f, 0.0f, 0.0f}, 0));
+  const SolidSides sides = sides_in(scene);
+  EXPECT_TRUE(std::all_of(sides.words.begin(), sides.words.end(), [](auto w) { return w == 0u; }));
+}
+
+TEST(SolidSides, AreThoseOfTheWindingWhereNothingIsSeen) {
+  // The second box is far from all probes' sight, inside the walls of the first
+  Scene scene = thick_walled_room();
+  test::add(scene, box_mesh({2.6f, 0.0f, 0.0f}, {2.7f, 0.1f, 0.1f}));
+  const SolidSides sides = sides_in(scene), wound = solid_sides_by_winding(scene);
+  ASSERT_TRUE(sides.fits(scene));
+  EXPECT_EQ(sides.words[sides.first_word[2]], wound.words[wound.first_word[2]]);
+}
+
+TEST(SolidSides, FitOneSceneOnly) {
+  Scene scene = thick_walled_room();
+  const SolidSides sides = no_solid_sides(scene);
+  EXPECT_TRUE(sides.fits(scene));
+  EXPECT_FALSE(SolidSides{}.fits(scene));
+  test::add(scene, box_mesh(vec3(5.0f), vec3(6.0f)));
+  EXPECT_FALSE(sides.fits(scene));
+}
+
+TEST(FieldLight, IsTheSameWhicheverWayMeshesAreWound) {
+  FieldSettings settings;
+  settings.probe_count = ivec3(7, 6, 7);
+  for (const char* name : {"cornell", "two-rooms"}) {
+    SCOPED_TRACE(name);
+    const test::Stage as_made(scenes::make(name).value());
+    Scene reversed = scenes::make(name).value();
+    for (std::size_t i = 0; i < reversed.meshes.size(); i += 2) reverse(reversed.meshes[i]);
+    const test::Stage wound(std::move(reversed));
+    const std::vector<FieldQuery> points = test::seen_points(as_made);
+    const std::vector<vec3> expected =
+        test::look_up(test::make_field(as_made, settings, 4), points);
+    const std::vector<vec3> found = test::look_up(test::make_field(wound, settings, 4), points);
+    double difference = 0.0, light = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      difference += length(found[i] - expected[i]);
+      light += length(expected[i]);
+    }
+    EXPECT_LT(difference, 0.01 * light);
+  }
+}
+
+}  // namespace
+}  // namespace lambent
