@@ -52,6 +52,8 @@ struct IrradianceField::State {
   /// Seed of the dither with which this update stores its results.
   uint dither_seed() const;
 
+  /// Finds which sides of surfaces bound solid matter, unless that is known of this scene.
+  void find_solid_sides(const World& world);
   void place_all(const World& world, const std::optional<vec3>& viewer_ws,
                  UpdateStatistics& statistics);
   /// Relocates some probes, starting from their places on the grid, and updates their

@@ -12,7 +12,6 @@
 #include "field/passes.h"
 #include "field/schedule/importance.h"
 #include "lambent/world.h"
-#include "raytracing/find_solid_sides.h"
 
 namespace lambent {
 namespace {
@@ -155,14 +154,7 @@ std::vector<int> IrradianceField::State::all_probes() const {
 /// Has volumes follow the viewer, and places and classifies probes.
 void IrradianceField::State::place_all(const World& world, const std::optional<vec3>& viewer_ws,
                                        UpdateStatistics& statistics) {
-  if (!data.solid_sides.fits(world.scene())) {
-    std::vector<PlaceGrid> places;
-    for (const ProbeGrid& grid : data.store.grids()) {
-      places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
-    }
-    data.solid_sides = find_solid_sides(world, places);
-    backend->push_solid_sides();
-  }
+  find_solid_sides(world);
   if (viewer_ws) statistics.probes_recycled = scroll_volumes(world, *viewer_ws, statistics);
   if (updates == 0) {
     place_probes(world, all_probes());

@@ -2,6 +2,7 @@
 #include "raytracing/find_solid_sides.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,11 +20,34 @@ constexpr std::size_t kPlacesPerTask = 64;
 constexpr int kAxes = 3;
 // Places around a light: the corners of its cell.
 constexpr int kCorners = 8;
+// Rays that leave a region of joined places for it to be open, and one in how many rays at least:
+// single rays slip through cracks between triangles.
+constexpr std::size_t kMinLeaving = 4;
+constexpr std::size_t kRaysOfLeaving = 5000;
 // Fewer sightings of a triangle, or of an instance, prove nothing: rays pass through cracks.
 constexpr std::uint32_t kMinSightings = 4;
 // A surface that open space sees from one side in this share of the sightings or more bounds
 // solid matter with its other one. The rest is cracks and places that straddle a wall.
 constexpr float kOneSided = 0.9f;
+
+// Rays that rise or fall less than this tell whether a place has walls around it; a ceiling is not
+// asked for, so that courts and roofless models count.
+constexpr float kMaxWallSlope = 0.5f;
+// A place is enclosed where at least this share of those rays meets a surface: there may be a
+// window or a door.
+constexpr float kMinEnclosed = 0.75f;
+// Where this share of a scene's open places is enclosed, it is a room or a building seen from
+// within, and what is outside of it does not count.
+constexpr float kMinRoomShare = 0.6f;
+// Places stand this far off the grid [cells], as scenes and grids are made in round numbers: a
+// place in a wall's own plane would be on either side of it by chance.
+const vec3 kOffPlanes(0.137f, 0.211f, 0.173f);
+// Places of the grid over the whole scene, about.
+constexpr float kScenePlaces = 2048.0f;
+// Flat scenes get no more than this along an axis.
+constexpr int kMaxPlacesAlongAxis = 64;
+// A scene without extent is taken to have this [m].
+constexpr float kSmallestScene = 1e-3f;
 
 /// How often open space saw the front and the back of something.
 struct Sightings {
@@ -39,26 +63,45 @@ struct Sightings {
   }
 };
 
-/// The places of a grid's probes, what they see, and which of them are open.
+/// The places whose sightings count.
+enum class Voters { all, open, enclosed };
+
+/// The places of a grid, what they see, and which of them are open.
 class Places {
  public:
   Places(const World& world, const PlaceGrid& grid)
-      : world_(world), grid_(grid), open_(count(), 0), joined_(kAxes * count(), 0) {
+      : world_(world),
+        grid_(grid),
+        leaving_(count(), 0),
+        open_(count(), 0),
+        joined_(kAxes * count(), 0) {
     look_around();
     look_across();
     mark_lights();
-    spread();
+    open_regions();
   }
 
   bool any_open() const {
     return std::any_of(open_.begin(), open_.end(), [](std::uint8_t open) { return open != 0; });
   }
 
-  /// Calls `see` with all hits of the places that are open, or of all of them.
-  template <class See>
-  void for_each_sighting(bool all, See see) const {
+  /// The share of the open places that are enclosed; 0 where none is open.
+  float enclosed_share() const {
+    float open = 0.0f, enclosed = 0.0f;
     for (std::size_t place = 0; place < count(); ++place) {
-      if (!all && open_[place] == 0) continue;
+      if (open_[place] == 0) continue;
+      open += 1.0f;
+      enclosed += is_enclosed(place) ? 1.0f : 0.0f;
+    }
+    return open > 0.0f ? enclosed / open : 0.0f;
+  }
+
+  /// Calls `see` with all hits of some places.
+  template <class See>
+  void for_each_sighting(Voters voters, See see) const {
+    for (std::size_t place = 0; place < count(); ++place) {
+      if (voters != Voters::all && open_[place] == 0) continue;
+      if (voters == Voters::enclosed && !is_enclosed(place)) continue;
       for (int i = 0; i < kRays; ++i) {
         const Hit& hit = hits_[place * kRays + i];
         if (!hit.missed()) see(hit);
@@ -71,7 +114,7 @@ class Places {
     return static_cast<std::size_t>(grid_.count.x) * grid_.count.y * grid_.count.z;
   }
   vec3 position(const vec3& coords) const {
-    return grid_.origin_ws + grid_.axes * (grid_.spacing * coords);
+    return grid_.origin_ws + grid_.axes * (grid_.spacing * (coords + kOffPlanes));
   }
   ivec3 coords(std::size_t place) const {
     const int i = static_cast<int>(place);
@@ -83,6 +126,16 @@ class Places {
     return axis == 0 ? 1 : axis == 1 ? x : x * grid_.count.y;
   }
 
+  bool is_enclosed(std::size_t place) const {
+    float rays = 0.0f, met = 0.0f;
+    for (uint i = 0; i < kRays; ++i) {
+      if (std::abs(spherical_fibonacci(i, kRays).y) > kMaxWallSlope) continue;
+      rays += 1.0f;
+      met += hits_[place * kRays + i].missed() ? 0.0f : 1.0f;
+    }
+    return met >= kMinEnclosed * rays;
+  }
+
   bool emits(const Hit& hit) const {
     const Scene& scene = world_.scene();
     const Material& material =
@@ -90,7 +143,7 @@ class Places {
     return material.emission != vec3(0.0f);
   }
 
-  /// Traces rays from each place, and opens the places that see out of the scene or a lamp.
+  /// Traces rays from each place, and counts those that leave the scene or meet a lamp.
   void look_around() {
     hits_.resize(kRays * count());
     std::vector<vec3> directions;
@@ -109,8 +162,8 @@ class Places {
                     });
     for (std::size_t place = 0; place < count(); ++place) {
       const auto first = hits_.begin() + static_cast<std::ptrdiff_t>(place * kRays);
-      open_[place] = std::any_of(first, first + kRays,
-                                 [&](const Hit& hit) { return hit.missed() || emits(hit); });
+      leaving_[place] = static_cast<std::uint32_t>(std::count_if(
+          first, first + kRays, [&](const Hit& hit) { return hit.missed() || emits(hit); }));
     }
   }
 
@@ -141,7 +194,7 @@ class Places {
     }
   }
 
-  /// Opens the places around each point and spot light that see it.
+  /// Counts all rays of the places around each point and spot light that see it.
   void mark_lights() {
     for (const Light& light : world_.scene().lights) {
       if (light.type == Light::Type::directional) continue;
@@ -153,41 +206,65 @@ class Places {
         const float distance = length(way);
         const bool seen = distance == 0.0f || !world_.tracer().occluded({from, 0.0f, way / distance,
                                                                          distance, kRayOfProbe});
-        if (seen) open_[at.x * stride(0) + at.y * stride(1) + at.z * stride(2)] = 1;
+        if (seen) leaving_[at.x * stride(0) + at.y * stride(1) + at.z * stride(2)] += kRays;
       }
     }
   }
 
-  /// Opens all places that are joined to an open one.
-  void spread() {
-    std::vector<std::size_t> front;
-    for (std::size_t place = 0; place < count(); ++place) {
-      if (open_[place] != 0) front.push_back(place);
+  /// Opens the regions of joined places that enough rays leave.
+  void open_regions() {
+    std::vector<std::uint8_t> visited(count(), 0);
+    std::vector<std::size_t> region;
+    for (std::size_t first = 0; first < count(); ++first) {
+      if (visited[first] != 0) continue;
+      find_region(first, visited, region);
+      std::size_t leaving = 0;
+      for (const std::size_t place : region) leaving += leaving_[place];
+      const bool open = leaving >= kMinLeaving && leaving * kRaysOfLeaving >= region.size() * kRays;
+      for (const std::size_t place : region) open_[place] = open ? 1 : 0;
     }
-    const auto open = [&](std::size_t place) {
-      if (open_[place] != 0) return;
-      open_[place] = 1;
-      front.push_back(place);
+  }
+
+  /// Finds all places that are joined to the first, over any number of others.
+  void find_region(std::size_t first, std::vector<std::uint8_t>& visited,
+                   std::vector<std::size_t>& region) const {
+    region.assign(1, first);
+    visited[first] = 1;
+    const auto visit = [&](std::size_t place) {
+      if (visited[place] != 0) return;
+      visited[place] = 1;
+      region.push_back(place);
     };
-    while (!front.empty()) {
-      const std::size_t place = front.back();
-      front.pop_back();
+    for (std::size_t next = 0; next < region.size(); ++next) {
+      const std::size_t place = region[next];
       const ivec3 here = coords(place);
       for (int axis = 0; axis < kAxes; ++axis) {
-        if (joined_[place * kAxes + axis] != 0) open(place + stride(axis));
+        if (joined_[place * kAxes + axis] != 0) visit(place + stride(axis));
         if (here[axis] == 0) continue;
         const std::size_t before = place - stride(axis);
-        if (joined_[before * kAxes + axis] != 0) open(before);
+        if (joined_[before * kAxes + axis] != 0) visit(before);
       }
     }
   }
 
   const World& world_;
-  const PlaceGrid& grid_;
-  std::vector<Hit> hits_;             // kRays a place
-  std::vector<std::uint8_t> open_;    // 1: open
-  std::vector<std::uint8_t> joined_;  // 1: sees the next place along an axis; kAxes a place
+  PlaceGrid grid_;
+  std::vector<Hit> hits_;               // kRays a place
+  std::vector<std::uint32_t> leaving_;  // rays that leave the scene or meet a lamp
+  std::vector<std::uint8_t> open_;      // 1: open
+  std::vector<std::uint8_t> joined_;    // 1: sees the next place along an axis; kAxes a place
 };
+
+/// A grid over a box whose outermost places stand half a cell inside.
+PlaceGrid grid_over(const Bounds& bounds) {
+  const vec3 size = max(bounds.max - bounds.min, vec3(kSmallestScene));
+  const float spacing = std::cbrt(size.x * size.y * size.z / kScenePlaces);
+  PlaceGrid grid;
+  grid.count = clamp(ivec3(size / spacing), ivec3(2), ivec3(kMaxPlacesAlongAxis));
+  grid.spacing = size / vec3(grid.count);
+  grid.origin_ws = bounds.min + 0.5f * grid.spacing;
+  return grid;
+}
 
 /// The sides that bound solid matter if nothing but a surface's winding is known.
 std::uint32_t sides_by_winding(const Scene& scene, const Instance& instance) {
@@ -199,15 +276,18 @@ std::uint32_t sides_by_winding(const Scene& scene, const Instance& instance) {
 SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids) {
   const Scene& scene = world.scene();
   std::vector<Places> places;
+  places.emplace_back(world, grid_over(world_bounds(scene)));
+  const bool room = places.front().enclosed_share() >= kMinRoomShare;
   for (const PlaceGrid& grid : grids) places.emplace_back(world, grid);
-  const bool all = std::none_of(places.begin(), places.end(),
-                                [](const Places& some) { return some.any_open(); });
+  const bool some_open =
+      std::any_of(places.begin(), places.end(), [](const Places& some) { return some.any_open(); });
+  const Voters voters = !some_open ? Voters::all : room ? Voters::enclosed : Voters::open;
 
   // Count what open space sees of each triangle
   std::vector<std::vector<Sightings>> triangles(scene.instances.size());
   std::vector<Sightings> instances(scene.instances.size());
   for (const Places& some : places) {
-    some.for_each_sighting(all, [&](const Hit& hit) {
+    some.for_each_sighting(voters, [&](const Hit& hit) {
       std::vector<Sightings>& seen = triangles[hit.instance];
       seen.resize(scene.meshes[scene.instances[hit.instance].mesh].triangles.size());
       seen[hit.triangle].add(hit.front_face);

@@ -67,6 +67,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   if (updates == 0) return;
   std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);
+  find_solid_sides(world);
   update_classification_inputs(world, all);
   update_cell_visibility(world, all);
 }

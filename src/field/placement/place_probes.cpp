@@ -10,6 +10,7 @@
 #include "field/transport/distances.h"
 #include "lambent/world.h"
 #include "raytracing/boxes.h"
+#include "raytracing/find_solid_sides.h"
 
 namespace lambent {
 namespace {
@@ -26,6 +27,16 @@ constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
 }  // namespace
+
+void IrradianceField::State::find_solid_sides(const World& world) {
+  if (data.solid_sides.fits(world.scene())) return;
+  std::vector<PlaceGrid> places;
+  for (const ProbeGrid& grid : data.store.grids()) {
+    places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
+  }
+  data.solid_sides = lambent::find_solid_sides(world, places);
+  backend->push_solid_sides();
+}
 
 std::vector<int> IrradianceField::State::place_probes(const World& world,
                                                       std::span<const int> probes) {
