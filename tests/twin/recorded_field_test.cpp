@@ -3,6 +3,7 @@
 #include "twin/recorded_field.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "field/probes/probe_status.h"
 #include "field/vulkan/recorded_arguments.h"
@@ -12,7 +13,7 @@ namespace lambent {
 namespace {
 
 using test::cornell, test::recorded_settings, test::RecordedFieldTest;
-using vulkan::RecordedField, vulkan::RecordedFieldSettings;
+using vulkan::PlannedUpdate, vulkan::RecordedField, vulkan::RecordedFieldSettings;
 
 TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const FieldSettings settings = recorded_settings();
@@ -102,6 +103,16 @@ TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   settings = {};
   settings.cascades = 2;
   EXPECT_TRUE(refused(settings, {}));
+}
+
+TEST_F(RecordedFieldTest, RefusesAPlanOutOfRangeAndBeginsNothing) {
+  RecordedField field = make(recorded_settings(), {});
+  for (const float history : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
+    const Expected<PlannedUpdate> planned = field.plan({.history = history});
+    ASSERT_FALSE(planned) << history;
+    EXPECT_EQ(planned.error().place, "history");
+  }
+  EXPECT_EQ(field.updates(), 0u);
 }
 
 TEST(BatchPlan, ServesEachProbeOnceARound) {

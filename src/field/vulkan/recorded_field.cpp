@@ -2,7 +2,6 @@
 // A field that an engine records: the parts of an update are recorded between the engine's own
 // commands.
 #include <algorithm>
-#include <cassert>
 
 #include "field/probes/volumes.h"
 #include "field/vulkan/recorded_state.h"
@@ -76,15 +75,17 @@ RecordedField::~RecordedField() = default;
 RecordedField::RecordedField(RecordedField&&) noexcept = default;
 RecordedField& RecordedField::operator=(RecordedField&&) noexcept = default;
 
-PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
+Expected<PlannedUpdate> RecordedField::plan(const UpdatePlan& update) {
   State& s = *state_;
-  assert(update.history >= 0.0f && update.history <= 1.0f);
+  if (!(update.history >= 0.0f && update.history <= 1.0f)) {
+    return fail("", "history", "must be 0 to 1");
+  }
   s.batch = s.plan.next(update);
   s.times = s.memory().take_times();
   s.memory().write(s.batch, s.settings);
-  return {static_cast<std::uint32_t>(s.batch.count),
-          static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
-          s.batch.place != kPlaceLeave, s.batch.on_device};
+  return PlannedUpdate{static_cast<std::uint32_t>(s.batch.count),
+                       static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
+                       s.batch.place != kPlaceLeave, s.batch.on_device};
 }
 
 void RecordedField::State::record_part(EngineRays& source, VkCommandBuffer commands,
