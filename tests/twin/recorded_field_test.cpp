@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "field/field_access.h"
 #include "field/probes/probe_status.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
@@ -28,7 +29,7 @@ TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const auto states = download<uint>(field.states());
   int off = 0;
   for (std::size_t probe = 0; probe < states.size(); ++probe) {
-    EXPECT_EQ(states[probe] == kProbeOff, on_cpu.probe_statuses()[probe].state == ProbeState::off);
+    EXPECT_EQ(states[probe] == kProbeOff, statuses_of(on_cpu)[probe].state == ProbeState::off);
     off += states[probe] == kProbeOff ? 1 : 0;
   }
   EXPECT_GT(off, 0);
