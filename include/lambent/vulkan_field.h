@@ -8,7 +8,9 @@
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lambent/error.h"
@@ -22,8 +24,9 @@ struct RecordedFieldSettings {
   /// Updates whose command buffers may be unfinished while the next one is planned and recorded, 1
   /// to 16. Each costs some ten kilobytes.
   int frames_in_flight = 2;
-  /// Probes that an update traces, in turn; 0: all. Costs of an update are in proportion, its
-  /// memory for rays, hits and results too (128 bytes a ray).
+  /// Probes that an update traces, in turn; 0: all, but of the cascade of level L one in 2^L.
+  /// Costs of an update are in proportion, its memory for rays, hits and results too (128 bytes a
+  /// ray).
   int probes_per_update = 0;
   /// Rays that an update traces at most, of the probes whose light is least settled: the device
   /// decides which, once the first rounds and placing are over, and those that are settled rest. 0:
@@ -43,9 +46,11 @@ struct UpdatePlan {
   /// Factor to the weight of all that probes have averaged so far, 0 to 1: 1 where nothing changed,
   /// about 0.1 where lights or large objects changed, 0 where everything did.
   float history = 1.0f;
-  /// Lets relocation begin again, with the next round through all probes: for when static geometry
-  /// was rebuilt.
+  /// Lets relocation of all probes begin again: for when static geometry was rebuilt.
   bool place_again = false;
+  /// Where the camera is [m]: cascades (FieldSettings::cascades) follow it. None, or numbers that
+  /// are not finite: they stay.
+  std::optional<glm::vec3> viewer_ws = std::nullopt;
 };
 
 /// The work of an update.
@@ -72,7 +77,7 @@ struct LookupBuffers {
 /// makes nothing, waits for nothing and reads nothing back. An update is, once a frame or less:
 ///
 ///   plan             which probes, which rays; on the host
-///   record_rays      the probes' rays, into rays()
+///   record_rays      cascades move with the viewer; the probes' rays, into rays()
 ///   record_trace     what they meet in the engine's acceleration structure, into hits(); or the
 ///                    engine's own way to find out
 ///   (the engine)     what that brings back, into results(), by a shader of the engine's
@@ -90,15 +95,19 @@ struct LookupBuffers {
 /// semaphore. So on one queue the engine owes no barrier but between its own commands. What each
 /// one touches, for engines that use several queues or track resources themselves:
 ///
-///   record_rays      reads the lookup buffers, writes rays()      compute shaders,
-///                    and ray_launch()                             indirect commands
+///   record_rays      reads the lookup buffers, writes rays()      compute shaders, transfer,
+///                    and ray_launch(); with cascades it writes    indirect commands
+///                    the lookup buffers, too
 ///   record_trace     reads rays(), ray_launch() and the           ray tracing shaders,
 ///                    structure, writes hits()                     indirect commands
 ///   record_update    reads rays() and results(),                  compute shaders, transfer,
 ///                    writes the lookup buffers                    indirect commands
 ///   record_maintain  reads rays() and results(), writes states()  compute shaders
 ///
-/// Lookups may run at any time but during record_update: between two updates' they find whole ones.
+/// Lookups may run at any time but during record_update, and with cascades during record_rays:
+/// between two updates' they find whole ones. A cascade that has moved gives the probes of the slab
+/// that it left behind places in front. Until record_update has given these light, they have no
+/// weight, and coarser volumes answer in their stead.
 ///
 /// Frames in flight. Updates run on the device one after the other. While so many updates as
 /// RecordedFieldSettings::frames_in_flight are unfinished, plan must not be called: an engine waits
@@ -109,7 +118,7 @@ class RecordedField {
  public:
   /// A field that holds no light yet, for a place of these bounds [m]. Submits to the device's
   /// queue, and waits. Fails on settings out of range, and on those that recorded fields do not
-  /// follow: cascades, visibility by rays, counted bounces where not all probes are traced at once.
+  /// follow: visibility by rays, counted bounces where not all probes are traced at once.
   /// Throws std::runtime_error where the device's memory runs out.
   static Expected<RecordedField> make(std::shared_ptr<Device> device, const FieldSettings& settings,
                                       const Bounds& bounds,
