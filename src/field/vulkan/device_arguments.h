@@ -174,7 +174,7 @@ struct CellVisibilityRaysArguments {
 };
 
 /// Arguments of cell_visibility_bits, which stores the results in two words per lowest probe
-/// (visibility_bit).
+/// (all_visible).
 struct CellVisibilityBitsArguments {
   IntArray cells;
   UintArray occluded;
