@@ -287,9 +287,9 @@ struct CompareLightArguments {
   IntArray probes;
   Vec4Array light;
   Vec4Array before;
-  Vec3Array changes;  ///< Relative square, luminance before, luminance after.
+  Vec3Array changes;  ///< The members of LightChange.
   int count;
-  float darkest;
+  int unused;
 };
 
 /// Arguments of lookup, which looks the field up for queries.

@@ -89,7 +89,7 @@ ProbeBatch BatchPlan::next(const UpdatePlan& update) {
   batch.place = place_in_round();
   batch.all = batch.place != kPlaceLeave || round_ % kLookRounds == 0;
   if (batch.discards_history) least_samples_ = 0.0f;
-  batch.largest_blend_weight = 1.0f / (std::min(least_samples_, longest_ - 1.0f) + 1.0f);
+  batch.largest_blend_weight = history_blend_weight(least_samples_, 1.0f, longest_);
 
   ++updates_;
   next_ += batch.count;
