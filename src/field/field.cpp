@@ -8,22 +8,6 @@
 #include "field/field_state.h"
 
 namespace lambent {
-namespace {
-
-std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
-  std::vector<VolumeRole> roles;
-  for (const Volume& volume : volumes) roles.push_back(volume.role);
-  return roles;
-}
-
-std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes) {
-  std::vector<ProbeGrid> grids;
-  for (const Volume& volume : volumes) grids.push_back(volume.grid);
-  return grids;
-}
-
-}  // namespace
-
 Expected<void> check_settings(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);

@@ -102,6 +102,7 @@ class FieldPassesCpu final : public FieldPasses {
   void store() override { store_irradiance(update_.probes, update_.dither_seed, data_); }
 
   // The host has scheduled and placed the probes before the update.
+  void scroll() override {}
   void schedule() override {}
   void placement() override {}
 

@@ -52,6 +52,7 @@ void update_probes(FieldPasses& passes) {
 }
 
 void choose_rays(FieldPasses& passes) {
+  if (passes.settings().cascades > 0) run(passes, field_pass::kPlacement, [&] { passes.scroll(); });
   run(passes, field_pass::kSchedule, [&] { passes.schedule(); });
 }
 

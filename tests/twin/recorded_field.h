@@ -66,7 +66,7 @@ class RecordedFieldTest : public OnDevice {
   /// An update, shaded by the host as the processor's field would.
   static void update(RecordedField& field, const vulkan::UpdatePlan& plan = {}) {
     const std::uint32_t number = field.updates();
-    const vulkan::PlannedUpdate planned = field.plan(plan);
+    const vulkan::PlannedUpdate planned = field.plan(plan).value();
     device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
     const auto records = download<RayRecord>(field.rays());
     const RaySet set(field.settings(), static_cast<int>(planned.rays_per_probe), number);

@@ -279,7 +279,7 @@ TEST_F(BudgetedFieldTest, TracesNoMoreThanItsProbesDecidedOn) {
   RecordedField field = make(settings, recorded);
   // Two rounds, of which the second starts anew, and three times 24 of 80 probes
   for (int i = 0; i < 4 + 4 + 3; ++i) update(field);
-  const vulkan::PlannedUpdate planned = field.plan();
+  const vulkan::PlannedUpdate planned = field.plan().value();
   EXPECT_TRUE(planned.on_device);
   EXPECT_EQ(planned.probes, 24u);
 

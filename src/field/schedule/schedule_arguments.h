@@ -53,6 +53,12 @@ struct ProbeService {
 };
 LAMBENT_DEVICE_ARRAY(ServiceArray, ProbeService, 4)
 
+/// The service of a probe that was never traced, with the initial values of ProbeStatus.
+LAMBENT_FN ProbeService new_service() {
+  ProbeService service = {{1.0f, 0u}, 0u};
+  return service;
+}
+
 /// The device's decision about an update, and what it keeps for the next one.
 struct ScheduleState {
   ListState list;

@@ -38,6 +38,11 @@ StoreArrays FieldResources::store() const {
   return {{grids_.address()}, {offsets_.address()}, {irradiance_.address()}, {distance_.address()}};
 }
 
+int FieldResources::distance_words() const {
+  const int edge = settings_.distance_texels + 2;
+  return edge * edge * words_per_distance_texel_;
+}
+
 void FieldResources::record_rays(vulkan::Recorder& to, const DeviceProbes& list,
                                  const DeviceGroup& group, RayArray rays) const {
   const RaySlot& slot = slots_[slot_of_[list.probes[group.first]]];

@@ -35,8 +35,7 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, int most_probes, int
   ScheduleState state{};
   state.live = static_cast<uint>(field.probes());
   state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
-  // The initial values of ProbeStatus
-  const std::vector<ProbeService> unknown(field.probes(), {{1.0f, 0u}, 0u});
+  const std::vector<ProbeService> unknown(field.probes(), new_service());
   service_ = vulkan::upload(device, unknown, "service of probes");
   std::vector<ListSize> sizes;
   for (uint shape = 0; shape < kListShapes; ++shape) {

@@ -82,6 +82,8 @@ class FieldResources {
   const vulkan::Buffer& offsets() const { return offsets_; }
   const vulkan::Buffer& irradiance() const { return irradiance_; }
   const vulkan::Buffer& distance() const { return distance_; }
+  /// Words of a probe's distance tile, gutter included.
+  int distance_words() const;
   /// The surfels of all probes, surfel_stride() per probe.
   SurfelArray surfels() const { return {surfels_.address()}; }
   int surfel_stride() const { return stride_; }
