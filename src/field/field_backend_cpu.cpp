@@ -96,8 +96,7 @@ class FieldPassesCpu final : public FieldPasses {
     for (std::size_t k = 0; k < update_.probes.size(); ++k) {
       const TileLight held(&data_.light[update_.probes[k] * texels], texels),
           before(&history_[k * texels], texels);
-      result.changes.push_back({relative_square(held, before, update_.darkest),
-                                mean_luminance(before), mean_luminance(held)});
+      result.changes.push_back(light_change(before, held));
     }
   }
 

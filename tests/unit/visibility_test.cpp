@@ -8,6 +8,7 @@
 
 #include "field/field_access.h"
 #include "field/lookup/lookup.h"
+#include "field/lookup/visibility_math.h"
 #include "field/probes/volumes.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
@@ -95,7 +96,7 @@ TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
   const auto hybrid = traced.weights(stage, Visibility::hybrid, queries);
   int open = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (traced.cell_visibility.of_cell(moments[i].base) != ~std::uint64_t{0}) continue;
+    if (traced.cell_visibility.of_cell(moments[i].base) != all_visible()) continue;
     ++open;
     EXPECT_TRUE(same(hybrid[i], moments[i])) << i;
   }
@@ -157,11 +158,11 @@ TEST(CellVisibility, KnowWhichProbesOfACellAWallParts) {
   EXPECT_EQ(cell_visibility.update(tracer_of(world), store, probes), 56u);
   for (int i = 0; i < 8; ++i) {
     for (int k = 0; k < 8; ++k) {
-      const bool seen = (cell_visibility.of_cell(0) >> (8 * i + k) & 1u) != 0;
+      const bool seen = (corners_seen_by(cell_visibility.of_cell(0), i) >> k & 1u) != 0;
       EXPECT_EQ(seen, (i < 4) == (k < 4)) << i << " " << k;
     }
   }
-  EXPECT_EQ(cell_visibility.of_cell(4), ~std::uint64_t{0});
+  EXPECT_EQ(cell_visibility.of_cell(4), all_visible());
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ void DeviceSchedule::record_update_variability(vulkan::Recorder& to, const Devic
                                                   0u};
   const ScheduleMeansArguments means = {
       state, {chunk_records_.address()}, blend_weights, changes, chunks_, list.count(), chosen, 0u};
-  field_.record_compare_light(to, list, before, /*darkest=*/0.0f, changes);
+  field_.record_compare_light(to, list, before, changes);
   field_.run_over(to, update_variability_, variability, list, kOverLanes);
   to.barrier();
   to.run(means_, means, kGroupLanes);

@@ -33,21 +33,19 @@ std::uint32_t timed_passes(const WorldRaysVulkan& rays) {
 /// Brings the changes of light to where the host reads them, which schedules.
 class ChangesForHost final : public VariabilityVulkan {
  public:
-  ChangesForHost(const FieldResources& field, std::size_t probes, float darkest)
+  ChangesForHost(const FieldResources& field, std::size_t probes)
       : found(field.device(), probes * sizeof(LightChange), vulkan::Memory::readback,
               "changes of light"),
-        field_(field),
-        darkest_(darkest) {}
+        field_(field) {}
 
   void record(Recorder& to, const DeviceProbes& list, FloatArray, Vec4Array before) override {
-    field_.record_compare_light(to, list, before, darkest_, {found.address()});
+    field_.record_compare_light(to, list, before, {found.address()});
   }
 
   const Buffer found;
 
  private:
   const FieldResources& field_;
-  float darkest_;
 };
 
 }  // namespace
@@ -135,7 +133,7 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
       hybrid ? cells_around(data_.store, update.probes) : std::vector<int>();
   WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(update.world), list, cells,
                        /*sees=*/true);
-  ChangesForHost changes(field_, update.probes.size(), update.darkest);
+  ChangesForHost changes(field_, update.probes.size());
   field_.reserve_seen(list);
   field_.reserve_transport(list);
   solver_.reserve(list);
