@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "raytracing/surface.h"
+#include "scene/environment_sampling.h"
 
 namespace lambent {
 namespace {

@@ -11,6 +11,7 @@
 #include "field/probes/moments_encoding.h"
 #include "field/transport/distances.h"
 #include "raytracing/boxes.h"
+#include "scene/environment_sampling.h"
 #include "scene/light_sampling.h"
 #include "shared/color.h"
 
