@@ -11,7 +11,7 @@
 #include "core/pass_times.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
-#include "scene/light_sampling.h"
+#include "scene/environment_sampling.h"
 
 namespace lambent {
 namespace {

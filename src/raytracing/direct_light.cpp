@@ -27,7 +27,8 @@ EmitterPoint sample_emitter_by_cosine(const World& world, const LitPoint& point,
   const glm::vec3 normal = glm::normalize(edge_product(instance.world_from_object,
                                                        mesh.positions[v.y] - mesh.positions[v.x],
                                                        mesh.positions[v.z] - mesh.positions[v.x]));
-  const glm::vec3 radiance = emission_at(scene, mesh, scene.materials[mesh.material], on_triangle);
+  const glm::vec3 radiance =
+      emission_at(scene, mesh, scene.materials[mesh.material], on_triangle, 0.0f);
   return emitter_met(direction, hit.distance, radiance, normal, pdf_area);
 }
 

@@ -5,6 +5,7 @@
 
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
+#include "scene/environment_sampling.h"
 
 namespace lambent {
 namespace {

@@ -291,7 +291,7 @@ IrradianceSample PathIntegrator::sample_irradiance(const glm::vec3& position_ws,
                                                    const glm::vec3& normal_ws, SobolSampler& random,
                                                    std::uint64_t& rays) const {
   // A white Lambert surface reflects its irradiance over pi
-  Surface surface;
+  Surface surface{};
   surface.position_ws = position_ws;
   surface.normal_ws = normal_ws;
   surface.geometric_normal_ws = normal_ws;

@@ -12,6 +12,7 @@
 #include "field/transport/distances.h"
 #include "raytracing/boxes.h"
 #include "raytracing/world_access.h"
+#include "scene/environment_sampling.h"
 #include "scene/light_sampling.h"
 #include "shared/color.h"
 
