@@ -9,11 +9,13 @@
 #include <thread>
 
 #include "bench/workload.h"
+#include "field/field_access.h"
 #include "field/lookup/visibility.h"
 #include "field/probes/volumes.h"
 #include "field/vulkan/device_solver.h"
 #include "lambent/vulkan.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "vulkan/device.h"
 
 namespace lambent::bench {
@@ -67,7 +69,7 @@ struct ProbeBlend {
     std::iota(probes.begin(), probes.end(), 0);
     group.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u);
     group.probes = probes;
-    trace_probe_rays(workload().world.tracer(), store, group);
+    trace_probe_rays(tracer_of(workload().world), store, group);
     std::vector<ProbeTrace> traces(probes.size());
     shade_surfels(workload().world, solid_sides_by_winding(workload().scene), store, group,
                   settings, traces);
@@ -159,7 +161,7 @@ void vulkan_find_lookups(benchmark::State& state) {
 void vulkan_lookup(benchmark::State& state) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   const Workload& work = workload();
-  const FieldResources field(*device(), work.field.settings(), work.field.store());
+  const FieldResources field(*device(), work.field.settings(), store_of(work.field));
   const std::vector<FieldQuery> queries = pixel_queries(work);
   const vulkan::Buffer in = vulkan::upload(*device(), queries, "queries");
   const vulkan::Buffer out(*device(), queries.size() * sizeof(vec3), vulkan::Memory::device, "E");
@@ -175,10 +177,10 @@ void lookup_by_rays(benchmark::State& state, Visibility visibility) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   const Workload& work = workload();
   static const World there(work.scene, shared_device());
-  const DeviceWorld& world = *there.on_device();
+  const DeviceWorld& world = *device_world_of(there);
   FieldSettings settings = work.field.settings();
   settings.visibility = visibility;
-  const ProbeStore& store = work.field.store();
+  const ProbeStore& store = store_of(work.field);
   const FieldResources field(world.device(), settings, store);
   std::vector<int> probes(store.probes());
   std::iota(probes.begin(), probes.end(), 0);
@@ -190,14 +192,14 @@ void lookup_by_rays(benchmark::State& state, Visibility visibility) {
                            "E");
   world.device().run([&](vulkan::Recorder& to) {
     to.bind_textures(world.scene().textures());
-    field.record_cell_visibility(to, world.tracer(), {lowest.address()},
+    field.record_cell_visibility(to, tracer_of(world), {lowest.address()},
                                  static_cast<int>(cells.size()));
   });
   const vulkan::Buffer rays(world.device(), sizeof(uint), vulkan::Memory::readback, "rays");
   time_on_device(state, [&](vulkan::Recorder& to) {
     to.bind_textures(world.scene().textures());
     field.record_lookup(to, {in.address()}, static_cast<std::uint32_t>(queries.size()),
-                        {out.address()}, &world.tracer());
+                        {out.address()}, &tracer_of(world));
     field.take_ray_count(to, rays);
   });
   state.counters["lookups"] = static_cast<double>(queries.size());

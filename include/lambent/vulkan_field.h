@@ -1,79 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field that an engine records into command buffers of its own, on its own Vulkan device, with
-// its own rays and its own shading: docs/integration.md. The only public header that needs Vulkan's
-// headers; where there are none it declares nothing.
+// its own rays and its own shading: docs/integration.md. Needs Vulkan's headers; where there are
+// none it declares nothing.
 #pragma once
 
 #if __has_include(<vulkan/vulkan_core.h>)
 #include <vulkan/vulkan_core.h>
 
-#include <array>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "lambent/error.h"
 #include "lambent/field.h"
-#include "lambent/vulkan.h"
+#include "lambent/pass_time.h"
+#include "lambent/vulkan_device.h"
 
 namespace lambent::vulkan {
-
-/// Device extensions that an engine turns on, besides Vulkan 1.2.
-inline constexpr std::array kRequiredExtensions = {"VK_KHR_acceleration_structure",
-                                                   "VK_KHR_ray_tracing_pipeline",
-                                                   "VK_KHR_deferred_host_operations"};
-
-/// The features that an engine turns on, as a chain for VkDeviceCreateInfo::pNext that begins with
-/// `core`. What the engine wants besides is set in these structs or chained behind the last, whose
-/// pNext is null.
-struct RequiredFeatures {
-  RequiredFeatures();
-  RequiredFeatures(const RequiredFeatures&) = delete;
-  RequiredFeatures& operator=(const RequiredFeatures&) = delete;
-
-  VkPhysicalDeviceFeatures2 core;
-  VkPhysicalDeviceVulkan12Features vulkan12;
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure;
-  VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_pipeline;  ///< The last.
-
-  /// Turns on what is needed.
-  void request();
-  /// Names of what is needed and these, as filled in by the driver, lack. Of fresh ones: of all
-  /// that is needed.
-  std::vector<std::string> missing() const;
-};
-
-/// What an engine lends. The device was made with kRequiredExtensions and RequiredFeatures, and
-/// outlives all that is made on it.
-struct LentDevice {
-  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;  ///< Null: the system's loader.
-  VkInstance instance = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  /// Takes compute. Used while something is made on the device, never while it records: nobody else
-  /// may submit to it meanwhile.
-  VkQueue queue = VK_NULL_HANDLE;
-  std::uint32_t queue_family = 0;
-};
-
-/// Takes a lent device over without owning it. Fails where something that is needed is missing.
-Expected<std::shared_ptr<Device>> adopt_device(const LentDevice& lent);
-
-/// Part of a buffer.
-struct BufferRange {
-  VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceSize offset = 0;      ///< [bytes]
-  VkDeviceSize bytes = 0;       ///< [bytes]
-  VkDeviceAddress address = 0;  ///< Of its first byte.
-};
 
 struct RecordedFieldSettings {
   /// Updates whose command buffers may be unfinished while the next one is planned and recorded, 1
   /// to 16. Each costs some ten kilobytes.
   int frames_in_flight = 2;
-  /// Probes that an update traces, in turn; 0: all. Costs of an update are in proportion, its
-  /// memory for rays, hits and results too (128 bytes a ray).
+  /// Probes that an update traces, in turn; 0: all, but of the cascade of level L one in 2^L.
+  /// Costs of an update are in proportion, its memory for rays, hits and results too (128 bytes a
+  /// ray).
   int probes_per_update = 0;
   /// Rays that an update traces at most, of the probes whose light is least settled: the device
   /// decides which, once the first rounds and placing are over, and those that are settled rest. 0:
@@ -93,9 +46,11 @@ struct UpdatePlan {
   /// Factor to the weight of all that probes have averaged so far, 0 to 1: 1 where nothing changed,
   /// about 0.1 where lights or large objects changed, 0 where everything did.
   float history = 1.0f;
-  /// Lets relocation begin again, with the next round through all probes: for when static geometry
-  /// was rebuilt.
+  /// Lets relocation of all probes begin again: for when static geometry was rebuilt.
   bool place_again = false;
+  /// Where the camera is [m]: cascades (FieldSettings::cascades) follow it. None, or numbers that
+  /// are not finite: they stay.
+  std::optional<glm::vec3> viewer_ws = std::nullopt;
 };
 
 /// The work of an update.
@@ -122,7 +77,7 @@ struct LookupBuffers {
 /// makes nothing, waits for nothing and reads nothing back. An update is, once a frame or less:
 ///
 ///   plan             which probes, which rays; on the host
-///   record_rays      the probes' rays, into rays()
+///   record_rays      cascades move with the viewer; the probes' rays, into rays()
 ///   record_trace     what they meet in the engine's acceleration structure, into hits(); or the
 ///                    engine's own way to find out
 ///   (the engine)     what that brings back, into results(), by a shader of the engine's
@@ -140,15 +95,19 @@ struct LookupBuffers {
 /// semaphore. So on one queue the engine owes no barrier but between its own commands. What each
 /// one touches, for engines that use several queues or track resources themselves:
 ///
-///   record_rays      reads the lookup buffers, writes rays()      compute shaders,
-///                    and ray_launch()                             indirect commands
+///   record_rays      reads the lookup buffers, writes rays()      compute shaders, transfer,
+///                    and ray_launch(); with cascades it writes    indirect commands
+///                    the lookup buffers, too
 ///   record_trace     reads rays(), ray_launch() and the           ray tracing shaders,
 ///                    structure, writes hits()                     indirect commands
 ///   record_update    reads rays() and results(),                  compute shaders, transfer,
 ///                    writes the lookup buffers                    indirect commands
 ///   record_maintain  reads rays() and results(), writes states()  compute shaders
 ///
-/// Lookups may run at any time but during record_update: between two updates' they find whole ones.
+/// Lookups may run at any time but during record_update, and with cascades during record_rays:
+/// between two updates' they find whole ones. A cascade that has moved gives the probes of the slab
+/// that it left behind places in front. Until record_update has given these light, they have no
+/// weight, and coarser volumes answer in their stead.
 ///
 /// Frames in flight. Updates run on the device one after the other. While so many updates as
 /// RecordedFieldSettings::frames_in_flight are unfinished, plan must not be called: an engine waits
@@ -159,7 +118,7 @@ class RecordedField {
  public:
   /// A field that holds no light yet, for a place of these bounds [m]. Submits to the device's
   /// queue, and waits. Fails on settings out of range, and on those that recorded fields do not
-  /// follow: cascades, visibility by rays, counted bounces where not all probes are traced at once.
+  /// follow: visibility by rays, counted bounces where not all probes are traced at once.
   /// Throws std::runtime_error where the device's memory runs out.
   static Expected<RecordedField> make(std::shared_ptr<Device> device, const FieldSettings& settings,
                                       const Bounds& bounds,
@@ -168,8 +127,8 @@ class RecordedField {
   RecordedField(RecordedField&&) noexcept;
   RecordedField& operator=(RecordedField&&) noexcept;
 
-  /// Begins an update.
-  PlannedUpdate plan(const UpdatePlan& update = {});
+  /// Begins an update. Fails where a number of `update` is out of range; nothing has begun then.
+  Expected<PlannedUpdate> plan(const UpdatePlan& update = {});
 
   /// RayRecord (raytracing/ray_records.h), one a ray. A mask of 0: need not be traced, as those of
   /// PlannedUpdate::rays that are more than the device decided on.

@@ -5,25 +5,10 @@
 #include <cassert>
 #include <cmath>
 
+#include "field/field_access.h"
 #include "field/field_state.h"
 
 namespace lambent {
-namespace {
-
-std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
-  std::vector<VolumeRole> roles;
-  for (const Volume& volume : volumes) roles.push_back(volume.role);
-  return roles;
-}
-
-std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes) {
-  std::vector<ProbeGrid> grids;
-  for (const Volume& volume : volumes) grids.push_back(volume.grid);
-  return grids;
-}
-
-}  // namespace
-
 Expected<void> check_settings(const FieldSettings& s) {
   const auto outside = [](auto value, auto low, auto high) {
     return !(value >= low && value <= high);
@@ -116,15 +101,23 @@ std::size_t IrradianceField::store_bytes() const {
 std::size_t IrradianceField::surfel_bytes() const {
   return state_->backend->surfel_bytes();
 }
-const ProbeStore& IrradianceField::store() const {
-  state_->backend->fetch_store();
-  return state_->data.store;
+
+IrradianceField FieldAccess::make(std::unique_ptr<State> state) {
+  return IrradianceField(std::move(state));
 }
-const DeviceLookups* IrradianceField::on_device() const {
-  return state_->backend->on_device();
+
+const ProbeStore& store_of(const IrradianceField& field) {
+  const FieldAccess::State& state = FieldAccess::state_of(field);
+  state.backend->fetch_store();
+  return state.data.store;
 }
-std::span<const ProbeStatus> IrradianceField::probe_statuses() const {
-  return state_->statuses;
+
+std::span<const ProbeStatus> statuses_of(const IrradianceField& field) {
+  return FieldAccess::state_of(field).statuses;
+}
+
+const DeviceLookups* device_lookups_of(const IrradianceField& field) {
+  return FieldAccess::state_of(field).backend->on_device();
 }
 
 }  // namespace lambent

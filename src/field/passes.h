@@ -37,6 +37,8 @@ class FieldPasses {
   /// The number of batches in which the update's rays are traced and shaded. Each fits into memory.
   virtual int batches() const = 0;
 
+  /// Scrolls the volumes that follow the viewer, where the executor does and not the host.
+  virtual void scroll() = 0;
   /// Chooses the probes and draws their rays, where the executor decides and not the host.
   virtual void schedule() = 0;
   /// Finds what a batch's rays meet.
@@ -70,7 +72,7 @@ void update_probes(FieldPasses& passes);
 
 // An engine records an update in four parts, in this order, with commands of its own in between.
 
-/// Runs the schedule.
+/// Scrolls the volumes of a field with cascades, and runs the schedule.
 void choose_rays(FieldPasses& passes);
 /// Finds the hits of the chosen rays. The engine shades them afterwards.
 void find_hits(FieldPasses& passes);

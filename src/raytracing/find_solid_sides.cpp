@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "shared/sampling.h"
 
 namespace lambent {
@@ -148,7 +149,7 @@ class Places {
     hits_.resize(kRays * count());
     std::vector<vec3> directions;
     for (uint i = 0; i < kRays; ++i) directions.push_back(spherical_fibonacci(i, kRays));
-    const RayTracer& tracer = world_.tracer();
+    const RayTracer& tracer = tracer_of(world_);
     parallel_chunks(count(), batch_of(tracer, kRays, kPlacesPerTask),
                     [&](std::size_t begin, std::size_t end) {
                       std::vector<Ray> rays;
@@ -183,7 +184,7 @@ class Places {
                                       distance, kRayOfProbe};
       }
     }
-    const RayTracer& tracer = world_.tracer();
+    const RayTracer& tracer = tracer_of(world_);
     parallel_chunks(
         rays.size(), batch_of(tracer, 1, kPlacesPerTask * kAxes),
         [&](std::size_t begin, std::size_t end) {
@@ -204,8 +205,9 @@ class Places {
         const ivec3 at = base + ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
         const vec3 from = position(at), way = light.position_ws - from;
         const float distance = length(way);
-        const bool seen = distance == 0.0f || !world_.tracer().occluded({from, 0.0f, way / distance,
-                                                                         distance, kRayOfProbe});
+        const bool seen =
+            distance == 0.0f ||
+            !tracer_of(world_).occluded({from, 0.0f, way / distance, distance, kRayOfProbe});
         if (seen) leaving_[at.x * stride(0) + at.y * stride(1) + at.z * stride(2)] += kRays;
       }
     }

@@ -66,7 +66,7 @@ int run(const std::string& shader_folder) {
   // A frame: the field's update, and the engine's shaders that look it up
   for (int frame = 0; frame < 4; ++frame) {
     const VkCommandBuffer commands = engine.begin_frame();
-    const lambent::vulkan::PlannedUpdate update = field->plan();
+    const lambent::vulkan::PlannedUpdate update = field->plan().value();
     field->record_rays(commands);
     field->record_trace(commands, structure);
     const ShadeArguments shading = {field->rays().address,

@@ -10,6 +10,7 @@
 #include "field/transport/surfels.h"
 #include "lambent/shaders/ray_results.h"
 #include "lambent/vulkan_field.h"
+#include "raytracing/world_access.h"
 #include "shaders/engine_lookup_comp.h"
 #include "support/field_scenes.h"
 #include "support/vulkan_device.h"
@@ -66,7 +67,7 @@ class RecordedFieldTest : public OnDevice {
   /// An update, shaded by the host as the processor's field would.
   static void update(RecordedField& field, const vulkan::UpdatePlan& plan = {}) {
     const std::uint32_t number = field.updates();
-    const vulkan::PlannedUpdate planned = field.plan(plan);
+    const vulkan::PlannedUpdate planned = field.plan(plan).value();
     device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
     const auto records = download<RayRecord>(field.rays());
     const RaySet set(field.settings(), static_cast<int>(planned.rays_per_probe), number);
@@ -83,7 +84,7 @@ class RecordedFieldTest : public OnDevice {
     }
     std::vector<Hit> hits(rays.size());
     std::vector<ShadedHit> shaded(rays.size());
-    cornell().world.tracer().closest_hits(rays, hits);
+    tracer_of(cornell().world).closest_hits(rays, hits);
     ShadeHitsScratch scratch;
     const std::size_t each = planned.rays_per_probe;
     for (std::size_t k = 0; k < planned.probes; ++k) {

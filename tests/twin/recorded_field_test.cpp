@@ -3,7 +3,9 @@
 #include "twin/recorded_field.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "field/field_access.h"
 #include "field/probes/probe_status.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
@@ -12,7 +14,7 @@ namespace lambent {
 namespace {
 
 using test::cornell, test::recorded_settings, test::RecordedFieldTest;
-using vulkan::RecordedField, vulkan::RecordedFieldSettings;
+using vulkan::PlannedUpdate, vulkan::RecordedField, vulkan::RecordedFieldSettings;
 
 TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const FieldSettings settings = recorded_settings();
@@ -27,7 +29,7 @@ TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const auto states = download<uint>(field.states());
   int off = 0;
   for (std::size_t probe = 0; probe < states.size(); ++probe) {
-    EXPECT_EQ(states[probe] == kProbeOff, on_cpu.probe_statuses()[probe].state == ProbeState::off);
+    EXPECT_EQ(states[probe] == kProbeOff, statuses_of(on_cpu)[probe].state == ProbeState::off);
     off += states[probe] == kProbeOff ? 1 : 0;
   }
   EXPECT_GT(off, 0);
@@ -99,24 +101,29 @@ TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   settings = recorded_settings();
   settings.visibility = Visibility::exact;
   EXPECT_TRUE(refused(settings, {}));
-  settings = {};
-  settings.cascades = 2;
-  EXPECT_TRUE(refused(settings, {}));
+}
+
+TEST_F(RecordedFieldTest, RefusesAPlanOutOfRangeAndBeginsNothing) {
+  RecordedField field = make(recorded_settings(), {});
+  for (const float history : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
+    const Expected<PlannedUpdate> planned = field.plan({.history = history});
+    ASSERT_FALSE(planned) << history;
+    EXPECT_EQ(planned.error().place, "history");
+  }
+  EXPECT_EQ(field.updates(), 0u);
 }
 
 TEST(BatchPlan, ServesEachProbeOnceARound) {
   RecordedFieldSettings recorded;
   recorded.probes_per_update = 30;
   recorded.placing_updates = 3;
-  vulkan::BatchPlan plan(FieldSettings{}, recorded, 100);
+  vulkan::BatchPlan plan(FieldSettings{}, recorded, std::vector<std::uint8_t>(100));
   for (int round = 0; round < 5; ++round) {
     int next = 0;
     for (int i = 0; i < 4; ++i) {
       const vulkan::ProbeBatch batch = plan.next({});
-      EXPECT_EQ(batch.first, next);
-      next += batch.count;
-      const uint place[] = {kPlaceFirstStep, kPlaceStep, kPlaceEnd, kPlaceLeave, kPlaceLeave};
-      EXPECT_EQ(batch.place, place[round]);
+      for (const int probe : batch.probes) EXPECT_EQ(probe, next++);
+      EXPECT_EQ(batch.places, round < 3);
       EXPECT_EQ(batch.discards_history, round < 2);
       EXPECT_FLOAT_EQ(batch.largest_blend_weight, round < 4 ? 1.0f : 0.5f);
     }
@@ -129,13 +136,13 @@ TEST(BatchPlan, LeavesItToTheDeviceOnceRoundsAreOver) {
   RecordedFieldSettings recorded;
   recorded.rays_per_update = 30 * settings.rays_per_probe;
   recorded.placing_updates = 3;
-  vulkan::BatchPlan plan(settings, recorded, 100);
+  vulkan::BatchPlan plan(settings, recorded, std::vector<std::uint8_t>(100));
   EXPECT_EQ(plan.most_probes(), 24);
   const auto expect_rounds = [&](int rounds) {
     for (int i = 0; i < rounds * 5; ++i) {
       const vulkan::ProbeBatch batch = plan.next({});
       EXPECT_FALSE(batch.on_device);
-      EXPECT_EQ(batch.first, 24 * (i % 5));
+      EXPECT_EQ(batch.probes.front(), 24 * (i % 5));
       EXPECT_EQ(batch.count, i % 5 == 4 ? 4 : 24);
     }
   };
@@ -143,12 +150,12 @@ TEST(BatchPlan, LeavesItToTheDeviceOnceRoundsAreOver) {
     const vulkan::ProbeBatch batch = plan.next({});
     EXPECT_TRUE(batch.on_device);
     EXPECT_EQ(batch.count, 24);
-    EXPECT_EQ(batch.place, kPlaceLeave);
+    EXPECT_FALSE(batch.places);
     EXPECT_FALSE(batch.discards_history);
   };
   expect_rounds(3);
   for (int i = 0; i < 20; ++i) expect_device();
-  EXPECT_EQ(plan.next({.place_again = true}).place, kPlaceFirstStep);
+  EXPECT_TRUE(plan.next({.place_again = true}).places);
   for (int i = 1; i < 3 * 5; ++i) EXPECT_FALSE(plan.next({}).on_device);
   expect_device();
 }

@@ -7,6 +7,7 @@
 
 #include "field/probes/volumes.h"
 #include "field/vulkan/recorded_state.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
@@ -63,7 +64,7 @@ class Relocated {
   }
 
   /// A step of both from where the processor's probes stand. Returns how many decide otherwise.
-  int step(uint place) {
+  int step(uint placed, uint placing_updates) {
     look();
     const MaintainArguments arguments = {{grids_.address()},
                                          {{standing_.address()}, {states_.address()}},
@@ -72,14 +73,17 @@ class Relocated {
                                          {results_.address()},
                                          static_cast<int>(probes_),
                                          static_cast<int>(fixed_ray_directions().size()),
-                                         place,
+                                         placing_updates,
                                          1u};
     device_.run([&](vulkan::Recorder& to) {
       to.run(kernels_.maintain, arguments,
              static_cast<std::uint32_t>(probes_) * kernels_.maintain.group_size(0));
     });
     int otherwise = 0;
-    for (std::size_t k = 0; k < probes_; ++k) otherwise += step_on_cpu(k, place) ? 0 : 1;
+    for (std::size_t k = 0; k < probes_; ++k) {
+      otherwise += step_on_cpu(k, placing_step(placed, placing_updates)) ? 0 : 1;
+      standing_.as<ProbeStanding>()[k].placed = placed + 1;
+    }
     return otherwise;
   }
 
@@ -104,7 +108,7 @@ class Relocated {
     }
     fixed_hits_.resize(rays());
     const SolidSides sides = solid_sides_by_winding(stage_.scene);
-    trace_fixed_rays({stage_.scene, stage_.world.tracer(), sides, {}}, viewpoints, fixed_hits_);
+    trace_fixed_rays({stage_.scene, tracer_of(stage_.world), sides, {}}, viewpoints, fixed_hits_);
     const std::span<const vec3> directions = fixed_ray_directions();
     for (std::size_t i = 0; i < rays(); ++i) {
       rays_.as<RayRecord>()[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,
@@ -141,7 +145,7 @@ class Relocated {
     same = same && (standing.samples == 0.0f) == has_moved;
     moved_ += has_moved ? 1 : 0;
     in_matter_ += blocked != 0 ? 1 : 0;
-    standing = {1.0f, store_.offset_words()[k], relocation};
+    standing = {1.0f, store_.offset_words()[k], relocation, 0u};
     return same;
   }
 
@@ -162,12 +166,10 @@ using RelocationKernel = test::OnDevice;
 TEST_F(RelocationKernel, HasProbesStandWhereTheProcessorDoes) {
   const test::Stage stage(clutter());
   Relocated probes(device(), stage);
-  int otherwise = 0, steps = 0;
-  for (const uint place : {kPlaceFirstStep, kPlaceStep, kPlaceStep, kPlaceStep, kPlaceEnd}) {
-    otherwise += probes.step(place);
-    ++steps;
-  }
-  EXPECT_LE(otherwise, kMaxOtherwise * static_cast<double>(probes.probes()) * steps);
+  constexpr uint kSteps = 5;
+  int otherwise = 0;
+  for (uint step = 0; step < kSteps; ++step) otherwise += probes.step(step, kSteps);
+  EXPECT_LE(otherwise, kMaxOtherwise * static_cast<double>(probes.probes()) * kSteps);
   EXPECT_GT(probes.moved(), 50);
   EXPECT_GT(probes.in_matter(), 10);
 }

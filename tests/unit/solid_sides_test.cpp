@@ -8,6 +8,7 @@
 
 #include "field/placement/relocate.h"
 #include "raytracing/find_solid_sides.h"
+#include "raytracing/world_access.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
@@ -47,7 +48,7 @@ bool is_inside(const Scene& scene, const SolidSides& sides, const vec3& point) {
   const World world(scene);
   std::vector<FixedRayHit> hits(fixed_ray_directions().size());
   const Viewpoint from{point, mat3(1.0f)};
-  trace_fixed_rays({scene, world.tracer(), sides, {}}, {&from, 1}, hits);
+  trace_fixed_rays({scene, tracer_of(world), sides, {}}, {&from, 1}, hits);
   return inside_geometry(hits);
 }
 

@@ -11,6 +11,7 @@
 #include "field/probes/tile.h"
 #include "field/probes/volumes.h"
 #include "lambent/world.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
@@ -45,18 +46,12 @@ void interpolate_tiles(const ProbeData& data, const FieldBackend& backend,
 int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewer_ws,
                                            UpdateStatistics& statistics) {
   // Find the probes that are recycled, and the light at their new places
-  std::vector<int> recycled;
+  const auto [next, recycled] =
+      lambent::scroll_volumes(data.store.grids(), volumes.roles, viewer_ws, updates == 0);
   std::vector<vec3> places;
-  std::vector<ProbeGrid> next(data.store.grids().begin(), data.store.grids().end());
-  for (int volume = 0; volume < data.store.volumes(); ++volume) {
-    if (!volumes.roles[volume].follows_viewer) continue;
-    const ProbeGrid& grid = data.store.grid(volume);
-    next[volume] = updates == 0 ? centred(grid, viewer_ws) : scrolled(grid, viewer_ws);
-    const std::vector<int> probes = recycled_probes(data.store.grid(volume), next[volume]);
-    for (const int probe : probes) {
-      places.push_back(probe_position(next[volume], probe_coords(next[volume], probe)));
-    }
-    recycled.insert(recycled.end(), probes.begin(), probes.end());
+  for (const int probe : recycled) {
+    const ProbeGrid& grid = next[data.store.volume_of(probe)];
+    places.push_back(probe_position(grid, probe_coords(grid, probe)));
   }
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   WorkingIrradiance tiles(recycled.size() * texels);
@@ -83,7 +78,7 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
   }
   if (settings.relocation) {
     const std::vector<std::uint8_t> moving = moving_instances(world.scene());
-    relocate_probes({world.scene(), world.tracer(), data.solid_sides, moving}, recycled,
+    relocate_probes({world.scene(), tracer_of(world), data.solid_sides, moving}, recycled,
                     data.store);
   }
   initialize_relocated(world, recycled, statistics);

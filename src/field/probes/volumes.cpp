@@ -177,6 +177,18 @@ bool is_rotation(const mat3& axes) {
   return true;
 }
 
+std::vector<VolumeRole> roles_of(std::span<const Volume> volumes) {
+  std::vector<VolumeRole> roles;
+  for (const Volume& volume : volumes) roles.push_back(volume.role);
+  return roles;
+}
+
+std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes) {
+  std::vector<ProbeGrid> grids;
+  for (const Volume& volume : volumes) grids.push_back(volume.grid);
+  return grids;
+}
+
 ProbeGrid still_grid(const FieldGrid& grid) {
   const vec3 half = 0.5f * vec3(grid.count - 1);
   return {grid.origin, grid.spacing, grid.axes,         grid.count,      ivec3(0),
@@ -239,6 +251,19 @@ std::vector<int> recycled_probes(const ProbeGrid& before, const ProbeGrid& next)
     }
   }
   return recycled;
+}
+
+ScrolledVolumes scroll_volumes(std::span<const ProbeGrid> grids, std::span<const VolumeRole> roles,
+                               const vec3& viewer_ws, bool at_once) {
+  ScrolledVolumes scrolling{{grids.begin(), grids.end()}, {}};
+  for (std::size_t volume = 0; volume < grids.size(); ++volume) {
+    if (!roles[volume].follows_viewer) continue;
+    ProbeGrid& next = scrolling.grids[volume];
+    next = at_once ? centred(next, viewer_ws) : scrolled(next, viewer_ws);
+    const std::vector<int> probes = recycled_probes(grids[volume], next);
+    scrolling.recycled.insert(scrolling.recycled.end(), probes.begin(), probes.end());
+  }
+  return scrolling;
 }
 
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,

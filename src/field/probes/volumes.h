@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "field/probes/probe_grid.h"
@@ -43,6 +44,9 @@ struct Volume {
   VolumeRole role;
 };
 
+std::vector<VolumeRole> roles_of(std::span<const Volume> volumes);
+std::vector<ProbeGrid> grids_of(std::span<const Volume> volumes);
+
 /// The grid of a volume that does not scroll. Its weight falls from 1 to 0 across a cell around its
 /// probes.
 ProbeGrid still_grid(const FieldGrid& grid);
@@ -72,5 +76,16 @@ ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The probes of `next` whose places are outside `before`, the same volume before scrolling.
 std::vector<int> recycled_probes(const ProbeGrid& before, const ProbeGrid& next);
+
+/// The volumes of a field after an update's scrolling, and the probes that have new places.
+struct ScrolledVolumes {
+  std::vector<ProbeGrid> grids;
+  std::vector<int> recycled;
+};
+
+/// Scrolls those volumes that follow the viewer; with `at_once`, they are centred on the viewer.
+/// `roles` has one entry per volume.
+ScrolledVolumes scroll_volumes(std::span<const ProbeGrid> grids, std::span<const VolumeRole> roles,
+                               const vec3& viewer_ws, bool at_once);
 
 }  // namespace lambent

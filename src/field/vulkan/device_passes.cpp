@@ -38,6 +38,11 @@ StoreArrays FieldResources::store() const {
   return {{grids_.address()}, {offsets_.address()}, {irradiance_.address()}, {distance_.address()}};
 }
 
+int FieldResources::distance_words() const {
+  const int edge = settings_.distance_texels + 2;
+  return edge * edge * words_per_distance_texel_;
+}
+
 void FieldResources::record_rays(vulkan::Recorder& to, const DeviceProbes& list,
                                  const DeviceGroup& group, RayArray rays) const {
   const RaySlot& slot = slots_[slot_of_[list.probes[group.first]]];
@@ -243,10 +248,9 @@ void FieldResources::record_store_light(vulkan::Recorder& to, const DeviceProbes
 }
 
 void FieldResources::record_compare_light(vulkan::Recorder& to, const DeviceProbes& list,
-                                          Vec4Array before, float darkest,
-                                          Vec3Array changes) const {
+                                          Vec4Array before, Vec3Array changes) const {
   const CompareLightArguments arguments = {
-      list.index_array(), {light_.address()}, before, changes, list.count(), darkest};
+      list.index_array(), {light_.address()}, before, changes, list.count(), 0};
   run_over(to, kernels_.compare_light, arguments, list, kOverLanes);
   to.barrier();
 }

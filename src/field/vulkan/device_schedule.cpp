@@ -35,8 +35,7 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, int most_probes, int
   ScheduleState state{};
   state.live = static_cast<uint>(field.probes());
   state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
-  // The initial values of ProbeStatus
-  const std::vector<ProbeService> unknown(field.probes(), {{1.0f, 0u}, 0u});
+  const std::vector<ProbeService> unknown(field.probes(), new_service());
   service_ = vulkan::upload(device, unknown, "service of probes");
   std::vector<ListSize> sizes;
   for (uint shape = 0; shape < kListShapes; ++shape) {
@@ -101,7 +100,7 @@ void DeviceSchedule::record_update_variability(vulkan::Recorder& to, const Devic
                                                   0u};
   const ScheduleMeansArguments means = {
       state, {chunk_records_.address()}, blend_weights, changes, chunks_, list.count(), chosen, 0u};
-  field_.record_compare_light(to, list, before, /*darkest=*/0.0f, changes);
+  field_.record_compare_light(to, list, before, changes);
   field_.run_over(to, update_variability_, variability, list, kOverLanes);
   to.barrier();
   to.run(means_, means, kGroupLanes);

@@ -1,13 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays of a recorded field's probes: what the device itself decides and an engine finds out.
+#include <algorithm>
 #include <cassert>
 
+#include "field/placement/reset_arguments.h"
 #include "field/schedule/schedule.h"
 #include "field/vulkan/recorded_state.h"
 #include "raytracing/trace_arguments.h"
 #include "vulkan/recorder.h"
 
 namespace lambent::vulkan {
+
+/// Moves volumes with the viewer. Probes that have new places know nothing of them yet.
+void RecordedField::State::EngineRays::scroll(Recorder& to) {
+  const UpdateMemory& m = s_.memory();
+  to.copy(m.grids, s_.field.grids(), m.grids.bytes());
+  if (m.recycled_count > 0) {
+    const ResetProbesArguments reset = {s_.probe_states(),
+                                        {s_.schedule ? s_.schedule->service().address() : 0},
+                                        {m.recycled.address()},
+                                        {s_.field.offsets().address()},
+                                        {s_.field.distance().address()},
+                                        {s_.field.light().address()},
+                                        {s_.field.last_irradiance_estimate().address()},
+                                        m.recycled_count,
+                                        s_.field.distance_words(),
+                                        s_.schedule ? 1u : 0u,
+                                        0u};
+    to.run(s_.kernels.reset_probes, reset,
+           std::max(s_.field.distance_words(), s_.field.tile_texels()), m.recycled_count);
+  }
+  to.barrier();
+}
 
 void RecordedField::State::EngineRays::schedule(Recorder& to) {
   const RecordedRaysArguments arguments = {{s_.field.grids().address()},
@@ -21,10 +45,13 @@ void RecordedField::State::EngineRays::schedule(Recorder& to) {
                                            s_.ray_mask,
                                            s_.batch.all ? 1u : 0u,
                                            s_.batch.on_device ? 1u : 0u,
-                                           0u};
-  if (s_.batch.history < 1.0f) {
-    const FadeSamplesArguments fade = {
-        {s_.standing.address()}, s_.field.probes(), s_.batch.history};
+                                           s_.placing_updates};
+  if (s_.batch.history < 1.0f || s_.batch.place_again) {
+    const FadeSamplesArguments fade = {{s_.standing.address()},
+                                       s_.field.probes(),
+                                       s_.batch.history,
+                                       s_.batch.place_again ? 1u : 0u,
+                                       0u};
     to.run(s_.kernels.fade_samples, fade, s_.field.probes());
     to.barrier();
   }
@@ -70,7 +97,8 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
       s_.batch.on_device ? 1u : 0u,
       longest_average(s_.settings),
       s_.batch.all ? 1u : 0u,
-      s_.batch.discards_history ? 1u : 0u};
+      s_.batch.discards_history ? 1u : 0u,
+      s_.placing_updates};
   const RecordedSurfelsArguments surfel = {list.index_array(),       {s_.rays.address()},
                                            {s_.results.address()},   s_.field.surfels(),
                                            s_.batch.count,           s_.settings.rays_per_probe,
@@ -97,7 +125,7 @@ void RecordedField::State::EngineRays::placement(Recorder& to) {
   const MaintainArguments arguments = {
       {s_.field.grids().address()}, s_.probe_states(),      s_.list().index_array(),
       {s_.rays.address()},          {s_.results.address()}, s_.batch.count,
-      s_.settings.rays_per_probe,   s_.batch.place,         s_.batch.all ? 1u : 0u};
+      s_.settings.rays_per_probe,   s_.placing_updates,     s_.batch.all ? 1u : 0u};
   s_.field.run_over(to, s_.kernels.maintain, arguments, s_.list(), kOverProbes);
 }
 

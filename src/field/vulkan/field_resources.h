@@ -82,6 +82,8 @@ class FieldResources {
   const vulkan::Buffer& offsets() const { return offsets_; }
   const vulkan::Buffer& irradiance() const { return irradiance_; }
   const vulkan::Buffer& distance() const { return distance_; }
+  /// Words of a probe's distance tile, gutter included.
+  int distance_words() const;
   /// The surfels of all probes, surfel_stride() per probe.
   SurfelArray surfels() const { return {surfels_.address()}; }
   int surfel_stride() const { return stride_; }
@@ -195,10 +197,10 @@ class FieldResources {
   /// State::store_last_estimates.
   void record_last_estimates(vulkan::Recorder& to, const DeviceProbes& list,
                              Vec4Array solution) const;
-  /// Records relative_square() and mean_luminance() of tile_light.h, of the light that the list's
-  /// probes hold to what they held before.
+  /// Records light_change() of tile_light.h, from the light that the list's probes held before to
+  /// what they hold.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
-                            float darkest, Vec3Array changes) const;
+                            Vec3Array changes) const;
   /// Records lookup_irradiance(). For `tracer`, see record_lookups().
   void record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                      Vec3Array irradiance, const DeviceTracer* tracer = nullptr) const;

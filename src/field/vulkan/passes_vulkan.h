@@ -20,6 +20,7 @@ class RaySourceVulkan {
   virtual ~RaySourceVulkan() = default;
 
   virtual int batches() const = 0;
+  virtual void scroll(vulkan::Recorder& to) = 0;
   virtual void schedule(vulkan::Recorder& to) = 0;
   virtual void trace(vulkan::Recorder& to, int batch) = 0;
   /// Records what makes surfels, and what makes the distances that rays count as.
@@ -60,6 +61,7 @@ class FieldPassesVulkan final : public FieldPasses {
   const FieldSettings& settings() const override { return update_.field.settings(); }
   int batches() const override { return update_.source.batches(); }
 
+  void scroll() override { update_.source.scroll(to_); }
   void schedule() override { update_.source.schedule(to_); }
   void trace(int batch) override { update_.source.trace(to_, batch); }
   void shade(int batch) override { update_.source.shade(to_, batch); }

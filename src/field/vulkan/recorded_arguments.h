@@ -20,6 +20,7 @@ struct ProbeStanding {
   float samples;  ///< Number of updates that its tiles average.
   uint offset;    ///< Offset that applies from its next rays on (encode_probe_offset).
   RelocationState relocation;
+  uint placed;  ///< Number of updates that took part in its placement so far.
 };
 LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
 
@@ -29,9 +30,10 @@ struct ProbeStates {
   UintArray states;
 };
 
-/// Whether a probe is left out of an update: it is off, and the update does not trace `all` probes.
-LAMBENT_FN bool probe_rests(uint state, uint all) {
-  return state == kProbeOff && all == 0u;
+/// Whether a probe is left out of an update: it is off, its placement of `placing_updates` updates
+/// is over, and the update does not trace `all` probes.
+LAMBENT_FN bool probe_rests(uint state, uint placed, uint placing_updates, uint all) {
+  return state == kProbeOff && placed >= placing_updates && all == 0u;
 }
 
 /// Arguments of recorded_rays, which makes count x rays_per_probe rays. Rays of probes that are
@@ -48,7 +50,7 @@ struct RecordedRaysArguments {
   uint mask;
   uint all;
   uint is_chosen;
-  uint unused;
+  uint placing_updates;
 };
 
 /// Arguments of engine_closest, which finds closest hits in an engine's acceleration structure.
@@ -65,6 +67,8 @@ struct FadeSamplesArguments {
   StandingArray standing;
   int count;
   float factor;
+  uint place_again;  ///< 1: the placement of every probe begins again.
+  uint unused;
 };
 
 /// Arguments of recorded_blend_weights, which counts an update's samples. `blend_weights` has one
@@ -81,6 +85,7 @@ struct RecordedBlendWeightsArguments {
   float longest;          ///< The most updates that an average remembers.
   uint all;               ///< 1: probes that are off are traced, too.
   uint discards_history;  ///< 1: earlier samples do not count.
+  uint placing_updates;
 };
 
 /// Arguments of recorded_surfels, which makes surfels from an engine's ray results. `surfels` has
@@ -96,12 +101,20 @@ struct RecordedSurfelsArguments {
   float max_albedo;
 };
 
-// What an update does to the places of probes: nothing, one step of their relocation, its first
-// step, or its end, which moves them to the best place found.
+// What an update does to the place of a probe: nothing, one step of its relocation, its first step,
+// or its end, which moves it to the best place found.
 const uint kPlaceLeave = 0u;
 const uint kPlaceStep = 1u;
 const uint kPlaceFirstStep = 2u;
 const uint kPlaceEnd = 3u;
+
+/// What the next update of a probe does to its place, when `placed` of its `placing_updates` are
+/// over.
+LAMBENT_FN uint placing_step(uint placed, uint placing_updates) {
+  if (placed >= placing_updates) return kPlaceLeave;
+  if (placed == 0u) return kPlaceFirstStep;
+  return placed + 1u == placing_updates ? kPlaceEnd : kPlaceStep;
+}
 
 /// Arguments of maintain_probes, which sets the states and next places of probes from their rays.
 struct MaintainArguments {
@@ -112,7 +125,7 @@ struct MaintainArguments {
   RayResultArray results;
   int count;
   int rays_per_probe;
-  uint place;
+  uint placing_updates;
   uint all;
 };
 

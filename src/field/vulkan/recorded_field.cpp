@@ -2,7 +2,6 @@
 // A field that an engine records: the parts of an update are recorded between the engine's own
 // commands.
 #include <algorithm>
-#include <cassert>
 
 #include "field/probes/volumes.h"
 #include "field/vulkan/recorded_state.h"
@@ -19,7 +18,6 @@ BufferRange range_of(const Buffer& buffer) {
 }
 
 Expected<void> check_recorded(const FieldSettings& s, const RecordedFieldSettings& r) {
-  if (s.cascades != 0) return fail("", "cascades", "recorded fields do not follow the viewer");
   if (s.visibility != Visibility::moments) {
     return fail("", "visibility", "recorded fields trace no rays for it");
   }
@@ -56,9 +54,7 @@ Expected<RecordedField> RecordedField::make(std::shared_ptr<Device> device,
   }
   const Expected<std::vector<Volume>> volumes = plan_volumes(settings, bounds);
   if (!volumes) return tl::unexpected(volumes.error());
-  std::vector<ProbeGrid> grids;
-  for (const Volume& volume : *volumes) grids.push_back(volume.grid);
-  const ProbeStore shape(grids, settings);
+  const ProbeStore shape(grids_of(*volumes), settings);
   const bool all_at_once = recorded.probes_per_update == 0 && recorded.rays_per_update == 0;
   if (all_at_once && shape.probes() > kMaxBatchProbes) {
     return fail(
@@ -68,7 +64,8 @@ Expected<RecordedField> RecordedField::make(std::shared_ptr<Device> device,
   if (recorded.rays_per_update > 0 && shape.probes() < kBlockProbes) {
     return fail("", "rays per update", "must be 0 where there are fewer than eight probes");
   }
-  return RecordedField(std::make_unique<State>(std::move(device), settings, recorded, shape));
+  return RecordedField(
+      std::make_unique<State>(std::move(device), settings, recorded, *volumes, shape));
 }
 
 RecordedField::RecordedField(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -76,15 +73,21 @@ RecordedField::~RecordedField() = default;
 RecordedField::RecordedField(RecordedField&&) noexcept = default;
 RecordedField& RecordedField::operator=(RecordedField&&) noexcept = default;
 
-PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
+Expected<PlannedUpdate> RecordedField::plan(const UpdatePlan& update) {
   State& s = *state_;
-  assert(update.history >= 0.0f && update.history <= 1.0f);
-  s.batch = s.plan.next(update);
-  s.times = s.memory().take_times();
-  s.memory().write(s.batch, s.settings);
-  return {static_cast<std::uint32_t>(s.batch.count),
-          static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
-          s.batch.place != kPlaceLeave, s.batch.on_device};
+  if (!(update.history >= 0.0f && update.history <= 1.0f)) {
+    return fail("", "history", "must be 0 to 1");
+  }
+  ScrolledVolumes scrolling = s.scroll(update.viewer_ws);
+  s.batch = s.plan.next(update, scrolling.recycled);
+  UpdateMemory& memory = s.memory();
+  s.times = memory.take_times();
+  memory.write(s.batch, s.settings);
+  if (s.settings.cascades > 0) memory.write(scrolling);
+  s.grids = std::move(scrolling.grids);
+  return PlannedUpdate{static_cast<std::uint32_t>(s.batch.count),
+                       static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
+                       s.batch.places, s.batch.on_device};
 }
 
 void RecordedField::State::record_part(EngineRays& source, VkCommandBuffer commands,

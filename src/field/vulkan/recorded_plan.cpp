@@ -22,6 +22,9 @@ constexpr int kLookRounds = 8;
 // kMaxProbeAge.
 constexpr std::uint32_t kLookUpdates = 16;
 
+// Counts of a probe's updates end here: above kMaxPlacingUpdates of recorded_field.cpp.
+constexpr int kOften = 255;
+
 int most_probes_of(const FieldSettings& settings, const RecordedFieldSettings& recorded,
                    int probes) {
   if (recorded.rays_per_update > 0) {
@@ -35,28 +38,35 @@ int most_probes_of(const FieldSettings& settings, const RecordedFieldSettings& r
 }  // namespace
 
 BatchPlan::BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded,
-                     int probes)
-    : probes_(probes),
-      most_(most_probes_of(settings, recorded, probes)),
+                     std::vector<std::uint8_t> levels)
+    : most_(most_probes_of(settings, recorded, static_cast<int>(levels.size()))),
       budget_(recorded.rays_per_update > 0),
-      placing_rounds_(settings.relocation ? recorded.placing_updates : 0),
-      longest_(longest_average(settings)) {}
-
-std::uint32_t BatchPlan::place_in_round() const {
-  const int placing = round_ - placing_since_;
-  if (placing >= placing_rounds_) return kPlaceLeave;
-  if (placing == 0) return kPlaceFirstStep;
-  return placing + 1 == placing_rounds_ ? kPlaceEnd : kPlaceStep;
+      counts_bounces_(settings.max_bounces >= 0),
+      placing_updates_(settings.relocation ? recorded.placing_updates : 0),
+      longest_(longest_average(settings)) {
+  for (const std::uint8_t level : levels) known_.push_back({level});
 }
 
-void BatchPlan::begin_round() {
-  if (place_again_) placing_since_ = round_;
-  place_again_ = false;
+bool BatchPlan::warming_up() const {
+  return most_ < probes() && round_ < kWarmUpRounds;
 }
 
 bool BatchPlan::rounds_are_over() const {
-  const bool warming_up = most_ < probes_ && round_ < kWarmUpRounds;
-  return next_ == 0 && !place_again_ && !warming_up && place_in_round() == kPlaceLeave;
+  return next_ == 0 && !warming_up() && round_ - placing_since_ >= placing_updates_;
+}
+
+/// Whether a probe is updated in this round: those of level L are in every 2^L-th, and in as many
+/// as their placement takes.
+bool BatchPlan::takes_part(int probe) const {
+  const Known& known = known_[probe];
+  if (known.level == 0 || counts_bounces_ || warming_up()) return true;
+  if (known.traced < std::max(placing_updates_, 1)) return true;
+  return (round_ + probe) % (1 << known.level) == 0;
+}
+
+void BatchPlan::begin_placement() {
+  placing_since_ = next_ == 0 ? round_ : round_ + 1;
+  for (Known& known : known_) known.traced = 0;
 }
 
 ProbeBatch BatchPlan::next_of_device(const UpdatePlan& update) {
@@ -66,38 +76,83 @@ ProbeBatch BatchPlan::next_of_device(const UpdatePlan& update) {
   batch.history = update.history;
   batch.on_device = true;
   batch.all = updates_ % kLookUpdates == 0;
-  batch.place = kPlaceLeave;
+  batch.places = recycles_ && placing_updates_ > 0;
   ++updates_;
+  // From now on only the device knows
+  for (Known& known : known_) known.least_samples = 0.0f;
+  recycled_.clear();
   return batch;
 }
 
-ProbeBatch BatchPlan::next(const UpdatePlan& update) {
-  place_again_ = place_again_ || update.place_again;
-  if (budget_ && rounds_are_over()) {
-    least_samples_ = 0.0f;  // from now on only the device knows
-    return next_of_device(update);
-  }
-  if (next_ == 0) begin_round();
-  least_samples_ *= update.history;
+/// Chooses the probes of a batch: recycled ones first, then those whose turn it is.
+void BatchPlan::choose(ProbeBatch& batch) {
+  const auto room = [&] { return static_cast<int>(batch.probes.size()) < most_; };
+  const auto add = [&](int probe) {
+    if (known_[probe].chosen) return;
+    known_[probe].chosen = true;
+    batch.probes.push_back(probe);
+  };
+  std::size_t served = 0;
+  while (room() && served < recycled_.size()) add(recycled_[served++]);
+  recycled_.erase(recycled_.begin(), recycled_.begin() + static_cast<std::ptrdiff_t>(served));
+  do {
+    // A round may end with probes none of which takes part in it
+    if (next_ == probes()) {
+      next_ = 0;
+      ++round_;
+    }
+    batch.discards_history = warming_up();
+    batch.all = round_ % kLookRounds == 0;
+    for (; room() && next_ < probes(); ++next_) {
+      if (takes_part(next_)) add(next_);
+    }
+  } while (batch.probes.empty());
+  // Consecutive probes are consecutive in memory
+  std::sort(batch.probes.begin(), batch.probes.end());
+  batch.count = static_cast<int>(batch.probes.size());
+}
 
+/// Counts the samples of a batch's probes, and bounds their blend weights.
+void BatchPlan::count_samples(ProbeBatch& batch) {
+  float least = longest_;
+  for (const int probe : batch.probes) {
+    Known& known = known_[probe];
+    if (batch.discards_history) known.least_samples = 0.0f;
+    least = std::min(least, known.least_samples);
+    const bool may_move = known.traced < placing_updates_;
+    batch.places = batch.places || may_move;
+    known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kOften));
+    known.least_samples = may_move ? 0.0f : std::min(known.least_samples + 1.0f, longest_);
+    known.chosen = false;
+  }
+  batch.largest_blend_weight = history_blend_weight(least, 1.0f, longest_);
+}
+
+ProbeBatch BatchPlan::next(const UpdatePlan& update, std::span<const int> recycled) {
+  if (update.place_again) begin_placement();
+  recycles_ = recycles_ || !recycled.empty();
   ProbeBatch batch;
-  batch.first = next_;
-  batch.count = std::min(most_, probes_ - next_);
-  batch.update = updates_;
-  batch.history = update.history;
-  batch.discards_history = most_ < probes_ && round_ < kWarmUpRounds;
-  batch.place = place_in_round();
-  batch.all = batch.place != kPlaceLeave || round_ % kLookRounds == 0;
-  if (batch.discards_history) least_samples_ = 0.0f;
-  batch.largest_blend_weight = 1.0f / (std::min(least_samples_, longest_ - 1.0f) + 1.0f);
-
-  ++updates_;
-  next_ += batch.count;
-  if (next_ == probes_) {
-    next_ = 0;
-    ++round_;
-    least_samples_ = batch.place != kPlaceLeave ? 0.0f : std::min(least_samples_ + 1.0f, longest_);
+  if (budget_ && rounds_are_over()) {
+    batch = next_of_device(update);
+  } else {
+    for (const int probe : recycled) {
+      known_[probe].traced = 0;
+      known_[probe].least_samples = 0.0f;
+    }
+    recycled_.insert(recycled_.end(), recycled.begin(), recycled.end());
+    if (update.history < 1.0f) {
+      for (Known& known : known_) known.least_samples *= update.history;
+    }
+    batch.update = updates_++;
+    batch.history = update.history;
+    choose(batch);
+    count_samples(batch);
+    if (next_ == probes()) {
+      next_ = 0;
+      ++round_;
+    }
   }
+  batch.place_again = update.place_again;
   return batch;
 }
 

@@ -4,6 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "lambent/field.h"
 #include "lambent/vulkan.h"
@@ -17,48 +19,66 @@ namespace lambent::vulkan {
 // The most probes of an update: every device accepts this many groups in a dispatch.
 inline constexpr int kMaxBatchProbes = 65535;
 
-/// The probes of one update, whose indices are consecutive, and what is done with them.
+/// The probes of one update, and what is done with them.
 struct ProbeBatch {
-  int first = 0, count = 0;
+  std::vector<int> probes;            ///< Empty where the device chooses.
+  int count = 0;                      ///< Their number; an upper bound where the device chooses.
   std::uint32_t update = 0;           ///< Number of the update, counted from 0.
   float history = 1.0f;               ///< Factor to the samples of all probes, 0 to 1.
   bool discards_history = false;      ///< The batch's probes start their averages again.
-  bool on_device = false;             ///< The device chooses the probes, at most `count`.
+  bool on_device = false;             ///< The device chooses the probes.
   bool all = true;                    ///< Probes that are off are traced, too.
-  std::uint32_t place = 0;            ///< kPlaceLeave, kPlaceStep, kPlaceFirstStep or kPlaceEnd.
+  bool places = false;                ///< Some of the probes may still be placed.
+  bool place_again = false;           ///< The placement of all probes begins again.
   float largest_blend_weight = 1.0f;  ///< Upper bound of the batch's blend weights.
 };
 
-/// Plans batches in rounds: each round updates every probe once, and treats all probes alike. Under
-/// a budget of rays, the device chooses the probes once the rounds are over that warm up the field
-/// or relocate probes.
+/// Plans batches in rounds: each round updates every probe once, those of a coarse cascade less
+/// often. Probes that a cascade has given new places come first. Under a budget of rays, the device
+/// chooses the probes once the rounds are over that warm up the field or relocate probes.
 class BatchPlan {
  public:
-  BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded, int probes);
+  /// `levels` has the cascade level of each probe, 0 to 15, the finest (and any other volume) 0.
+  BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded,
+            std::vector<std::uint8_t> levels);
 
-  ProbeBatch next(const UpdatePlan& update);
+  /// Plans an update before which the `recycled` probes have lost all that was known of them.
+  ProbeBatch next(const UpdatePlan& update, std::span<const int> recycled = {});
   std::uint32_t updates() const { return updates_; }
   /// The most probes of a batch.
   int most_probes() const { return most_; }
 
  private:
-  std::uint32_t place_in_round() const;
-  void begin_round();
-  ProbeBatch next_of_device(const UpdatePlan& update);
-  bool rounds_are_over() const;
+  /// What the host knows of a probe.
+  struct Known {
+    std::uint8_t level = 0;
+    std::uint8_t traced = 0;  ///< How often, since it was placed anew; stays at kOften.
+    bool chosen = false;      ///< It is in the batch that is being planned.
+    /// A lower bound on the updates that it has averaged: as if it moved whenever it may move.
+    float least_samples = 0.0f;
+  };
 
-  int probes_, most_;
-  bool budget_;  // the settings limit the rays of an update
-  int placing_rounds_;
+  int probes() const { return static_cast<int>(known_.size()); }
+  bool warming_up() const;
+  bool rounds_are_over() const;
+  bool takes_part(int probe) const;
+  void begin_placement();
+  void choose(ProbeBatch& batch);
+  void count_samples(ProbeBatch& batch);
+  ProbeBatch next_of_device(const UpdatePlan& update);
+
+  std::vector<Known> known_;
+  std::vector<int> recycled_;  // probes that are traced before all others
+  int most_;
+  bool budget_;          // the settings limit the rays of an update
+  bool counts_bounces_;  // each update carries light through all probes
+  int placing_updates_;
   float longest_;  // the most updates that an average remembers
   int next_ = 0;
   std::uint32_t updates_ = 0;
-  int round_ = 0;             // counted from 0
-  int placing_since_ = 0;     // the round in which relocation began last
-  bool place_again_ = false;  // relocation begins again with the next round
-  /// A lower bound on the updates that the next batch's probes have averaged: as if every probe
-  /// moved whenever relocation may move it.
-  float least_samples_ = 0.0f;
+  int round_ = 0;          // counted from 0
+  int placing_since_ = 0;  // the first round that takes part in placement with all probes
+  bool recycles_ = false;  // some probes have been recycled
 };
 
 }  // namespace lambent::vulkan

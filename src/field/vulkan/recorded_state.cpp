@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 
 #include "core/pass_times.h"
 #include "field/lookup/field_record.h"
@@ -17,6 +16,7 @@
 #include "shaders/recorded_blend_weights_comp.h"
 #include "shaders/recorded_rays_comp.h"
 #include "shaders/recorded_surfels_comp.h"
+#include "shaders/reset_probes_comp.h"
 #include "vulkan/device_memory.h"
 #include "vulkan/recorder.h"
 
@@ -30,6 +30,16 @@ constexpr std::uint32_t kMaxPartPasses = 16;
 template <class T>
 Buffer device_buffer(const Device& device, std::size_t count, const char* name) {
   return {device, count * sizeof(T), Memory::device, name};
+}
+
+/// The cascade level of each probe.
+std::vector<std::uint8_t> levels_of(const ProbeStore& shape, std::span<const VolumeRole> roles) {
+  std::vector<std::uint8_t> levels;
+  for (int volume = 0; volume < shape.volumes(); ++volume) {
+    levels.insert(levels.end(), probe_count(shape.grid(volume)),
+                  static_cast<std::uint8_t>(roles[volume].level));
+  }
+  return levels;
 }
 
 /// A list of the largest possible length, by which memory is reserved.
@@ -52,6 +62,7 @@ RecordedKernels::RecordedKernels(const Device& device, const FieldSettings& sett
   blend_weights = make(shaders::recorded_blend_weights_comp(), "recorded_blend_weights");
   surfels = make(shaders::recorded_surfels_comp(), "recorded_surfels");
   maintain = make(shaders::maintain_probes_comp(), "maintain_probes");
+  reset_probes = make(shaders::reset_probes_comp(), "reset_probes");
 }
 
 EngineTracer::EngineTracer(const Device& device)
@@ -112,7 +123,8 @@ LookupSet::~LookupSet() {
 }
 
 UpdateMemory::UpdateMemory(const FieldResources& field, int most_probes, int rays,
-                           FloatArray irradiance_weights, FloatArray distance_weights) {
+                           bool follows_viewer, FloatArray irradiance_weights,
+                           FloatArray distance_weights) {
   const Device& device = field.device();
   const auto probes = static_cast<std::size_t>(most_probes);
   list.indices = Buffer(device, probes * sizeof(int), Memory::upload, "probes");
@@ -126,6 +138,10 @@ UpdateMemory::UpdateMemory(const FieldResources& field, int most_probes, int ray
   set.as<RaySetRecord>()[0] = {
       {directions.address()}, irradiance_weights, distance_weights, rays, 0u};
   list.sets = {set.address()};
+  if (follows_viewer) {
+    grids = Buffer(device, field.grids().bytes(), Memory::upload, "scrolled grids");
+    recycled = Buffer(device, field.probes() * sizeof(int), Memory::upload, "recycled probes");
+  }
   for (int part = 0; part < kUpdateParts; ++part) {
     timers.push_back(std::make_unique<Timestamps>(device, kMaxPartPasses));
   }
@@ -147,22 +163,31 @@ void UpdateMemory::write(const ProbeBatch& batch, const FieldSettings& settings)
       probe_ray_directions(settings.rays_per_probe, batch.update, settings.seed);
   std::copy(drawn.begin(), drawn.end(), directions.as<vec3>().begin());
   set.as<RaySetRecord>()[0].update = batch.update;
-  list.probes.resize(batch.count);
-  std::iota(list.probes.begin(), list.probes.end(), batch.first);
+  list.probes = batch.probes;
   std::copy(list.probes.begin(), list.probes.end(), list.indices.as<int>().begin());
-  list.block_count = static_cast<int>(groups_of(batch.count, kBlockProbes));
+  list.block_count = static_cast<int>(groups_of(list.count(), kBlockProbes));
   for (int b = 0; b < list.block_count; ++b) {
     const int first = b * kBlockProbes;
-    list.blocks.as<ProbeBlock>()[b] = {first, std::min(kBlockProbes, batch.count - first), 0};
+    list.blocks.as<ProbeBlock>()[b] = {first, std::min(kBlockProbes, list.count() - first), 0};
   }
 }
 
+void UpdateMemory::write(const ScrolledVolumes& scrolling) {
+  std::copy(scrolling.grids.begin(), scrolling.grids.end(), grids.as<ProbeGrid>().begin());
+  std::copy(scrolling.recycled.begin(), scrolling.recycled.end(), recycled.as<int>().begin());
+  recycled_count = static_cast<int>(scrolling.recycled.size());
+}
+
 RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
-                            const RecordedFieldSettings& recorded, const ProbeStore& shape)
+                            const RecordedFieldSettings& recorded, std::span<const Volume> volumes,
+                            const ProbeStore& shape)
     : device(std::move(on)),
       settings(of),
       ray_mask(recorded.ray_mask),
-      plan(of, recorded, shape.probes()),
+      placing_updates(of.relocation ? static_cast<uint>(recorded.placing_updates) : 0u),
+      roles(roles_of(volumes)),
+      grids(shape.grids().begin(), shape.grids().end()),
+      plan(of, recorded, levels_of(shape, roles)),
       field(*device, of, shape),
       solver(field),
       kernels(*device, of, shape.volumes()),
@@ -195,10 +220,15 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
     schedule = std::make_unique<DeviceSchedule>(field, plan.most_probes(), of.rays_per_probe);
   }
   for (int i = 0; i < recorded.frames_in_flight; ++i) {
-    ring.emplace_back(field, plan.most_probes(), of.rays_per_probe,
+    ring.emplace_back(field, plan.most_probes(), of.rays_per_probe, of.cascades > 0,
                       FloatArray{irradiance_weights.address()},
                       FloatArray{distance_weights.address()});
   }
+}
+
+ScrolledVolumes RecordedField::State::scroll(const std::optional<vec3>& viewer_ws) const {
+  if (settings.cascades == 0 || !viewer_ws || !is_finite(*viewer_ws)) return {grids, {}};
+  return scroll_volumes(grids, roles, *viewer_ws, /*at_once=*/plan.updates() == 0);
 }
 
 }  // namespace lambent::vulkan

@@ -4,8 +4,11 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "field/probes/volumes.h"
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
 #include "field/vulkan/field_resources.h"
@@ -20,7 +23,7 @@ namespace lambent::vulkan {
 struct RecordedKernels {
   RecordedKernels(const Device& device, const FieldSettings& settings, int volumes);
 
-  Kernel rays, fade_samples, blend_weights, surfels, maintain;
+  Kernel rays, fade_samples, blend_weights, surfels, maintain, reset_probes;
 };
 
 /// The pipeline that traces rays in engines' acceleration structures. All fields on a device share
@@ -51,10 +54,12 @@ class LookupSet {
 
 /// Memory that the host writes for an update and the device reads until the update has run.
 struct UpdateMemory {
-  UpdateMemory(const FieldResources& field, int most_probes, int rays,
+  UpdateMemory(const FieldResources& field, int most_probes, int rays, bool follows_viewer,
                FloatArray irradiance_weights, FloatArray distance_weights);
   /// Writes the probes and ray directions of a batch.
   void write(const ProbeBatch& batch, const FieldSettings& settings);
+  /// Writes the grids after scrolling, and the probes that it recycles.
+  void write(const ScrolledVolumes& scrolling);
   /// The passes of all parts that have finished, since the last call.
   std::vector<PassTime> take_times();
   /// Returns what times the next part of the update, or null where all parts have been recorded.
@@ -64,13 +69,18 @@ struct UpdateMemory {
   std::vector<std::unique_ptr<Timestamps>> timers;  ///< One per part of an update.
   std::size_t parts = 0;                            ///< The number of parts recorded so far.
   Buffer directions, set;
+  Buffer grids, recycled;  ///< Empty where no volume follows the viewer.
+  int recycled_count = 0;
 };
 
 struct RecordedField::State {
   class EngineRays;
 
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
-        const ProbeStore& shape);
+        std::span<const Volume> volumes, const ProbeStore& shape);
+
+  /// Scrolls the volumes that follow the viewer. Returns the probes that this recycles.
+  ScrolledVolumes scroll(const std::optional<vec3>& viewer_ws) const;
 
   UpdateMemory& memory() { return ring[batch.update % ring.size()]; }
   const DeviceProbes& list() {
@@ -90,6 +100,9 @@ struct RecordedField::State {
   std::shared_ptr<Device> device;
   FieldSettings settings;
   std::uint32_t ray_mask;
+  uint placing_updates;
+  std::vector<VolumeRole> roles;  // one per volume
+  std::vector<ProbeGrid> grids;   // as the update that was planned last leaves them
   BatchPlan plan;
   FieldResources field;
   DeviceSolver solver;
@@ -116,6 +129,7 @@ class RecordedField::State::EngineRays final : public RaySourceVulkan, public Va
   VkAccelerationStructureKHR structure = VK_NULL_HANDLE;
 
   int batches() const override { return 1; }
+  void scroll(Recorder& to) override;
   void schedule(Recorder& to) override;
   void trace(Recorder& to, int batch) override;
   void shade(Recorder& to, int batch) override;

@@ -27,6 +27,7 @@ class WorldRaysVulkan final : public RaySourceVulkan {
                   bool sees);
 
   int batches() const override { return static_cast<int>(batches_.size()); }
+  void scroll(vulkan::Recorder&) override {}    // the host has scrolled the volumes
   void schedule(vulkan::Recorder&) override {}  // the host has chosen the probes
   void trace(vulkan::Recorder& to, int batch) override;
   void shade(vulkan::Recorder& to, int batch) override;

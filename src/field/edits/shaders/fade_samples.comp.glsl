@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiplies the numbers of samples of all probes by a factor, so that their history counts less.
-// One lane per probe.
+// Multiplies the numbers of samples of all probes by a factor, so that their history counts less,
+// and lets their placement begin again where that is asked for. One lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
@@ -12,5 +12,7 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
   int probe = int(gl_GlobalInvocationID.x);
-  if (probe < args.count) args.standing.at[probe].samples *= args.factor;
+  if (probe >= args.count) return;
+  args.standing.at[probe].samples *= args.factor;
+  if (args.place_again != 0u) args.standing.at[probe].placed = 0u;
 }

@@ -2,8 +2,8 @@
 // Sets the states and next places of probes from what their rays hit. One workgroup per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/vulkan/recorded_arguments.h"
 #include "field/probes/shaders/volume_of.glsl"
+#include "field/vulkan/recorded_arguments.h"
 
 const int kLanes = 64;
 layout(local_size_x = kLanes) in;
@@ -17,10 +17,18 @@ shared int hits_there;
 shared int planes_there;
 shared int back_faces;
 
-int hit_count() { return hits_there; }
-FixedRayHit hit_at(int index) { return fixed_hits[index]; }
-int plane_count() { return planes_there; }
-PlaneBelow plane_at(int rank) { return plane_below(fixed_hits[by_height[rank]]); }
+int hit_count() {
+  return hits_there;
+}
+FixedRayHit hit_at(int index) {
+  return fixed_hits[index];
+}
+int plane_count() {
+  return planes_there;
+}
+PlaneBelow plane_at(int rank) {
+  return plane_below(fixed_hits[by_height[rank]]);
+}
 #include "field/placement/relocate.inl.h"
 
 /// The hit of a ray, as relocation needs it.
@@ -51,8 +59,11 @@ void sort_planes(int lane) {
 /// Takes a step of a probe's relocation. A probe that moves starts its average again.
 void place(int probe, vec3 spacing, uint inside_geometry) {
   ProbeStanding standing = args.probes.standing.at[probe];
+  uint step = placing_step(standing.placed, args.placing_updates);
+  if (step == kPlaceLeave) return;
+  args.probes.standing.at[probe].placed = ++standing.placed;
   vec3 offset = decode_probe_offset(standing.offset);
-  if (args.place == kPlaceFirstStep) standing.relocation = begin_relocation(offset);
+  if (step == kPlaceFirstStep) standing.relocation = begin_relocation(offset);
   if (standing.relocation.converged != 0u) return;
   vec3 position = offset * spacing;
   vec3 better = better_place(position, vec3(0.0), spacing, inside_geometry);
@@ -60,7 +71,7 @@ void place(int probe, vec3 spacing, uint inside_geometry) {
   float cost = placement_cost(position, better, margin, inside_geometry);
   vec3 there = better == position ? offset : better / spacing;
   vec3 next = relocation_step(standing.relocation, offset, there, cost);
-  if (args.place == kPlaceEnd) {
+  if (step == kPlaceEnd) {
     next = standing.relocation.best;
     standing.relocation.converged = 1u;
   }
@@ -74,7 +85,10 @@ void main() {
   int k = int(gl_WorkGroupID.x);
   int lane = int(gl_LocalInvocationIndex);
   int probe = args.list.at[k];
-  if (probe_rests(args.probes.states.at[probe], args.all)) return;
+  if (probe_rests(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
+                  args.placing_updates, args.all)) {
+    return;
+  }
   ProbeGrid grid = args.grids.at[volume_of(args.grids, probe)];
   int first = k * args.rays_per_probe;
   int step = (args.rays_per_probe + kMaxPlacementRays - 1) / kMaxPlacementRays;
@@ -96,5 +110,5 @@ void main() {
   if (lane != 0) return;
   uint inside_geometry = is_inside_geometry(back_faces, args.rays_per_probe);
   args.probes.states.at[probe] = inside_geometry != 0u ? kProbeOff : kProbeOn;
-  if (args.place != kPlaceLeave) place(probe, grid.spacing, inside_geometry);
+  place(probe, grid.spacing, inside_geometry);
 }

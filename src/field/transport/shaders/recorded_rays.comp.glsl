@@ -2,9 +2,9 @@
 // Makes the rays of probes that an engine traces, one lane per ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "field/probes/shaders/volume_of.glsl"
 #include "field/transport/probe_rays.h"
 #include "field/vulkan/recorded_arguments.h"
-#include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push {
@@ -24,6 +24,8 @@ void main() {
   vec3 offset = decode_probe_offset(args.probes.standing.at[probe].offset);
   vec3 origin = placed_position(grid, probe_coords(grid, probe), offset);
   RayRecord record = probe_ray_record(origin, args.directions.at[ray]);
-  record.mask = probe_rests(args.probes.states.at[probe], args.all) ? 0u : args.mask;
+  bool rests = probe_rests(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
+                           args.placing_updates, args.all);
+  record.mask = rests ? 0u : args.mask;
   args.rays.at[k * args.rays_per_probe + ray] = record;
 }

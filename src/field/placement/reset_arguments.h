@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arguments of reset_probes.
+#ifndef LAMBENT_FIELD_PLACEMENT_RESET_ARGUMENTS_H
+#define LAMBENT_FIELD_PLACEMENT_RESET_ARGUMENTS_H
+
+#include "field/schedule/schedule_arguments.h"
+
+LAMBENT_BEGIN
+
+/// Arguments of reset_probes, which discards all that a recorded field knows of the probes of a
+/// list: their light, distances, offset, state, history and service.
+struct ResetProbesArguments {
+  ProbeStates probes;
+  ServiceArray service;
+  IntArray list;
+  UintArray offsets;
+  UintArray distance;
+  Vec4Array light;
+  Vec4Array last_irradiance_estimate;
+  int count;
+  int distance_words;  ///< Words of a probe's distance tile.
+  uint has_service;    ///< 0: the host schedules, and there is no `service`.
+  uint unused;
+};
+
+LAMBENT_END
+#endif
