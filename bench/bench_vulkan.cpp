@@ -192,14 +192,14 @@ void lookup_by_rays(benchmark::State& state, Visibility visibility) {
                            "E");
   world.device().run([&](vulkan::Recorder& to) {
     to.bind_textures(world.scene().textures());
-    field.record_cell_visibility(to, tracer_of(world), {lowest.address()},
+    field.record_cell_visibility(to, world.tracer(), {lowest.address()},
                                  static_cast<int>(cells.size()));
   });
   const vulkan::Buffer rays(world.device(), sizeof(uint), vulkan::Memory::readback, "rays");
   time_on_device(state, [&](vulkan::Recorder& to) {
     to.bind_textures(world.scene().textures());
     field.record_lookup(to, {in.address()}, static_cast<std::uint32_t>(queries.size()),
-                        {out.address()}, &tracer_of(world));
+                        {out.address()}, &world.tracer());
     field.take_ray_count(to, rays);
   });
   state.counters["lookups"] = static_cast<double>(queries.size());

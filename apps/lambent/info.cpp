@@ -14,6 +14,8 @@
 #include "lambent/input.h"
 #include "lambent/scene.h"
 #include "lambent/words.h"
+#include "lambent/world.h"
+#include "raytracing/find_solid_sides.h"
 #include "scene/attributes.h"
 
 namespace lambent::cli {
@@ -209,6 +211,23 @@ void print_animations(const Scene& scene) {
   }
 }
 
+/// The meshes that are wound against what open space sees of them.
+std::vector<MiswoundMesh> find_miswound(const Scene& scene) {
+  if (scene.instances.empty()) return {};
+  const World world(scene);
+  return miswound_meshes(scene, find_solid_sides(world, {}));
+}
+
+void print_winding(const Scene& scene) {
+  const std::vector<MiswoundMesh> miswound = find_miswound(scene);
+  row("winding", "%zu meshes face solid matter, in whole or in part", miswound.size());
+  for (const MiswoundMesh& found : miswound) {
+    const Mesh& mesh = scene.meshes[found.mesh];
+    std::printf("  %3d  %-24s %zu of %zu triangles\n", found.mesh, printable(mesh.name).c_str(),
+                found.triangles, mesh.triangles.size());
+  }
+}
+
 void print_human(const Scene& scene, const std::string& name) {
   const Totals totals = total(scene);
   const SceneSource& source = scene.source;
@@ -237,6 +256,7 @@ void print_human(const Scene& scene, const std::string& name) {
     row("environment", "map of %d x %d, times %s", map.width, map.height,
         text_of(scene.environment.radiance).c_str());
   }
+  print_winding(scene);
   row("file", "%d nodes, %d scenes, %d animations, %d skins, %d morph targets", source.nodes,
       source.scenes, source.animations, source.skins, source.morph_targets);
   row("warnings", "%zu", source.warnings.size());
@@ -307,6 +327,13 @@ nlohmann::ordered_json json_of(const Scene& scene, const std::string& name) {
     json["animation_names"].push_back(animation.name);
     json["animation_durations_s"].push_back(duration(animation));
     json["animation_channels"].push_back(animation.channels.size());
+  }
+  for (const char* list : {"miswound_mesh_names", "miswound_mesh_triangles"}) {
+    json[list] = nlohmann::ordered_json::array();
+  }
+  for (const MiswoundMesh& found : find_miswound(scene)) {
+    json["miswound_mesh_names"].push_back(scene.meshes[found.mesh].name);
+    json["miswound_mesh_triangles"].push_back(found.triangles);
   }
   json["warnings"] = source.warnings;
   return json;

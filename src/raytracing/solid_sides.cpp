@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "raytracing/solid_sides.h"
 
+#include <algorithm>
+
 namespace lambent {
 namespace {
 
@@ -22,6 +24,24 @@ bool SolidSides::fits(const Scene& scene) const {
     word += words_of(scene, scene.instances[i]);
   }
   return words.size() == word;
+}
+
+std::vector<MiswoundMesh> miswound_meshes(const Scene& scene, const SolidSides& sides) {
+  std::vector<std::size_t> miswound(scene.meshes.size(), 0);
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const int mesh = scene.instances[i].mesh;
+    std::size_t count = 0;
+    for (std::uint32_t t = 0; t < scene.meshes[mesh].triangles.size(); ++t) {
+      const std::uint32_t word = sides.words[sides.first_word[i] + solid_sides_word(t)];
+      count += bounds_solid(word, t, 1u);
+    }
+    miswound[mesh] = std::max(miswound[mesh], count);
+  }
+  std::vector<MiswoundMesh> meshes;
+  for (std::size_t m = 0; m < miswound.size(); ++m) {
+    if (miswound[m] > 0) meshes.push_back({static_cast<int>(m), miswound[m]});
+  }
+  return meshes;
 }
 
 SolidSides no_solid_sides(const Scene& scene) {

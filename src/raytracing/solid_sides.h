@@ -2,6 +2,7 @@
 // Which sides of triangles bound solid matter. A ray that meets such a side comes from inside.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,16 @@ struct SolidSides {
   /// Whether it was made for the scene's instances and triangles as they are now.
   bool fits(const Scene& scene) const;
 };
+
+/// A mesh of which triangles face solid matter, as their vertices run.
+struct MiswoundMesh {
+  int mesh = 0;               ///< Index into Scene::meshes.
+  std::size_t triangles = 0;  ///< So many of them do, in the instance where most do.
+};
+
+/// The meshes that are wound, in whole or in part, against what open space sees of them. Nothing
+/// depends on it here; other programs may leave such triangles out.
+std::vector<MiswoundMesh> miswound_meshes(const Scene& scene, const SolidSides& sides);
 
 /// Sides that all bound nothing.
 SolidSides no_solid_sides(const Scene& scene);
