@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lambent/world.h"
+#include "raytracing/find_solid_sides.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
 #include "stage/survey.h"
@@ -33,8 +34,8 @@ constexpr int kMaxSurfaces = 16;
 
 /// How deep below the starts of rays the solid matter that each meets first ends, of those where it
 /// does. Rays go on through surfaces together.
-std::vector<float> depths_of_wall(const World& world, bool room, std::vector<Ray> rays) {
-  const Scene& scene = world.scene();
+std::vector<float> depths_of_wall(const World& world, const SolidSides& sides, bool room,
+                                  std::vector<Ray> rays) {
   std::vector<float> depths;
   std::vector<Hit> hits;
   for (int i = 0; i < kMaxSurfaces && !rays.empty(); ++i) {
@@ -44,10 +45,11 @@ std::vector<float> depths_of_wall(const World& world, bool room, std::vector<Ray
     for (std::size_t r = 0; r < rays.size(); ++r) {
       const Hit& hit = hits[r];
       if (hit.missed()) continue;
-      // The far side of a wall, or a single sheet that faces inwards, is met from behind; around a
-      // room a sheet with two sides is a wall, and around an object its skin
-      const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];
-      if (!hit.front_face || (room && scene.materials[mesh.material].double_sided)) {
+      // The far side of a wall, or a single sheet around a room, is met from inside solid matter;
+      // around a room a sheet that is open on both sides is a wall, and around an object its skin
+      Hit other_side = hit;
+      other_side.front_face = !hit.front_face;
+      if (sides.is_solid(hit) || (room && !sides.is_solid(other_side))) {
         depths.push_back(hit.distance);
         continue;
       }
@@ -86,11 +88,12 @@ SideRays rays_at_side(const Bounds& bounds, int axis, bool upper) {
 }
 
 /// How far the open space keeps from a side of the bounds; negative: it reaches out of them.
-float side_inset(const World& world, bool room, const Bounds& bounds, int axis, bool upper) {
+float side_inset(const World& world, const SolidSides& sides, bool room, const Bounds& bounds,
+                 int axis, bool upper) {
   const glm::vec3 size = bounds.max - bounds.min;
   const float longest = std::max({size.x, size.y, size.z});
   const SideRays side = rays_at_side(bounds, axis, upper);
-  std::vector<float> depths = depths_of_wall(world, room, side.rays);
+  std::vector<float> depths = depths_of_wall(world, sides, room, side.rays);
   for (float& depth : depths) depth -= side.start;
   constexpr auto kEnough =
       static_cast<std::size_t>(kMinWalledShare * kRaysAlongEdge * kRaysAlongEdge);
@@ -115,10 +118,11 @@ Bounds open_bounds(const World& world) {
   const Bounds bounds = world_bounds(world.scene());
   if (bounds.empty()) return bounds;
   const bool room = is_room(world, find_subject(world));
+  const SolidSides sides = find_solid_sides(world, {});
   Bounds open = bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    open.min[axis] += side_inset(world, room, bounds, axis, false);
-    open.max[axis] -= side_inset(world, room, bounds, axis, true);
+    open.min[axis] += side_inset(world, sides, room, bounds, axis, false);
+    open.max[axis] -= side_inset(world, sides, room, bounds, axis, true);
   }
   return open;
 }
