@@ -136,7 +136,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     ShadedHit shaded;
     shadow_rays += shade_hits(world_, {&ray, 1}, {&hit, 1}, shading, first_ray_index(probe) + i,
                               scratch_, {&shaded, 1});
-    const Surfel found = make_surfel(world_.scene(), hit, shaded);
+    const Surfel found = make_surfel(shaded);
     retraced_[i] = 1;
     ++probe_rays;
     if (found == surfel) continue;
