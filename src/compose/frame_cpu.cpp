@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of a frame on the processor.
-#include <algorithm>
 #include <optional>
 
 #include "compose/frame_passes.h"
@@ -68,13 +67,11 @@ void look_up(const World& world, const IrradianceField& field, const GBuffer& gb
 /// Takes what another source brings out of the field's light, and adds that source's own.
 void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<vec3>& added,
                    std::vector<vec3>& irradiance) {
-  irradiance.resize(std::max({irradiance.size(), subtracted_field.size(), added.size()}),
-                    vec3(0.0f));
+  irradiance.resize(added.size(), vec3(0.0f));
   parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!added.empty()) irradiance[i] += added[i];
-      if (!subtracted_field.empty()) irradiance[i] -= subtracted_field[i];
-      irradiance[i] = max(irradiance[i], vec3(0.0f));
+      irradiance[i] = replaced_light(irradiance[i], added[i],
+                                     subtracted_field.empty() ? vec3(0.0f) : subtracted_field[i]);
     }
   });
 }
@@ -83,6 +80,7 @@ void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<
 struct BandLight {
   ReflectedLight direct;
   std::vector<vec3> irradiance;         // indirect, on the surface
+  bool looked_up = false;               // it was looked up in the field
   std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces the mirror direction
 };
 
@@ -105,11 +103,13 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
 
       // Reflect the field's light: the base under the coat, and the coat by its directional albedo
       vec3 indirect(0.0f), glossy = light.direct.specular[i];
-      if (has_field && surface.receives_gi) {
-        indirect = reflected_indirect(reflectance, light.irradiance[i]);
+      if (has_field && surface.gi_share > 0.0f) {
+        const vec3 irradiance =
+            indirect_share(surface.gi_share, light.looked_up ? 1u : 0u) * light.irradiance[i];
+        indirect = reflected_indirect(reflectance, irradiance);
         glossy += reflected_glossy(reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]),
                                    light.mirror_irradiance[i]);
-        add(layers.irradiance, pixel, share * light.irradiance[i]);
+        add(layers.irradiance, pixel, share * irradiance);
       }
 
       add(layers.direct, pixel, share * light.direct.diffuse[i]);
@@ -172,6 +172,7 @@ class FramePassesCpu final : public FramePasses {
     const FrameSettings& settings = request().settings;
     const IndirectSources& sources = request().sources;
     const auto normal_at = [&](std::size_t i) { return gbuffer_.surfaces[i].normal_ws; };
+    light_.looked_up = looks_up(request());
     if (settings.gather_rays > 0) {
       now_->frame.rays += gather_irradiance(world, *sources.field, gbuffer_, settings, band_,
                                             sample_, light_.irradiance);

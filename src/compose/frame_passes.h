@@ -20,6 +20,11 @@ struct FrameRequest {
   const FrameSettings& settings;
 };
 
+/// Whether indirect light is looked up in the field, rather than gathered or not there.
+inline bool looks_up(const FrameRequest& request) {
+  return request.sources.field != nullptr && request.settings.gather_rays == 0;
+}
+
 /// Passes over bands of rows, of one frame after the other: always of the same world and sources.
 /// Each call leaves its result for those that follow, and its rays and time in the frame.
 class FramePasses {

@@ -120,6 +120,7 @@ struct ComposeArguments {
   uint count;
   float share;
   uint has_indirect;  ///< 1: there is indirect light.
+  uint looked_up;     ///< 1: it was looked up in the field; see indirect_share().
 };
 
 LAMBENT_END

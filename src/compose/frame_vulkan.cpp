@@ -146,7 +146,8 @@ void FramePassesVulkan::compose(float share) {
                                         first_pixel_ - first_layer_pixel_,
                                         pixels_,
                                         share,
-                                        has_indirect ? 1u : 0u};
+                                        has_indirect ? 1u : 0u,
+                                        looks_up(*request_) ? 1u : 0u};
     to.run(kernels_.compose, arguments, pixels_);
   });
   // The band's memory is used again

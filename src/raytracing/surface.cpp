@@ -21,9 +21,6 @@ bool has_tangents(const Mesh& mesh) {
 bool is_lambert(const Material& material) {
   return material.lambert;
 }
-bool is_double_sided(const Material& material) {
-  return material.double_sided;
-}
 bool receives_gi(const Instance& instance) {
   return instance.receives_gi;
 }

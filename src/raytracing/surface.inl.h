@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a hit to the surface that shading sees, in the common subset of C++ and GLSL. Included after
 // attributes.inl.h. The includer provides, besides what that asks for, the type
-//   HitRef  with instance, triangle, barycentrics and front_face
+//   HitRef  with instance, triangle and barycentrics
 // and
 //   vec3 fetch_normal(MeshRef mesh, uint vertex)
 //   vec4 fetch_tangent(MeshRef mesh, uint vertex)
 //   bool has_tangents(MeshRef mesh)
 //   bool is_lambert(MaterialRef material)
-//   bool is_double_sided(MaterialRef material)
 //   bool receives_gi(InstanceRef instance)
 
 /// Tangent with handedness, in object space, that a texture is laid out by.
-LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePoint p, vec3 edge1,
+LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p, vec3 edge1,
                            vec3 edge2) {
   if (has_tangents(mesh)) {
     return interpolate(fetch_tangent(mesh, p.vertices.x), fetch_tangent(mesh, p.vertices.y),
@@ -22,18 +21,18 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePoint p, v
   return tangent_from_uvs(edge1, edge2, uvs.b - uvs.a, uvs.c - uvs.a);
 }
 
-/// The normal that the material's map says, in object space.
-LAMBENT_FN vec3 mapped_normal_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                 TrianglePoint p, float cone_share, vec3 normal, vec4 tangent) {
-  vec3 t = orthogonal_tangent(normal, vec3(tangent));
-  if (t == vec3(0.0f)) return normal;
-  return mapped_normal(normal, t, tangent.w,
-                       vec3(texture_at(scene, mesh, material.normal_texture, p, cone_share)),
-                       material.normal_scale);
+/// The vector that the material's normal map holds, in tangent space. Where the footprint covers
+/// all of the map, it is the mean.
+LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                              TrianglePointRef p, float cone_share, bool mean_alone) {
+  TextureViewRef view = material.normal_texture;
+  vec4 texel = mean_alone ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
+                          : texture_at(scene, mesh, view, p, cone_share);
+  return map_vector(vec3(texel), material.normal_scale);
 }
 
 LAMBENT_FN Reflectance reflectance_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                      TrianglePoint p, float cone_share) {
+                                      TrianglePointRef p, float cone_share) {
   if (is_unlit(material)) return lambert_reflectance(vec3(0.0f));
   vec3 base = clamp(base_color_at(scene, mesh, material, p, cone_share), 0.0f, 1.0f);
   float metallic = material.metallic;
@@ -82,12 +81,18 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   vec3 normal = interpolate(fetch_normal(mesh, p.vertices.x), fetch_normal(mesh, p.vertices.y),
                             fetch_normal(mesh, p.vertices.z), p.weights);
   bool along_winding = dot(normal, face_normal) >= 0.0f;
-  // Bumps that the footprint averages over leave the surface flat
-  if (material.normal_texture.texture >= 0 &&
-      !shows_mean_alone(scene, mesh, material.normal_texture, p, cone_share)) {
-    vec4 tangent = tangent_at(mesh, material.normal_texture, p, edge1, edge2);
-    normal = mapped_normal_at(scene, mesh, material, p, cone_share,
-                              normalize_or(normal, vec3(0.0f, 0.0f, 1.0f)), tangent);
+  float mean_length = 1.0f;
+  if (material.normal_texture.texture >= 0) {
+    bool mean_alone = shows_mean_alone(scene, mesh, material.normal_texture, p, cone_share);
+    vec3 n = map_vector_at(scene, mesh, material, p, cone_share, mean_alone);
+    mean_length = length(n);
+    // Bumps that the footprint averages over leave the surface flat
+    if (!mean_alone) {
+      vec4 tangent = tangent_at(mesh, material.normal_texture, p, edge1, edge2);
+      normal = normalize_or(normal, vec3(0.0f, 0.0f, 1.0f));
+      vec3 t = orthogonal_tangent(normal, vec3(tangent));
+      if (t != vec3(0.0f)) normal = mapped_normal(normal, t, tangent.w, n);
+    }
   }
   normal = normalize_or(normal_from_object * normal, surface.geometric_normal_ws);
 
@@ -100,8 +105,9 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   surface.reflectance = reflectance_at(scene, mesh, material, p, cone_share);
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   surface.material = uint(mesh.material);
-  surface.front_face = bool(hit.front_face);
-  surface.double_sided = is_double_sided(material);
-  surface.receives_gi = receives_gi(instance);
+  surface.gi_share = receives_gi(instance)
+                         ? horizon_share(mean_length,
+                                         dot(surface.normal_ws, surface.geometric_normal_ws))
+                         : 0.0f;
   return surface;
 }

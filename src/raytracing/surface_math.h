@@ -15,9 +15,9 @@ struct Surface {
   Reflectance reflectance;
   vec3 emission;  ///< Radiance [W/(m^2 sr)].
   uint material;  ///< Index into Scene::materials.
-  bool front_face;
-  bool double_sided;
-  bool receives_gi;  ///< Indirect light reaches it.
+  /// Share of the field's irradiance that it receives, 0 to 1: see horizon_share(). 0: it receives
+  /// direct light alone.
+  float gi_share;
 };
 
 // A shading normal turned away from the viewer is bent back to where this cosine is left, so that
@@ -65,13 +65,16 @@ LAMBENT_FN vec3 orthogonal_tangent(vec3 normal, vec3 tangent) {
   return normalize_or(tangent - normal * dot(normal, tangent), vec3(0.0f));
 }
 
-/// The normal that a map's texel says, in the space of the unit vectors normal and tangent.
-LAMBENT_FN vec3 mapped_normal(vec3 normal, vec3 tangent, float handedness, vec3 texel,
-                              float normal_scale) {
-  vec3 b = cross(normal, tangent) * (handedness < 0.0f ? -1.0f : 1.0f);
+/// The vector that a normal map's texel holds, in tangent space. A mean over many texels is shorter
+/// than 1, the shorter the more their normals scatter.
+LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   vec3 n = texel * 2.0f - 1.0f;
-  n.x *= normal_scale;
-  n.y *= normal_scale;
+  return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
+}
+
+/// The normal that a map's vector says, in the space of the unit vectors normal and tangent.
+LAMBENT_FN vec3 mapped_normal(vec3 normal, vec3 tangent, float handedness, vec3 n) {
+  vec3 b = cross(normal, tangent) * (handedness < 0.0f ? -1.0f : 1.0f);
   return normalize_or(tangent * n.x + b * n.y + normal * n.z, normal);
 }
 
@@ -84,6 +87,14 @@ LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from
   float view_cosine = -dot(n, direction);
   if (view_cosine >= kMinViewCosine) return n;
   return normalize_or(n + (view_cosine - kMinViewCosine) * direction, geometric_normal);
+}
+
+/// Share of uniform light from all around that a surface receives although nothing arrives from
+/// below its geometric horizon: over the directions above both horizons, the integral of
+/// dot(n, w) is pi (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that for many normals
+/// their mean does, with its length: `length` is that of the mean, `cosine` dot(n, n_g).
+LAMBENT_FN float horizon_share(float length, float cosine) {
+  return 0.5f + 0.5f * min(length, 1.0f) * cosine;
 }
 
 /// What reflects as Lambert says, exactly.

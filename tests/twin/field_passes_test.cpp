@@ -173,7 +173,7 @@ void expect_like_lookups(const UpdateOnCpu& update, const FieldResources& field)
     };
     for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
       const Surfel& surfel = trace.surfels[i];
-      if (surfel.reflects() && surfel.receives_gi) expect(i, trace.lookups[i]);
+      if (surfel.reflects() && surfel.gi_share > 0.0f) expect(i, trace.lookups[i]);
     }
     for (const FurtherLookup& f : trace.further) expect(f.ray, f.lookup);
     further += trace.further.size();

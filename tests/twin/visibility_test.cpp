@@ -99,7 +99,7 @@ TEST_P(FieldSights, WeighSurfelsAsOnTheProcessor) {
     const ProbeTrace& trace = update.traces[probe];
     const std::vector<SurfelLookup> found = twins.field.read_lookups(probe);
     for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
-      if (!trace.surfels[i].reflects() || !trace.surfels[i].receives_gi) continue;
+      if (!trace.surfels[i].reflects() || trace.surfels[i].gi_share <= 0.0f) continue;
       for (int k = 0; k < kCellCorners; ++k) {
         const float expected = trace.lookups[i].corners.weight[k];
         difference += std::abs(found[i * slots].corners.weight[k] - expected);

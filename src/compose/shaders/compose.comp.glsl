@@ -28,8 +28,8 @@ void main() {
   vec3 diffuse = args.diffuse.at[i];
   vec3 glossy = args.specular.at[i];
   vec3 indirect = vec3(0.0f);
-  if (args.has_indirect != 0u && (surface.flags & kSurfaceReceivesGi) != 0u) {
-    vec3 irradiance = args.irradiance.at[i];
+  if (args.has_indirect != 0u && surface.gi_share > 0.0) {
+    vec3 irradiance = indirect_share(surface.gi_share, args.looked_up) * args.irradiance.at[i];
     indirect = reflected_indirect(surface.reflectance, irradiance);
     glossy += reflected_glossy(surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws),
                                args.mirror_irradiance.at[i]);

@@ -138,7 +138,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     ShadedHit shaded;
     shadow_rays += shade_hits(world_, {&ray, 1}, {&hit, 1}, shading, first_ray_index(probe) + i,
                               scratch_, {&shaded, 1});
-    const Surfel found = make_surfel(world_.scene(), hit, shaded);
+    const Surfel found = make_surfel(shaded);
     retraced_[i] = 1;
     ++probe_rays;
     if (found == surfel) continue;
@@ -147,7 +147,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     // Lookups depend on the position, the normal, and whether the surfel reflects the field's light
     outcome.other_surfaces =
         outcome.other_surfaces || moved || found.normal_ws != surfel.normal_ws ||
-        found.receives_gi != surfel.receives_gi || found.reflects() != surfel.reflects();
+        found.gi_share != surfel.gi_share || found.reflects() != surfel.reflects();
     surfel = found;
   }
 }

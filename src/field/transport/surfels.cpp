@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/parallel.h"
+#include "field/transport/surfel_math.h"
 #include "shared/packing.h"
 
 namespace lambent {
@@ -29,23 +30,18 @@ std::size_t ProbeTrace::bytes() const {
          further.size() * sizeof(FurtherLookup);
 }
 
-Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) {
-  Surfel surfel{};
-  surfel.position_ws = shaded.position_ws;
-  surfel.normal_ws = encode_unit_vector(shaded.normal_ws);
-  surfel.geometric_normal_ws = encode_unit_vector(shaded.geometric_normal_ws);
-  if (hit.missed()) {
-    surfel.kind = SurfelKind::sky;
-    surfel.light = shaded.sky_radiance;
-    return surfel;
-  }
-  surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::solid_side;
-  surfel.material =
-      static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
-  surfel.albedo_over_pi = shaded.albedo_over_pi;
-  surfel.receives_gi = shaded.receives_gi;
-  surfel.light = shaded.direct_irradiance;
-  return surfel;
+Surfel make_surfel(const ShadedHit& hit) {
+  const SurfelRecord surfel =
+      surfel_record(hit.point.position_ws, hit.point.normal_ws, hit.point.geometric_normal_ws,
+                    hit.surface, hit.direct_irradiance);
+  return {surfel.position_ws,
+          surfel.material,
+          surfel.albedo_over_pi,
+          surfel.normal_ws,
+          surfel.light,
+          surfel.geometric_normal_ws,
+          static_cast<SurfelKind>(surfel.kind),
+          surfel.gi_share};
 }
 
 Ray probe_ray(const vec3& origin_ws, const vec3& direction) {
@@ -106,8 +102,7 @@ std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
       ProbeTrace& trace = traces[probe];
       trace.rays = group.rays;
       trace.surfels.resize(rays);
-      for (std::size_t i = 0; i < rays; ++i)
-        trace.surfels[i] = make_surfel(world.scene(), hits[i], shaded[i]);
+      for (std::size_t i = 0; i < rays; ++i) trace.surfels[i] = make_surfel(shaded[i]);
     }
   });
   return shadow_rays;
@@ -141,7 +136,7 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
         // A surfel that reflects nothing needs no lookup
         if (!surfel.reflects()) continue;
         trace.lookups[ray] = {};
-        if (!surfel.receives_gi) continue;
+        if (surfel.gi_share <= 0.0f) continue;
         reflecting.push_back({probes[k], ray});
         queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
                            -trace.rays->directions[ray]});
@@ -153,12 +148,13 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
     for (std::size_t i = 0; i < weights.corners.size(); ++i) {
       const std::uint32_t query = weights.query[i];
       const TileFetch fetch = tile_fetch(queries[query].normal_ws, texels);
-      const SurfelLookup lookup = {
+      SurfelLookup lookup = {
           weights.corners[i],
           static_cast<std::uint32_t>(fetch.corner.x + (texels + 1) * fetch.corner.y),
           fetch.fraction.x, fetch.fraction.y};
       ProbeTrace& trace = traces[reflecting[query].probe];
       const int ray = reflecting[query].ray;
+      for (float& weight : lookup.corners.weight) weight *= trace.surfels[ray].gi_share;
       if (answered[query] == 0) {
         trace.lookups[ray] = lookup;
       } else {

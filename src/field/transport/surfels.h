@@ -33,7 +33,7 @@ struct Surfel {
   vec3 light;                ///< Direct irradiance [W/m^2], or the sky's radiance [W/(m^2 sr)].
   uint geometric_normal_ws;  ///< Packed, towards the probe.
   SurfelKind kind;
-  bool receives_gi;  ///< Whether it reflects light from the field, besides direct light.
+  float gi_share;  ///< Share of the field's irradiance that it receives, 0 to 1; as in Surface.
 
   bool operator==(const Surfel&) const = default;
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }
@@ -85,8 +85,8 @@ ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& ra
 /// The ray of a probe along a direction.
 Ray probe_ray(const vec3& origin_ws, const vec3& direction);
 
-/// Makes the surfel of a ray from its hit.
-Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded);
+/// Makes the surfel of a ray from its shaded hit.
+Surfel make_surfel(const ShadedHit& hit);
 
 /// The index of a probe's first ray among the rays of all probes, for its random numbers.
 std::size_t first_ray_index(int probe);

@@ -34,7 +34,7 @@ SurfelRecord to_record(const Surfel& surfel) {
           surfel.light,
           surfel.geometric_normal_ws,
           static_cast<uint>(surfel.kind),
-          surfel.receives_gi ? 1u : 0u};
+          surfel.gi_share};
 }
 
 /// The matrix of tile_fit.h as the product needs it: rows padded to whole lane groups, columns to
@@ -151,7 +151,7 @@ void FieldResources::write_surfels(std::span<const int> probes,
     std::vector<int> found(trace.surfels.size(), 0);
     for (SurfelLookup& lookup : lookups) lookup.tile_corner = kNoLookup;
     for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
-      if (!trace.surfels[i].reflects() || !trace.surfels[i].receives_gi) continue;
+      if (!trace.surfels[i].reflects() || trace.surfels[i].gi_share <= 0.0f) continue;
       lookups[i * lookups_] = trace.lookups[i];
       found[i] = 1;
     }

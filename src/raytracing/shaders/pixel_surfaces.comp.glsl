@@ -19,7 +19,7 @@ void main() {
   LitPointRecord point =
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
-                                                -ray.direction_ws, kSurfaceMissed);
+                                                -ray.direction_ws, kSurfaceMissed, 0.0f);
   if (missed(hit)) {
     pixel.emission = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
   } else {
@@ -28,7 +28,8 @@ void main() {
                            args.first_index + i);
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
-    pixel.flags = surface.receives_gi ? kSurfaceReceivesGi : 0u;
+    pixel.flags = 0u;
+    pixel.gi_share = surface.gi_share;
   }
   args.points.at[i] = point;
   args.surfaces.at[i] = pixel;

@@ -20,9 +20,6 @@ bool has_tangents(MeshRecord mesh) {
 bool is_lambert(MaterialRecord material) {
   return (material.flags & kMaterialLambert) != 0u;
 }
-bool is_double_sided(MaterialRecord material) {
-  return (material.flags & kMaterialDoubleSided) != 0u;
-}
 bool receives_gi(InstanceRecord instance) {
   return (instance.flags & kInstanceReceivesGi) != 0u;
 }

@@ -24,7 +24,8 @@ void main() {
   uint corner = uint(fetch.corner.x + (kIrradianceTexels + 1) * fetch.corner.y);
 
   int found = 0;
-  float left = reads_field(point) ? 1.0 : 0.0;
+  float gi_share = gi_share_of(point);
+  float left = gi_share > 0.0 ? 1.0 : 0.0;
   for (int volume = 0; volume < kVolumes; ++volume) {
     if (left <= kNothingLeft || found == kLookups) continue;
     ProbeGrid grid = args.store.grids.at[volume];
@@ -37,7 +38,7 @@ void main() {
     if (sum_of_weights(corners) == 0.0) continue;
     volume_weight *= left;
     left -= volume_weight;
-    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= volume_weight;
+    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= volume_weight * gi_share;
     args.lookups.at[point.lookup + found] =
         SurfelLookup(corners, corner, fetch.fraction.x, fetch.fraction.y);
     ++found;

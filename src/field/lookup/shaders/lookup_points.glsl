@@ -32,12 +32,13 @@ RaySetRecord rays_of(LookupPoint point) {
   return args.points.list.sets.at[args.points.list.ray_sets.at[point.row]];
 }
 
-/// Whether an existing point needs a lookup: surfels that reflect nothing need none.
-bool reads_field(LookupPoint point) {
-  if (args.points.count > 0) return true;
+/// The share of the field's irradiance that an existing point receives. 0: it needs no lookup, as
+/// surfels that reflect nothing.
+float gi_share_of(LookupPoint point) {
+  if (args.points.count > 0) return 1.0;
   SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
-  return point.column < rays_of(point).rays && surfel.receives_gi != 0u &&
-         surfel.albedo_over_pi != vec3(0.0);
+  bool reflects = point.column < rays_of(point).rays && surfel.albedo_over_pi != vec3(0.0);
+  return reflects ? surfel.gi_share : 0.0;
 }
 
 /// The query of an existing point.
