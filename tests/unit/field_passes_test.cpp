@@ -34,6 +34,7 @@ class Log final : public FieldPasses {
   void solve() override { done.emplace_back("solve"); }
   void variability() override { done.emplace_back("variability"); }
   void store() override { done.emplace_back("store"); }
+  void scroll() override { done.emplace_back("scroll"); }
   void placement() override { done.emplace_back("placement"); }
   void begin(const char* name) override {
     EXPECT_EQ(named.size(), done.size()) << "a pass begins within another";
