@@ -53,8 +53,7 @@ LAMBENT_FN vec3 reflected_glossy(Reflectance reflectance, float n_dot_v, vec3 mi
 /// `direct` and `field` are the irradiance of the hit from lights and from the field.
 LAMBENT_FN vec3 gathered_radiance(ShadedHitRecord hit, vec3 direct, vec3 field) {
   bool sky = (hit.flags & kSurfaceMissed) != 0u;
-  return hit.albedo_over_pi * (direct + hit.gi_share * field) +
-         (sky ? hit.radiance : vec3(0.0f));
+  return hit.albedo_over_pi * (direct + hit.gi_share * field) + (sky ? hit.radiance : vec3(0.0f));
 }
 
 /// Share of a pixel's indirect irradiance that counts. Lookups of the field know nothing of the

@@ -70,8 +70,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
     const bool from_inside =
         settings.solid_sides != nullptr && settings.solid_sides->is_solid(hits[i]);
-    result.surface =
-        shaded_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u);
+    result.surface = shaded_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u);
 
     // Ask for the light that may reach it
     if (result.surface.albedo_over_pi == glm::vec3(0.0f)) continue;

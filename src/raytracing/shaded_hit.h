@@ -8,7 +8,7 @@
 LAMBENT_BEGIN
 
 // Flags of ShadedHitRecord and PixelSurfaceRecord.
-const uint kSurfaceMissed = 1u;  ///< The ray left the scene.
+const uint kSurfaceMissed = 1u;      ///< The ray left the scene.
 const uint kSurfaceDiscounted = 2u;  ///< The side that the ray met bounds solid matter: the ray
                                      ///< does not count.
 

@@ -26,8 +26,9 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
 LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, MaterialRef material,
                               TrianglePointRef p, float cone_share, bool mean_alone) {
   TextureViewRef view = material.normal_texture;
-  vec4 texel = mean_alone ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
-                          : texture_at(scene, mesh, view, p, cone_share);
+  vec4 texel = mean_alone
+                   ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
+                   : texture_at(scene, mesh, view, p, cone_share);
   return map_vector(vec3(texel), material.normal_scale);
 }
 
@@ -105,9 +106,9 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   surface.reflectance = reflectance_at(scene, mesh, material, p, cone_share);
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   surface.material = uint(mesh.material);
-  surface.gi_share = receives_gi(instance)
-                         ? horizon_share(mean_length,
-                                         dot(surface.normal_ws, surface.geometric_normal_ws))
-                         : 0.0f;
+  surface.gi_share =
+      receives_gi(instance)
+          ? horizon_share(mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
+          : 0.0f;
   return surface;
 }

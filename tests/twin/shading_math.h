@@ -95,7 +95,9 @@ LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
   n.orthogonal = orthogonal_tangent(normal, along);
   float handedness = next_uniform(random) - 0.5f;
   vec3 texel = random_vec3(random, 0.0f, 1.0f);
-  n.mapped = mapped_normal(normal, n.orthogonal, handedness, texel, 2.0f * next_uniform(random));
+  vec3 bump = map_vector(texel, 2.0f * next_uniform(random));
+  n.mapped = mapped_normal(normal, n.orthogonal, handedness, bump) *
+             horizon_share(length(bump), dot(normal, along));
   vec3 geometric = random_direction(random);
   bool along_winding = next_uniform(random) < 0.5f;
   bool from_front = next_uniform(random) < 0.5f;

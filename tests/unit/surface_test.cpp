@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "raytracing/camera_rays.h"
 #include "scene/attributes.h"
+#include "shared/constants.h"
+#include "shared/sampling.h"
 #include "support/hand_made.h"
 
 namespace lambent {
@@ -23,6 +26,13 @@ Scene square(const Material& material, const glm::mat4& world_from_object = glm:
   add(scene, quad({-0.5f, -0.5f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, 0),
       world_from_object);
   return scene;
+}
+
+Hit hit_along(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction) {
+  Ray ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  return make_embree_raytracer(scene)->closest_hit(ray);
 }
 
 Surface look(const Scene& scene, const glm::vec3& origin, const glm::vec3& direction,
@@ -59,10 +69,33 @@ TEST(Surface, FacesTheRayFromBothSides) {
   expect_near(back.geometric_normal_ws, {0.0f, 0.0f, -1.0f});
 }
 
+TEST(Surface, ReceivesWhatComesFromAboveItsHorizon) {
+  // Integrate the cosine over the directions above the horizon of the triangle and of the normal
+  const glm::vec3 geometric(0.0f, 0.0f, 1.0f);
+  for (const float tilt : {0.0f, 0.4f, 1.1f}) {
+    const glm::vec3 normal(std::sin(tilt), 0.0f, std::cos(tilt));
+    constexpr uint kDirections = 100000;
+    double sum = 0.0;
+    for (uint i = 0; i < kDirections; ++i) {
+      const vec3 direction = spherical_fibonacci(i, kDirections);
+      if (glm::dot(direction, geometric) > 0.0f) sum += std::max(0.0f, glm::dot(direction, normal));
+    }
+    const double irradiance = 4.0 * kPi * sum / kDirections;
+    EXPECT_NEAR(horizon_share(1.0f, glm::dot(normal, geometric)), irradiance / kPi, 1e-3);
+  }
+}
+
+TEST(Surface, ReceivesAsMuchOnAverageAsUnderTheMeanOfItsNormals) {
+  // Two halves of a normal map lean to either side; their mean is upright, and short
+  const float cosine = std::cos(0.7f);
+  EXPECT_FLOAT_EQ(horizon_share(cosine, 1.0f), horizon_share(1.0f, cosine));
+}
+
 TEST(Surface, MirroredInstanceKeepsItsFront) {
   const glm::mat4 mirror = glm::scale(glm::mat4(1.0f), {-1.0f, 1.0f, 1.0f});
-  const Surface surface =
-      look(square(lambert(glm::vec3(0.5f)), mirror), {0.1f, 0.2f, 1.0f}, {0.0f, 0.0f, -1.0f});
+  const Scene mirrored = square(lambert(glm::vec3(0.5f)), mirror);
+  EXPECT_TRUE(hit_along(mirrored, {0.1f, 0.2f, 1.0f}, {0.0f, 0.0f, -1.0f}).front_face);
+  const Surface surface = look(mirrored, {0.1f, 0.2f, 1.0f}, {0.0f, 0.0f, -1.0f});
   expect_near(surface.normal_ws, {0.0f, 0.0f, 1.0f});
   expect_near(surface.position_ws, {0.1f, 0.2f, 0.0f});
 }
