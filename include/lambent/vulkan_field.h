@@ -12,12 +12,14 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lambent/error.h"
 #include "lambent/field.h"
 #include "lambent/vulkan.h"
+#include "lambent/world.h"
 
 namespace lambent::vulkan {
 
@@ -93,11 +95,26 @@ struct RecordedFieldSettings {
 
 /// What an update does besides tracing the next batch of probes.
 struct UpdatePlan {
-  /// Factor to the weight of all that probes have averaged so far, 0 to 1: 1 where nothing changed,
-  /// about 0.1 where lights or large objects changed, 0 where everything did.
+  /// Factor to the weight of all that probes have averaged so far, 0 to 1. 1: what changed is told
+  /// by `changes`, or nothing did. 0: the place is another one.
   float history = 1.0f;
-  /// Lets relocation of all probes begin again: for when static geometry was rebuilt.
+  /// Lets relocation of all probes begin again at once.
   bool place_again = false;
+  /// What differs from the place in which the last update's rays were traced; empty: nothing. Only
+  /// moved, rebuilt, lights, materials, emission and environment are read, and of these whether
+  /// they are empty or not set: an engine may leave boxes and lights as they come to hand. Valid
+  /// during the call.
+  ///
+  /// Where all probes are traced at once and bounces are not counted, the change is followed
+  /// exactly: the update traces every probe's last rays again (PlannedUpdate::retraces), solves for
+  /// the light of all bounces, and changes just those probes whose light differs visibly. These
+  /// keep of their history what their light still has in common with what it was; the others keep
+  /// all of it, and their bits. Otherwise all averages begin again, as in a new field.
+  /// Eight updates after static geometry was `rebuilt` last, relocation begins again.
+  ///
+  /// An update that traces rays again adds no new ones to the averages: told of changes in every
+  /// update, the field stays exact, and as noisy as it was.
+  std::span<const WorldChanges> changes = {};
   /// Where the camera is [m]: cascades (FieldSettings::cascades) follow it. None, or numbers that
   /// are not finite: they stay.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
@@ -110,6 +127,9 @@ struct PlannedUpdate {
   std::uint32_t rays = 0;     ///< Number of all rays; an upper bound where the device decides.
   bool moves_probes = false;  ///< record_maintain may move some.
   bool on_device = false;     ///< The device decides which probes; see ray_launch().
+  /// Probes trace their last rays again, to follow UpdatePlan::changes. What an engine shades with
+  /// random numbers must come out as before where nothing changed: seed them by the ray.
+  bool retraces = false;
 };
 
 /// The buffers in which shaders look the field up. They stay the same for the field's whole life.

@@ -4,7 +4,7 @@
 // change.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/vulkan/device_arguments.h"
+#include "field/edits/edit_arguments.h"
 #include "field/probes/moments_encoding.h"
 #include "field/probes/shaders/volume_of.glsl"
 
@@ -38,7 +38,9 @@ void main() {
   bool is_blocked = args.blocked.at[k] != 0u;
   before = was_blocked ? vec2(0.0) : before / total;
   now = is_blocked ? vec2(0.0) : now / total;
-  if (before == now) return;
+  // A probe without history takes all of its new distances
+  bool replaces = args.blocked_before.at[k] == kNoDistancesBefore;
+  if (before == now && !replaces) return;
 
   // The history of a probe that came out of geometry, or went into it, is not worth keeping
   int width = kDistanceTexels + 2;
