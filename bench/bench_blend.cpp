@@ -2,6 +2,7 @@
 // The matrix product from rays to texels, for all probes of a field.
 #include "bench/workload.h"
 #include "core/parallel.h"
+#include "field/field_access.h"
 #include "field/probes/probe_store.h"
 #include "field/transport/blend.h"
 #include "field/transport/distances.h"
@@ -50,7 +51,7 @@ void blend_distances_of_all_probes(benchmark::State& state) {
   const TraceGroup traced = trace_all_probes(work);
   const DistanceBlend blend(settings, traced.rays->directions);
   const std::vector<float> blend_weights(traced.probes.size(), 0.1f);
-  ProbeStore store(work.field.store().grid(0), settings);
+  ProbeStore store(store_of(work.field).grid(0), settings);
   Median ms;
   for (auto _ : state) {
     const double elapsed =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole frame by passes.
 #include <map>
+#include <stdexcept>
 
 #include "bench/workload.h"
 #include "lambent/renderer.h"
@@ -17,10 +18,13 @@ void frame(benchmark::State& state) {
   settings.height = kHeight;
   Median ms;
   std::map<std::string, Median> passes;
+  Renderer renderer(work.world, {.field = &work.field});
+  RenderedFrame rendered;
   for (auto _ : state) {
-    RenderedFrame rendered;
+    Expected<void> done;
     const double elapsed =
-        time_ms([&] { rendered = render_frame(work.world, &work.field, work.camera, settings); });
+        time_ms([&] { done = renderer.render(work.camera, settings, rendered); });
+    if (!done) throw std::runtime_error(done.error().message());
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
     for (const PassTime& pass : rendered.passes) passes[pass.name].add(pass.ms);

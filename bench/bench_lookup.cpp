@@ -5,7 +5,9 @@
 
 #include "bench/workload.h"
 #include "core/parallel.h"
+#include "field/field_access.h"
 #include "field/lookup/lookup_volumes.h"
+#include "raytracing/world_access.h"
 
 namespace lambent::bench {
 namespace {
@@ -40,8 +42,8 @@ BENCHMARK(lookup)->UseManualTime()->Iterations(kRepetitions)->Unit(benchmark::kM
 /// The same with rays where distances are in doubt, beside the plain lookup.
 void lookup_hybrid(benchmark::State& state) {
   const Workload& work = workload();
-  const ProbeStore& store = work.field.store();
-  const RayTracer& tracer = work.world.tracer();
+  const ProbeStore& store = store_of(work.field);
+  const RayTracer& tracer = tracer_of(work.world);
   std::vector<int> probes(store.probes());
   std::iota(probes.begin(), probes.end(), 0);
   CellVisibility cell_visibility(store.probes());

@@ -5,6 +5,7 @@
 // otherwise.
 #include <array>
 #include <map>
+#include <stdexcept>
 
 #include "bench/rsm_workload.h"
 #include "bench/workload.h"
@@ -24,7 +25,8 @@ RsmSettings with_layout(RsmLayout layout) {
 struct Variant {
   explicit Variant(const RsmSettings& chosen) : settings(chosen) {}
   void run(const RsmWorkload& work) {
-    gatherer.gather(workload().world, work.maps, work.view(), settings, result);
+    const auto done = gatherer.gather(workload().world, work.maps, work.view(), settings, result);
+    if (!done) throw std::runtime_error(done.error().message());
     double sum = 0.0;
     for (const PassTime& pass : result.passes) {
       passes[pass.name].add(pass.ms);

@@ -2,6 +2,7 @@
 // From hits to surfels: surfaces, direct light with its shadow rays, and where surfels look the
 // field up.
 #include "bench/workload.h"
+#include "field/field_access.h"
 #include "field/probes/probe_store.h"
 #include "field/transport/surfels.h"
 
@@ -20,7 +21,7 @@ void shade(benchmark::State& state) {
   for (auto _ : state) {
     const double shadows = time_occlusions(work, rays.shadow_rays, occluded);
     const double elapsed = time_ms([&] {
-      shade_surfels(work.world, work.field.store(), traced, work.field.settings(), traces);
+      shade_surfels(work.world, store_of(work.field), traced, work.field.settings(), traces);
     });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
@@ -35,11 +36,11 @@ void find_lookups(benchmark::State& state) {
   const Workload& work = workload();
   const TraceGroup traced = trace_all_probes(work);
   std::vector<ProbeTrace> traces(traced.probes.size());
-  shade_surfels(work.world, work.field.store(), traced, work.field.settings(), traces);
+  shade_surfels(work.world, store_of(work.field), traced, work.field.settings(), traces);
   Median ms;
   for (auto _ : state) {
     const double elapsed =
-        time_ms([&] { find_surfel_lookups(work.field.store(), {}, traced.probes, traces); });
+        time_ms([&] { find_surfel_lookups(store_of(work.field), {}, traced.probes, traces); });
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
   }

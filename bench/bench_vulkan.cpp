@@ -9,11 +9,13 @@
 #include <thread>
 
 #include "bench/workload.h"
+#include "field/field_access.h"
 #include "field/lookup/visibility.h"
 #include "field/probes/volumes.h"
 #include "field/vulkan/device_solver.h"
 #include "lambent/vulkan.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "vulkan/device.h"
 
 namespace lambent::bench {
@@ -67,7 +69,7 @@ struct ProbeBlend {
     std::iota(probes.begin(), probes.end(), 0);
     group.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u);
     group.probes = probes;
-    trace_probe_rays(workload().world.tracer(), store, group);
+    trace_probe_rays(tracer_of(workload().world), store, group);
     std::vector<ProbeTrace> traces(probes.size());
     shade_surfels(workload().world, store, group, settings, traces);
     find_surfel_lookups(store, {}, probes, traces);
@@ -158,7 +160,7 @@ void vulkan_find_lookups(benchmark::State& state) {
 void vulkan_lookup(benchmark::State& state) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   const Workload& work = workload();
-  const FieldResources field(*device(), work.field.settings(), work.field.store());
+  const FieldResources field(*device(), work.field.settings(), store_of(work.field));
   const std::vector<FieldQuery> queries = pixel_queries(work);
   const vulkan::Buffer in = vulkan::upload(*device(), queries, "queries");
   const vulkan::Buffer out(*device(), queries.size() * sizeof(vec3), vulkan::Memory::device, "E");
@@ -174,10 +176,10 @@ void lookup_by_rays(benchmark::State& state, Visibility visibility) {
   if (device() == nullptr) return state.SkipWithError("no Vulkan device");
   const Workload& work = workload();
   static const World there(work.scene, shared_device());
-  const DeviceWorld& world = *there.on_device();
+  const DeviceWorld& world = *device_world_of(there);
   FieldSettings settings = work.field.settings();
   settings.visibility = visibility;
-  const ProbeStore& store = work.field.store();
+  const ProbeStore& store = store_of(work.field);
   const FieldResources field(world.device(), settings, store);
   std::vector<int> probes(store.probes());
   std::iota(probes.begin(), probes.end(), 0);

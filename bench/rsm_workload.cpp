@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 
 namespace lambent::bench {
 namespace {
@@ -32,7 +33,7 @@ RsmWorkload::RsmWorkload(const glm::ivec2& picture) : size(picture) {
     for (int x = 0; x < size.x; ++x) {
       const Ray ray = camera_ray(work.camera, size.x, size.y, static_cast<float>(x) + 0.5f,
                                  static_cast<float>(y) + 0.5f);
-      const Hit hit = work.world.tracer().closest_hit(ray);
+      const Hit hit = tracer_of(work.world).closest_hit(ray);
       if (hit.missed()) continue;
       const Surface surface = surface_at(work.scene, ray, hit);
       const std::size_t i = y * size.x + x;
@@ -42,7 +43,8 @@ RsmWorkload::RsmWorkload(const glm::ivec2& picture) : size(picture) {
     }
   });
   maps = render_rsms(work.world, work.camera,
-                     static_cast<float>(size.x) / static_cast<float>(size.y), {});
+                     static_cast<float>(size.x) / static_cast<float>(size.y), {})
+             .value();
 }
 
 RsmWorkload& rsm_workload() {

@@ -7,6 +7,7 @@
 
 #include "bench/stage.h"
 #include "core/parallel.h"
+#include "field/field_access.h"
 #include "field/probes/probe_grid.h"
 #include "field/probes/probe_store.h"
 #include "field/schedule/schedule.h"
@@ -15,6 +16,7 @@
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/shade_hits.h"
+#include "raytracing/world_access.h"
 
 namespace lambent::bench {
 namespace {
@@ -46,21 +48,21 @@ TraceGroup trace_all_probes(const Workload& work) {
   const FieldSettings& settings = work.field.settings();
   TraceGroup group;
   group.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u);
-  group.probes.resize(work.field.store().probes());
+  group.probes.resize(store_of(work.field).probes());
   std::iota(group.probes.begin(), group.probes.end(), 0);
-  trace_probe_rays(work.world.tracer(), work.field.store(), group);
+  trace_probe_rays(tracer_of(work.world), store_of(work.field), group);
   return group;
 }
 
 UpdateRays record_update_rays(const Workload& work, int update) {
   const FieldSettings& settings = work.field.settings();
-  const ProbeStore& store = work.field.store();
+  const ProbeStore& store = store_of(work.field);
   const RaySet set(settings, settings.rays_per_probe, static_cast<uint>(update));
   const ShadeHitsSettings shading = surfel_shading(settings, set);
 
   // Shade each probe's hits for the sake of the shadow rays
   const std::vector<VolumeRole> roles(1);  // the field's own grid alone
-  const std::vector<int> probes = schedule_all(store, roles, work.field.probe_statuses(), settings,
+  const std::vector<int> probes = schedule_all(store, roles, statuses_of(work.field), settings,
                                                static_cast<std::uint32_t>(update))
                                       .probes;
   const std::size_t rays = set.directions.size();
@@ -75,7 +77,7 @@ UpdateRays record_update_rays(const Workload& work, int update) {
       const vec3 origin = store.probe_position_ws(probes[k]);
       const std::span<Ray> batch(&result.probe_rays[k * rays], rays);
       for (std::size_t i = 0; i < rays; ++i) batch[i] = probe_ray(origin, set.directions[i]);
-      work.world.tracer().closest_hits(batch, hits);
+      tracer_of(work.world).closest_hits(batch, hits);
       shade_hits(work.world, batch, hits, shading, first_ray_index(probes[k]), scratch, shaded);
       shadows[k] = scratch.shadow_rays;
     }
@@ -97,7 +99,7 @@ std::vector<Ray> primary_rays(const Workload& work) {
 
 std::vector<FieldQuery> pixel_queries(const Workload& work) {
   std::vector<FieldQuery> queries =
-      visible_points(work.world, work.world.scene().cameras.front(), kWidth, kHeight);
+      visible_points(work.world, work.world.scene().cameras.front(), kWidth, kHeight).value();
   // A pixel that shows the sky costs as much as any other
   queries.resize(static_cast<std::size_t>(kWidth) * kHeight);
   return queries;
@@ -107,8 +109,8 @@ double time_closest_hits(const Workload& work, std::span<const Ray> rays, std::v
   hits.resize(rays.size());
   return time_ms([&] {
     parallel_chunks(rays.size(), kRaysPerTask, [&](std::size_t begin, std::size_t end) {
-      work.world.tracer().closest_hits(rays.subspan(begin, end - begin),
-                                       {&hits[begin], end - begin});
+      tracer_of(work.world)
+          .closest_hits(rays.subspan(begin, end - begin), {&hits[begin], end - begin});
     });
   });
 }
@@ -118,8 +120,8 @@ double time_occlusions(const Workload& work, std::span<const Ray> rays,
   occluded.resize(rays.size());
   return time_ms([&] {
     parallel_chunks(rays.size(), kRaysPerTask, [&](std::size_t begin, std::size_t end) {
-      work.world.tracer().occlusions(rays.subspan(begin, end - begin),
-                                     {&occluded[begin], end - begin});
+      tracer_of(work.world)
+          .occlusions(rays.subspan(begin, end - begin), {&occluded[begin], end - begin});
     });
   });
 }

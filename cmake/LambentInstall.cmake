@@ -10,7 +10,7 @@ set_target_properties(lambent PROPERTIES
 set(LAMBENT_INSTALL_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/lambent)
 install(TARGETS lambent EXPORT lambent COMPONENT library)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/lambent DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-  COMPONENT library FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl" PATTERN "*.hlsl" PATTERN "*.wgsl")
+  COMPONENT library FILES_MATCHING PATTERN "*.h" PATTERN "*.glsl")
 install(EXPORT lambent NAMESPACE lambent:: FILE lambent-targets.cmake
   DESTINATION ${LAMBENT_INSTALL_CMAKE_DIR} COMPONENT library)
 
@@ -37,6 +37,9 @@ foreach(file IN LISTS shader_files)
   install(FILES ${PROJECT_SOURCE_DIR}/src/${file} DESTINATION ${LAMBENT_SHADER_DIR}/${folder}
     COMPONENT library)
 endforeach()
+
+install(FILES ${LAMBENT_PORTS_DIR}/lookup.hlsl ${LAMBENT_PORTS_DIR}/lookup.wgsl DESTINATION ${LAMBENT_SHADER_DIR}
+  COMPONENT library)
 
 # Who links a static library links what it is made of, and must find that; a shared one brings it
 # along.

@@ -89,55 +89,56 @@ FrameSettings preview_of(FrameSettings frame) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const RenderOptions& options, const glm::ivec2& size)
-    : options_(options), size_(size), progress_(terminal_progress()) {}
+FrameRenderer::FrameRenderer(const RenderOptions& options, const World& world,
+                             const glm::ivec2& size)
+    : options_(options), world_(world), size_(size), progress_(terminal_progress()) {}
 
 /// Brings the field up to date with the world: the first time from nothing, or from a file.
-Expected<void> FrameRenderer::follow(const World& world, const Camera& camera, Json& stats) {
+Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
   const glm::vec3 viewer(camera.world_from_view[3]);
   if (field_) {
     const int height = std::clamp(kSeenWidth * size_.y / size_.x, 1, kMaxSeenHeight);
-    const std::vector<FieldQuery> seen = visible_points(world, camera, kSeenWidth, height);
-    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms, viewer, seen};
-    update_field(world, options_.frame_updates, request, *field_, progress_, stats);
+    const auto seen = visible_points(world_, camera, kSeenWidth, height);
+    if (!seen) return tl::unexpected(seen.error());
+    const UpdateRequest request{options_.ray_budget, options_.time_budget_ms, viewer, *seen};
+    update_field(world_, options_.frame_updates, request, *field_, progress_, stats);
     return {};
   }
-  Expected<IrradianceField> opened = open_field(options_, world);
+  Expected<IrradianceField> opened = open_field(options_, world_);
   if (!opened) return tl::unexpected(opened.error());
   field_.emplace(std::move(*opened));
   if (options_.converge) {
-    settle_field(world, {0, 0.0, viewer}, *field_, progress_, stats);
+    settle_field(world_, {0, 0.0, viewer}, *field_, progress_, stats);
   } else {
-    update_field(world, options_.updates, {0, 0.0, viewer}, *field_, progress_, stats);
+    update_field(world_, options_.updates, {0, 0.0, viewer}, *field_, progress_, stats);
   }
   return {};
 }
 
 /// Makes the fields of one frame anew: all light, and the first bounce of the lights that the maps
 /// bring, which is taken out. Both trace the same rays, so that noise goes with it.
-Expected<void> FrameRenderer::split_bounces(const World& world, const Camera& camera, Json& stats) {
+Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
   const auto settings =
-      field_settings(options_.field, world.scene(), options_.seed, options_.bounces);
+      field_settings(options_.field, world_.scene(), options_.seed, options_.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> all = make_field(*settings, options_.field, world, 2);
+  Expected<IrradianceField> all = make_field(*settings, options_.field, world_, 2);
   if (!all) return tl::unexpected(all.error());
   field_.emplace(std::move(*all));
   first_bounce_.emplace(
-      *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world)));
-  const FirstBounce lights_alone(world.scene());
+      *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world_)));
+  const FirstBounce lights_alone(world_.scene());
   Json ignored;
   const UpdateRequest request{0, 0.0, glm::vec3(camera.world_from_view[3])};
   update_field(lights_alone.world(), options_.updates, request, *first_bounce_, progress_, ignored);
-  update_field(world, options_.updates, request, *field_, progress_, stats);
+  update_field(world_, options_.updates, request, *field_, progress_, stats);
   return {};
 }
 
 /// Brings the light that the method looks up to date with the world.
-Expected<void> FrameRenderer::light(const World& world, const Camera& camera, Json& stats) {
+Expected<void> FrameRenderer::light(const Camera& camera, Json& stats) {
   if (!uses_field(options_)) return {};
   begin_step("updating the field");
-  return options_.method == "rsm+field" ? split_bounces(world, camera, stats)
-                                        : follow(world, camera, stats);
+  return options_.method == "rsm+field" ? split_bounces(camera, stats) : follow(camera, stats);
 }
 
 FrameSettings FrameRenderer::frame_settings() const {
@@ -150,71 +151,76 @@ FrameSettings FrameRenderer::frame_settings() const {
   return frame;
 }
 
-Expected<RenderedFrame> FrameRenderer::render(const World& world, const Camera& camera,
-                                              const FrameSettings& frame,
-                                              const ProgressFn& progress) const {
-  begin_step("rendering the picture");
+Expected<IndirectSources> FrameRenderer::sources() const {
   const auto rsm = rsm_settings(options_.rsm, options_.method, options_.seed);
   if (!rsm) return tl::unexpected(rsm.error());
   IndirectSources sources;
-  sources.rsm = uses_rsm(options_.method) ? &*rsm : nullptr;
-  sources.rsm_stages = options_.layers && sources.rsm != nullptr;
+  if (uses_rsm(options_.method)) sources.rsm = *rsm;
+  sources.rsm_stages = options_.layers && sources.rsm;
   sources.field = field_ ? &*field_ : nullptr;
   sources.subtracted_field = first_bounce_ ? &*first_bounce_ : nullptr;
-  return render_frame(world, sources, camera, frame, progress);
+  return sources;
 }
 
-Expected<LayeredImage> FrameRenderer::paint(const World& world, const Camera& camera, Json& stats) {
-  if (options_.method == "reference") return paint_by_reference(world, camera, stats);
-  if (const auto lit = light(world, camera, stats); !lit) return tl::unexpected(lit.error());
-  Expected<RenderedFrame> rendered = render(world, camera, frame_settings(), progress_);
-  if (!rendered) return tl::unexpected(rendered.error());
-  book(*rendered, stats);
+Expected<void> FrameRenderer::render(const Camera& camera, const FrameSettings& settings,
+                                     const ProgressFn& progress) {
+  begin_step("rendering the picture");
+  if (!renderer_) {
+    const Expected<IndirectSources> lit_by = sources();
+    if (!lit_by) return tl::unexpected(lit_by.error());
+    renderer_.emplace(world_, *lit_by);
+  }
+  return renderer_->render(camera, settings, frame_, progress);
+}
+
+Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
+  if (options_.method == "reference") {
+    paint_by_reference(camera, stats);
+    return {};
+  }
+  if (const auto lit = light(camera, stats); !lit) return lit;
+  if (const auto done = render(camera, frame_settings(), progress_); !done) return done;
+  book(frame_, stats);
   if (!options_.show_probes.empty()) {
     const ProbeViewSettings view{.aspect = kProbeAspects.at(options_.show_probes)};
-    draw_probes(world, *field_, camera, view, rendered->image);
+    draw_probes(world_, *field_, camera, view, frame_.image);
   }
-  return std::move(rendered->image);
+  return {};
 }
 
-Expected<void> FrameRenderer::paint_to_file(const World& world, const Camera& camera,
-                                            const std::string& path, std::optional<float>& stops,
-                                            Json& stats) {
+Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::string& path,
+                                            std::optional<float>& stops, Json& stats) {
   PictureFile file(options_, path, size_, stops);
   if (!made_in_bands(options_, size_)) {
-    Expected<LayeredImage> image = paint(world, camera, stats);
-    if (!image) return tl::unexpected(image.error());
-    if (const auto written = file.write(std::move(*image)); !written) return written;
+    if (const auto done = paint(camera, stats); !done) return done;
+    if (const auto written = file.write(frame_.image); !written) return written;
     return file.finish();
   }
-  if (const auto lit = light(world, camera, stats); !lit) return lit;
-  FrameSettings frame = frame_settings();
+  if (const auto lit = light(camera, stats); !lit) return lit;
+  FrameSettings settings = frame_settings();
   if (file.needs_stops()) {
-    const Expected<RenderedFrame> small = render(world, camera, preview_of(frame), {});
-    if (!small) return tl::unexpected(small.error());
-    stops = automatic_stops(*small->image.find(""));
+    if (const auto done = render(camera, preview_of(settings), {}); !done) return done;
+    stops = automatic_stops(*frame_.image.find(""));
   }
-  frame.rows = rows_of_a_band(size_);
-  for (; frame.first_row < size_.y; frame.first_row += frame.rows) {
-    frame.rows = std::min(frame.rows, size_.y - frame.first_row);
+  settings.rows = rows_of_a_band(size_);
+  for (; settings.first_row < size_.y; settings.first_row += settings.rows) {
+    settings.rows = std::min(settings.rows, size_.y - settings.first_row);
     const auto of_all = [&](std::string_view stage, double share_done) {
-      progress_(stage, (frame.first_row + share_done * frame.rows) / size_.y);
+      progress_(stage, (settings.first_row + share_done * settings.rows) / size_.y);
     };
-    Expected<RenderedFrame> band =
-        render(world, camera, frame, progress_ ? ProgressFn(of_all) : ProgressFn());
-    if (!band) return tl::unexpected(band.error());
-    book(*band, stats);
-    if (const auto written = file.write(std::move(band->image)); !written) return written;
+    const auto done = render(camera, settings, progress_ ? ProgressFn(of_all) : ProgressFn());
+    if (!done) return done;
+    book(frame_, stats);
+    if (const auto written = file.write(frame_.image); !written) return written;
   }
   return file.finish();
 }
 
-LayeredImage FrameRenderer::paint_by_reference(const World& world, const Camera& camera,
-                                               Json& stats) const {
+void FrameRenderer::paint_by_reference(const Camera& camera, Json& stats) {
   begin_step("tracing paths");
   const int samples = options_.samples > 0 ? options_.samples : kReferenceSamples;
   ReferenceResult result =
-      render_reference(world, camera, reference_settings(options_, size_, samples), progress_);
+      render_reference(world_, camera, reference_settings(options_, size_, samples), progress_);
   stats["samples"] = samples;
   stats["reference_ms"] = result.ms;
   stats["reference_rays"] = result.rays;
@@ -224,18 +230,17 @@ LayeredImage FrameRenderer::paint_by_reference(const World& world, const Camera&
                 "reference: %d samples a pixel, relative standard error %.4f", samples,
                 result.relative_standard_error);
   tell(text.data());
-  return std::move(result.image);
+  frame_.image = std::move(result.image);
 }
 
-Expected<void> FrameRenderer::verify(const World& world, const Camera& camera,
-                                     const LayeredImage& image, Json& stats) const {
+Expected<void> FrameRenderer::verify(const World& world, const Camera& camera, Json& stats) const {
   begin_step("comparing with the reference");
   const ReferenceResult reference = render_reference(
       world, camera, reference_settings(options_, size_, options_.verify_samples), progress_);
   std::printf("error against %d path-traced samples a pixel (their own: %.4f)\n",
               options_.verify_samples, reference.relative_standard_error);
   for (const char* name : {"", "direct", "indirect", "irradiance"}) {
-    const Image* ours = image.find(name);
+    const Image* ours = frame_.image.find(name);
     const Image* truth = reference.image.find(name);
     if (ours == nullptr || truth == nullptr) continue;
     const Expected<Metrics> metrics =

@@ -20,41 +20,42 @@ namespace lambent::cli {
 /// Paints pictures of a world, one after the other, lit by one field that follows the world.
 class FrameRenderer {
  public:
-  /// The options must outlive it.
-  FrameRenderer(const RenderOptions& options, const glm::ivec2& size);
+  /// The options and the world must outlive it.
+  FrameRenderer(const RenderOptions& options, const World& world, const glm::ivec2& size);
 
   /// Of its pictures [pixels].
   const glm::ivec2& size() const { return size_; }
 
-  /// The world as it is now, whole. Times and counts go into `stats`.
-  Expected<LayeredImage> paint(const World& world, const Camera& camera,
-                               nlohmann::ordered_json& stats);
-
-  /// The same into a file. Pictures of many pixels are made and written some rows at a time, where
-  /// the method can. `stops` as of PictureFile.
-  Expected<void> paint_to_file(const World& world, const Camera& camera, const std::string& path,
+  /// Paints the world as it is now into a file. Pictures of many pixels are made and written some
+  /// rows at a time, where the method can. `stops` as of PictureFile. Times and counts go into
+  /// `stats`.
+  Expected<void> paint_to_file(const Camera& camera, const std::string& path,
                                std::optional<float>& stops, nlohmann::ordered_json& stats);
 
-  /// Path-traces the same view and prints the picture's error beside it.
-  Expected<void> verify(const World& world, const Camera& camera, const LayeredImage& image,
+  /// Path-traces the view that was painted last, in a world on the processor, and prints the
+  /// picture's error beside it.
+  Expected<void> verify(const World& world, const Camera& camera,
                         nlohmann::ordered_json& stats) const;
 
  private:
-  Expected<void> light(const World& world, const Camera& camera, nlohmann::ordered_json& stats);
-  Expected<RenderedFrame> render(const World& world, const Camera& camera,
-                                 const FrameSettings& frame, const ProgressFn& progress) const;
+  Expected<void> paint(const Camera& camera, nlohmann::ordered_json& stats);
+  Expected<void> light(const Camera& camera, nlohmann::ordered_json& stats);
+  Expected<IndirectSources> sources() const;
+  Expected<void> render(const Camera& camera, const FrameSettings& settings,
+                        const ProgressFn& progress);
   FrameSettings frame_settings() const;
-  Expected<void> follow(const World& world, const Camera& camera, nlohmann::ordered_json& stats);
-  Expected<void> split_bounces(const World& world, const Camera& camera,
-                               nlohmann::ordered_json& stats);
-  LayeredImage paint_by_reference(const World& world, const Camera& camera,
-                                  nlohmann::ordered_json& stats) const;
+  Expected<void> follow(const Camera& camera, nlohmann::ordered_json& stats);
+  Expected<void> split_bounces(const Camera& camera, nlohmann::ordered_json& stats);
+  void paint_by_reference(const Camera& camera, nlohmann::ordered_json& stats);
 
   const RenderOptions& options_;
+  const World& world_;
   glm::ivec2 size_;
   ProgressFn progress_;
   std::optional<IrradianceField> field_;         // after the first picture
   std::optional<IrradianceField> first_bounce_;  // what is taken out of it, of rsm+field
+  std::optional<Renderer> renderer_;             // refers to both
+  RenderedFrame frame_;
 };
 
 }  // namespace lambent::cli

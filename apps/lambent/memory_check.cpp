@@ -118,7 +118,7 @@ Expected<void> check_comparison_memory(const glm::ivec2& size, std::uint64_t ava
 }
 
 int host_rays(const FieldSettings& settings, const World& world) {
-  return world.on_device() == nullptr ? settings.rays_per_probe : 0;
+  return world.device() == nullptr ? settings.rays_per_probe : 0;
 }
 
 Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,

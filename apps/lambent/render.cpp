@@ -35,20 +35,13 @@ Expected<void> render_picture(const RenderOptions& options, const World& world,
                               const Camera& camera, FrameRenderer& renderer, Json& stats) {
   std::optional<float> stops;
   if (const auto made = make_folders(options.output); !made) return made;
-  Expected<LayeredImage> image;  // what --verify compares
-  if (options.verify_samples > 0) {
-    image = renderer.paint(world, camera, stats);
-    if (!image) return tl::unexpected(image.error());
-  }
-  const auto done = options.verify_samples > 0
-                        ? write_output(options, *image, options.output, stops)
-                        : renderer.paint_to_file(world, camera, options.output, stops, stats);
+  const auto done = renderer.paint_to_file(camera, options.output, stops, stats);
   if (!done) return done;
   tell_written(options.output, pixels_text(renderer.size().x, renderer.size().y),
                stops ? exposure_text(*stops) : "");
   if (options.verify_samples == 0) return {};
-  if (world.on_device() == nullptr) return renderer.verify(world, camera, *image, stats);
-  return renderer.verify(World(world.scene()), camera, *image, stats);
+  if (world.device() == nullptr) return renderer.verify(world, camera, stats);
+  return renderer.verify(World(world.scene()), camera, stats);
 }
 
 /// The animation that the options name; -1: all of them.
@@ -112,7 +105,7 @@ Expected<void> render(const RenderOptions& options) {
   stats["build_ms"] = world.build_ms();
   stats["acceleration_structure_bytes"] = world.bytes();
 
-  FrameRenderer renderer(options, *size);
+  FrameRenderer renderer(options, world, *size);
   const Expected<void> done =
       options.frames > 0
           ? render_sequence(options, *scene, *animation, *view, world, renderer, stats)

@@ -92,9 +92,9 @@ bool PictureFile::needs_stops() const {
   return !stops_ && !has_ending(path_, ".exr") && pixels_of(size_) > kKeptPixels;
 }
 
-Expected<void> PictureFile::write(LayeredImage rows) {
+Expected<void> PictureFile::write(const LayeredImage& rows) {
   if (!has_ending(path_, ".exr")) {
-    Image& picture = *rows.find("");
+    const Image& picture = *rows.find("");
     if (stops_) return show(picture);
     if (kept_.empty()) {
       kept_ = Image(size_.x, 0, picture.channels);
@@ -104,9 +104,11 @@ Expected<void> PictureFile::write(LayeredImage rows) {
     kept_.pixels.insert(kept_.pixels.end(), picture.pixels.begin(), picture.pixels.end());
     return {};
   }
-  if (!options_.layers) {
-    std::erase_if(rows.layers, [](const Layer& layer) { return !layer.name.empty(); });
-  }
+  if (options_.layers) return write_exr_rows(rows);
+  return write_exr_rows({rows.width, rows.height, {{"", *rows.find("")}}});
+}
+
+Expected<void> PictureFile::write_exr_rows(const LayeredImage& rows) {
   if (!exr_) {
     Expected<ExrWriter> opened = ExrWriter::open(path_, rows, size_.y);
     if (!opened) return tl::unexpected(opened.error());
@@ -153,13 +155,6 @@ Expected<void> PictureFile::finish() {
     if (const auto shown = show(kept_); !shown) return shown;
   }
   return png_ ? png_->finish() : jpeg_->finish();
-}
-
-Expected<void> write_output(const RenderOptions& options, const LayeredImage& image,
-                            const std::string& path, std::optional<float>& stops) {
-  PictureFile file(options, path, {image.width, image.height}, stops);
-  if (const auto written = file.write(image); !written) return written;
-  return file.finish();
 }
 
 }  // namespace lambent::cli

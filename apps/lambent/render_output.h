@@ -37,18 +37,20 @@ float automatic_stops(const Image& picture);
 /// A picture's file, written from the top, some rows at a time or all at once.
 class PictureFile {
  public:
-  /// The options and `stops` must outlive it. `stops` as of write_output.
+  /// The options and `stops` must outlive it. `stops` is the exposure of a .png or .jpg; none: it
+  /// is set to what the options ask for, so that the pictures of a sequence share one.
   PictureFile(const RenderOptions& options, std::string path, const glm::ivec2& size,
               std::optional<float>& stops);
 
   /// Whether the stops must be known before the first row, for want of memory to keep all rows.
   bool needs_stops() const;
   /// The next rows.
-  Expected<void> write(LayeredImage rows);
+  Expected<void> write(const LayeredImage& rows);
   /// After the last row. Without it there is no file.
   Expected<void> finish();
 
  private:
+  Expected<void> write_exr_rows(const LayeredImage& rows);
   Expected<void> show(const Image& rows);
   Expected<void> add(const Image& shown);
 
@@ -61,10 +63,5 @@ class PictureFile {
   std::optional<JpegWriter> jpeg_;
   Image kept_;  // rows that wait for the stops
 };
-
-/// Writes a picture as the options say. `stops` is the exposure of a .png or .jpg; none: it is set
-/// to what the options ask for, so that the pictures of a sequence share one.
-Expected<void> write_output(const RenderOptions& options, const LayeredImage& image,
-                            const std::string& path, std::optional<float>& stops);
 
 }  // namespace lambent::cli

@@ -47,7 +47,7 @@ Expected<void> render_sequence(const RenderOptions& options, Scene& scene, int a
     frame["changed_lights"] = changes->lights.size();
     written.push_back(frame_path(options.output, i));
     if (const auto made = make_folders(written.back()); !made) return made;
-    const auto done = renderer.paint_to_file(world, view.camera, written.back(), stops, frame);
+    const auto done = renderer.paint_to_file(view.camera, written.back(), stops, frame);
     if (!done) return done;
   }
   tell_written(written, pixels_text(renderer.size().x, renderer.size().y),

@@ -118,8 +118,9 @@ Expected<View> choose_view(const StageOptions& options, const World& world, floa
                 View::From::options};
   }
   if (options.camera.empty() && scene.cameras.empty()) {
-    const FirstView view = first_view(world, {vertical_fov, aspect});
-    return View{view.camera, view.inside ? View::From::inside : View::From::outside};
+    const Expected<FirstView> view = first_view(world, {vertical_fov, aspect});
+    if (!view) return tl::unexpected(view.error());
+    return View{view->camera, view->inside ? View::From::inside : View::From::outside};
   }
   const Expected<Camera> camera = camera_of_scene(options, scene);
   if (!camera) return tl::unexpected(camera.error());

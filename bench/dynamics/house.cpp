@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "bench/dynamics/subject.h"
+#include "field/field_access.h"
 #include "field/probes/probe_store.h"
 
 namespace lambent::dynamics {
@@ -18,7 +19,7 @@ constexpr double kChange = 0.01;
 
 /// Mean luminance of each probe's tile.
 std::vector<double> probe_light(const IrradianceField& field) {
-  const ProbeStore& store = field.store();
+  const ProbeStore& store = store_of(field);
   const int edge = store.irradiance_texels();
   std::vector<double> light(store.probes());
   for (int probe = 0; probe < store.probes(); ++probe) {

@@ -51,7 +51,8 @@ void Subject::move(const std::string& instance, const glm::vec3& by) {
 }
 
 std::vector<FieldQuery> seen_points(const Subject& subject, int pixels_across) {
-  return visible_points(subject.world, subject.scene.cameras.front(), pixels_across, pixels_across);
+  return visible_points(subject.world, subject.scene.cameras.front(), pixels_across, pixels_across)
+      .value();
 }
 
 std::vector<double> light_at(const IrradianceField& field, std::span<const FieldQuery> points) {

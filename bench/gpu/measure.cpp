@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <stdexcept>
 #include <utility>
 
 #include "lambent/field.h"
@@ -72,9 +73,11 @@ UpdateTimes time_updates(const World& world, IrradianceField& field, int frames,
 std::map<std::string, Median> time_frames(const World& world, const IndirectSources& sources,
                                           const FrameSettings& settings, int frames) {
   std::map<std::string, Median> passes;
+  Renderer renderer(world, sources);
+  RenderedFrame rendered;
   for (int frame = -kWarmUp; frame < frames; ++frame) {
-    const RenderedFrame rendered =
-        render_frame(world, sources, world.scene().cameras.at(0), settings);
+    const auto done = renderer.render(world.scene().cameras.at(0), settings, rendered);
+    if (!done) throw std::runtime_error(done.error().message());
     if (frame < 0) continue;
     for (const PassTime& pass : rendered.passes) passes[pass.name].add(pass.ms);
   }
@@ -158,8 +161,8 @@ class Bench {
   void maps() {
     const RsmSettings interleaved, plain = plain_gather();
     const double fast =
-        gathering(time_frames(world_, {.rsm = &interleaved}, frame_, options_.frames));
-    const double slow = gathering(time_frames(world_, {.rsm = &plain}, frame_, options_.frames));
+        gathering(time_frames(world_, {.rsm = interleaved}, frame_, options_.frames));
+    const double slow = gathering(time_frames(world_, {.rsm = plain}, frame_, options_.frames));
     add("RSM, 1,024 texels a pixel: plain", slow);
     add("RSM, interleaved, all stages", fast);
     rows_.push_back(

@@ -43,7 +43,8 @@ std::vector<Result> find_results(const World& world) {
   FrameSettings frame;
   frame.width = kWidth;
   frame.height = kHeight;
-  const LayeredImage by_field = render_frame(world, &field, camera, frame).image;
+  const LayeredImage by_field =
+      Renderer(world, {.field = &field}).render(camera, frame).value().image;
   for (const char* layer : {"", "direct", "irradiance", "indirect"}) {
     results.push_back(
         {std::string("field ") + (*layer == 0 ? "picture" : layer), by_field.find(layer)->pixels});
@@ -65,8 +66,7 @@ std::vector<Result> find_results(const World& world) {
   RsmSettings rsm;
   rsm.resolution = kMapResolution;
   rsm.texels = 0;
-  const LayeredImage by_maps =
-      render_frame(world, IndirectSources{.rsm = &rsm}, camera, frame).image;
+  const LayeredImage by_maps = Renderer(world, {.rsm = rsm}).render(camera, frame).value().image;
   results.push_back({"rsm irradiance", by_maps.find("irradiance")->pixels});
   return results;
 }

@@ -18,10 +18,6 @@
 namespace lambent {
 
 class World;
-class ProbeStore;
-class DeviceLookups;
-struct ProbeStatus;
-struct LoadedField;
 
 /// How a probe's irradiance is stored. All three conserve light: they round without bias.
 enum class IrradianceFormat : std::uint8_t {
@@ -146,8 +142,8 @@ struct UpdateRequest {
   /// whose light is least settled go first, with 32 to 512 rays each as their noise asks for, and
   /// settled ones rest.
   std::uint64_t ray_budget = 0;
-  /// Wall-clock time to take [ms], > 0; 0: no bound. The field learns how many rays that allows;
-  /// the smaller of both bounds holds.
+  /// Wall-clock time to take [ms]; no bound where it is not above 0. The field learns how many rays
+  /// that allows; the smaller of both bounds holds.
   double time_budget_ms = 0.0;
   /// Where the camera is [m]: of probes equally unsettled, near ones go first, and cascades follow.
   /// Numbers that are not finite are as if there were none.
@@ -239,19 +235,9 @@ class IrradianceField {
   std::size_t store_bytes() const;
   /// Bytes of the last update's surfels, kept to solve for the light again.
   std::size_t surfel_bytes() const;
-  /// The probes' store, for tools that look inside.
-  const ProbeStore& store() const;
-  /// The state and history of each probe, for tools that look inside.
-  std::span<const ProbeStatus> probe_statuses() const;
-  /// Looks the field up in a device's memory, for passes there. Null where the processor's memory
-  /// holds the field.
-  const DeviceLookups* on_device() const;
 
  private:
-  friend Expected<void> save_field(const std::string& path, const IrradianceField& field,
-                                   const World& world);
-  friend Expected<LoadedField> load_field(const std::string& path, const FieldSettings& settings,
-                                          const World& world);
+  friend struct FieldAccess;
   struct State;
   explicit IrradianceField(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "lambent/error.h"
 #include "lambent/scene.h"
 
 namespace lambent {
@@ -27,7 +28,8 @@ struct FirstView {
 /// Finds a camera by what it would show: from outside, a three-quarter view of the whole object; or
 /// at eye height in open space, where the scene is a shell around most of what it holds
 /// (docs/cli.md tells the rules). Traces some 20,000 rays. The same world gives the same view.
-FirstView first_view(const World& world, const FirstViewSettings& settings = {});
+/// Fails on settings out of range.
+Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
 
 /// Light for scenes that bring none.
 enum class FirstLight : std::uint8_t {

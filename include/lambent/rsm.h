@@ -13,7 +13,7 @@
 
 #include "lambent/error.h"
 #include "lambent/image.h"
-#include "lambent/renderer.h"
+#include "lambent/pass_time.h"
 #include "lambent/scene.h"
 
 namespace lambent {
@@ -123,17 +123,20 @@ struct ReflectiveShadowMap {
 
 /// The map of a light. Directional: orthographic, fitted to the scene; spot: perspective, as wide
 /// as the cone, or octahedral where that is wider than 120 degrees; point: octahedral. A light that
-/// meets nothing has a map without flux. Settings must be in range. Runs on all cores.
-ReflectiveShadowMap render_rsm(const World& world, const Light& light, const RsmSettings& settings);
+/// meets nothing has a map without flux. Fails on settings out of range, and on a light that
+/// validate refuses in a scene. Runs on all cores.
+Expected<ReflectiveShadowMap> render_rsm(const World& world, const Light& light,
+                                         const RsmSettings& settings);
 
-/// The map of what the camera sees, `aspect` its width over height, lit by all lights and emissive
-/// surfaces.
-ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float aspect,
-                               const RsmSettings& settings);
+/// The map of what the camera sees, `aspect` its width over height, > 0, lit by all lights and
+/// emissive surfaces. Fails on settings and an aspect out of range, and on a camera that validate
+/// refuses in a scene.
+Expected<ReflectiveShadowMap> render_rsm(const World& world, const Camera& camera, float aspect,
+                                         const RsmSettings& settings);
 
-/// The maps that the settings ask for: one a light, or the camera's.
-std::vector<ReflectiveShadowMap> render_rsms(const World& world, const Camera& camera, float aspect,
-                                             const RsmSettings& settings);
+/// The maps that the settings ask for: one a light, or the camera's. Fails as render_rsm does.
+Expected<std::vector<ReflectiveShadowMap>> render_rsms(const World& world, const Camera& camera,
+                                                       float aspect, const RsmSettings& settings);
 
 /// What the camera sees, rows from the top; each span has width * height entries. The caller owns
 /// all of them.
@@ -165,10 +168,12 @@ class RsmGatherer {
   RsmGatherer& operator=(RsmGatherer&&) noexcept;
 
   /// Gathers the light of all maps at each pixel of the view into `result`, whose memory is used
-  /// again. The world is asked for visibility alone. Settings must be in range. Runs on all cores;
-  /// the same inputs give the same bits on any number of threads.
-  void gather(const World& world, std::span<const ReflectiveShadowMap> maps, const RsmView& view,
-              const RsmSettings& settings, RsmIrradiance& result, bool keep_stages = false);
+  /// again. The world is asked for visibility alone. Fails on settings out of range, and on a view
+  /// without pixels or whose spans are of other lengths. Runs on all cores; the same inputs give
+  /// the same bits on any number of threads.
+  Expected<void> gather(const World& world, std::span<const ReflectiveShadowMap> maps,
+                        const RsmView& view, const RsmSettings& settings, RsmIrradiance& result,
+                        bool keep_stages = false);
 
  private:
   struct Buffers;

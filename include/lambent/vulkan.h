@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vulkan devices that fields and frames can be computed on. Needs no Vulkan headers; what engines
-// record into command buffers of their own is in vulkan_field.h.
+// Vulkan devices that fields and frames can be computed on. Needs no Vulkan headers; devices
+// that engines lend are in vulkan_device.h.
 #pragma once
 
 #include <cstdint>

@@ -1,76 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field that an engine records into command buffers of its own, on its own Vulkan device, with
-// its own rays and its own shading: docs/integration.md. The only public header that needs Vulkan's
-// headers; where there are none it declares nothing.
+// its own rays and its own shading: docs/integration.md. Needs Vulkan's headers; where there are
+// none it declares nothing.
 #pragma once
 
 #if __has_include(<vulkan/vulkan_core.h>)
 #include <vulkan/vulkan_core.h>
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "lambent/error.h"
 #include "lambent/field.h"
-#include "lambent/vulkan.h"
+#include "lambent/pass_time.h"
+#include "lambent/vulkan_device.h"
 #include "lambent/world.h"
 
 namespace lambent::vulkan {
-
-/// Device extensions that an engine turns on, besides Vulkan 1.2.
-inline constexpr std::array kRequiredExtensions = {"VK_KHR_acceleration_structure",
-                                                   "VK_KHR_ray_tracing_pipeline",
-                                                   "VK_KHR_deferred_host_operations"};
-
-/// The features that an engine turns on, as a chain for VkDeviceCreateInfo::pNext that begins with
-/// `core`. What the engine wants besides is set in these structs or chained behind the last, whose
-/// pNext is null.
-struct RequiredFeatures {
-  RequiredFeatures();
-  RequiredFeatures(const RequiredFeatures&) = delete;
-  RequiredFeatures& operator=(const RequiredFeatures&) = delete;
-
-  VkPhysicalDeviceFeatures2 core;
-  VkPhysicalDeviceVulkan12Features vulkan12;
-  VkPhysicalDeviceAccelerationStructureFeaturesKHR acceleration_structure;
-  VkPhysicalDeviceRayTracingPipelineFeaturesKHR ray_tracing_pipeline;  ///< The last.
-
-  /// Turns on what is needed.
-  void request();
-  /// Names of what is needed and these, as filled in by the driver, lack. Of fresh ones: of all
-  /// that is needed.
-  std::vector<std::string> missing() const;
-};
-
-/// What an engine lends. The device was made with kRequiredExtensions and RequiredFeatures, and
-/// outlives all that is made on it.
-struct LentDevice {
-  PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;  ///< Null: the system's loader.
-  VkInstance instance = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_device = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  /// Takes compute. Used while something is made on the device, never while it records: nobody else
-  /// may submit to it meanwhile.
-  VkQueue queue = VK_NULL_HANDLE;
-  std::uint32_t queue_family = 0;
-};
-
-/// Takes a lent device over without owning it. Fails where something that is needed is missing.
-Expected<std::shared_ptr<Device>> adopt_device(const LentDevice& lent);
-
-/// Part of a buffer.
-struct BufferRange {
-  VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceSize offset = 0;      ///< [bytes]
-  VkDeviceSize bytes = 0;       ///< [bytes]
-  VkDeviceAddress address = 0;  ///< Of its first byte.
-};
 
 struct RecordedFieldSettings {
   /// Updates whose command buffers may be unfinished while the next one is planned and recorded, 1
@@ -100,20 +51,20 @@ struct UpdatePlan {
   float history = 1.0f;
   /// Lets relocation of all probes begin again at once.
   bool place_again = false;
-  /// What differs from the place in which the last update's rays were traced; empty: nothing. Only
-  /// moved, rebuilt, lights, materials, emission and environment are read, and of these whether
-  /// they are empty or not set: an engine may leave boxes and lights as they come to hand. Valid
+  /// What differs from the scene in which the last update's rays were traced; empty: nothing. All
+  /// rays are traced again whatever differs, so that it is only read whether each of moved,
+  /// rebuilt, lights, materials, emission and environment tells of something. Must stay valid
   /// during the call.
   ///
   /// Where all probes are traced at once and bounces are not counted, the change is followed
   /// exactly: the update traces every probe's last rays again (PlannedUpdate::retraces), solves for
-  /// the light of all bounces, and changes just those probes whose light differs visibly. These
-  /// keep of their history what their light still has in common with what it was; the others keep
-  /// all of it, and their bits. Otherwise all averages begin again, as in a new field.
+  /// the light of all bounces, and changes just those probes whose light differs visibly. The more
+  /// the distribution of their light over directions differs, the less their history counts; the
+  /// others keep all of it, and their bits. Otherwise all averages begin again, as in a new field.
   /// Eight updates after static geometry was `rebuilt` last, relocation begins again.
   ///
-  /// An update that traces rays again adds no new ones to the averages: told of changes in every
-  /// update, the field stays exact, and as noisy as it was.
+  /// An update that traces rays again adds no new ones to the averages: a field that is told of
+  /// changes in every update follows each, but does not become less noisy.
   std::span<const WorldChanges> changes = {};
   /// Where the camera is [m]: cascades (FieldSettings::cascades) follow it. None, or numbers that
   /// are not finite: they stay.
@@ -197,8 +148,8 @@ class RecordedField {
   RecordedField(RecordedField&&) noexcept;
   RecordedField& operator=(RecordedField&&) noexcept;
 
-  /// Begins an update.
-  PlannedUpdate plan(const UpdatePlan& update = {});
+  /// Begins an update. Fails where a number of `update` is out of range; nothing has begun then.
+  Expected<PlannedUpdate> plan(const UpdatePlan& update = {});
 
   /// RayRecord (raytracing/ray_records.h), one a ray. A mask of 0: need not be traced, as those of
   /// PlannedUpdate::rays that are more than the device decided on.
@@ -223,6 +174,9 @@ class RecordedField {
   /// [ms], in their order, by the names of UpdateStatistics::passes; none where the device has no
   /// timestamps, and of parts that were not recorded.
   const std::vector<PassTime>& pass_times() const;
+  /// Memory that the field's buffers take on the device and in what the host shares with it
+  /// [bytes], the same for its whole life; pipelines are not counted.
+  std::size_t bytes() const;
   LookupBuffers lookup_buffers() const;
   /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are
   /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.

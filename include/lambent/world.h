@@ -16,10 +16,6 @@ namespace vulkan {
 class Device;
 }
 
-class DeviceWorld;
-class EmissiveTriangles;
-class RayTracer;
-
 /// What World::update found to differ from the update before. That an instance has come to stand at
 /// another place in the scene's list is no change.
 struct WorldChanges {
@@ -82,12 +78,8 @@ class World {
   Bounds instance_bounds(int instance) const;
 
   const Scene& scene() const { return *scene_; }
-  /// What finds hits and occlusion, and what draws points on emissive surfaces: for passes, not
-  /// part of the public interface. Both live as long as the world; the latter until an update.
-  const RayTracer& tracer() const { return *tracer_; }
-  const EmissiveTriangles& emissive() const { return *emissive_; }
-  /// The world as passes on its device find it; null on the processor. For passes, too.
-  const DeviceWorld* on_device() const { return device_.get(); }
+  /// The device that the world is on; null: the processor.
+  std::shared_ptr<vulkan::Device> device() const;
 
   /// Wall-clock time [ms] and memory [bytes] of the acceleration structure.
   double build_ms() const;
@@ -96,12 +88,10 @@ class World {
   double refit_ms() const;
 
  private:
-  struct History;
+  friend struct WorldAccess;
+  struct State;
   const Scene* scene_;
-  std::unique_ptr<EmissiveTriangles> emissive_;
-  std::shared_ptr<DeviceWorld> device_;
-  std::shared_ptr<RayTracer> tracer_;  // the device's, where there is one
-  std::unique_ptr<History> history_;
+  std::unique_ptr<State> state_;
 };
 
 /// Bounds of the scene's open space: world_bounds less the walls that close it off, so that a field

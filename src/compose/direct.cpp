@@ -4,6 +4,7 @@
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
 #include "raytracing/direct_light.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
@@ -51,7 +52,7 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                      });
     }
     std::vector<std::uint8_t> occluded(shadows.size());
-    world.tracer().occlusions(shadows, occluded);
+    tracer_of(world).occlusions(shadows, occluded);
     for (std::size_t k = 0; k < pending.size(); ++k) {
       if (occluded[k] != 0) continue;
       light.diffuse[pending[k].pixel] += pending[k].diffuse;

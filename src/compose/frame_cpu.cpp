@@ -4,20 +4,22 @@
 #include <optional>
 
 #include "compose/frame_passes.h"
+#include "compose/layers.h"
 #include "compose/pixel_math.h"
 #include "compose/rsm_frame.h"
 #include "core/parallel.h"
 #include "core/pass_times.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
-#include "scene/light_sampling.h"
+#include "scene/environment_sampling.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kPixelsPerTask = 4096;
+constexpr std::size_t kFloatsPerTask = std::size_t{1} << 18;  // to clear
 
-/// The frame's layers, with quick access to each; all zero at the start.
+/// The frame's layers, with quick access to each.
 struct Layers {
   explicit Layers(LayeredImage& image)
       : all(image, "", 3),
@@ -44,14 +46,18 @@ void add(Layers::Pixels& layer, std::size_t pixel, const vec3& value) {
   for (int c = 0; c < 3; ++c) layer.data[3 * pixel + c] += value[c];
 }
 
-/// Irradiance of the field at each pixel, on a surface that faces along normal(pixel).
+/// Irradiance of the field at each pixel, on a surface that faces along normal(pixel); `queries` is
+/// memory to ask in.
 template <class Normal>
 void look_up(const World& world, const IrradianceField& field, const GBuffer& gbuffer,
-             Normal normal, std::vector<vec3>& irradiance) {
-  std::vector<FieldQuery> queries(gbuffer.size());
+             Normal normal, std::vector<FieldQuery>& queries, std::vector<vec3>& irradiance) {
+  queries.resize(gbuffer.size());
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (gbuffer.hit[i] == 0) continue;
+      if (gbuffer.hit[i] == 0) {
+        queries[i] = {};
+        continue;
+      }
       queries[i] = {gbuffer.surfaces[i].position_ws, normal(i), gbuffer.to_viewer_ws[i]};
     }
   });
@@ -120,105 +126,131 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
   });
 }
 
+/// Gives an image a frame's layers, all zero.
+void start_layers(const FrameSettings& settings, LayeredImage& image) {
+  shape_layers(settings.width, rendered_rows(settings).rows, image);
+  for (Layer& layer : image.layers) {
+    std::vector<float>& pixels = layer.image.pixels;
+    parallel_chunks(pixels.size(), kFloatsPerTask, [&](std::size_t begin, std::size_t end) {
+      std::fill(pixels.data() + begin, pixels.data() + end, 0.0f);
+    });
+  }
+}
+
 class FramePassesCpu final : public FramePasses {
  public:
-  explicit FramePassesCpu(const FrameRequest& request)
-      : request_(request), timer_(frame_.passes), layers_(prepared(frame_.image, request)) {}
+  void begin(const FrameRequest& request, RenderedFrame& frame) override {
+    frame.passes.clear();
+    frame.rays = 0;
+    start_layers(request.settings, frame.image);
+    now_.emplace(request, frame);
+  }
 
   void rsm() override {
-    rsm_ = light_by_rsm(request_.world, request_.camera, request_.settings, *request_.sources.rsm,
-                        request_.sources.rsm_stages);
-    frame_.rays += rsm_->light.rays;
-    timer_.finish("rsm");
+    light_by_rsm(request(), rsm_);
+    now_->frame.rays += rsm_.light.rays;
+    now_->made_maps = true;
+    finish_pass("rsm");
   }
 
   void gbuffer(const Band& band, int sample) override {
     band_ = band;
     sample_ = sample;
-    trace_gbuffer(request_.world, request_.camera, request_.settings, band, sample, gbuffer_);
-    frame_.rays += gbuffer_.size();
-    timer_.finish("gbuffer");
+    trace_gbuffer(request().world, request().camera, request().settings, band, sample, gbuffer_);
+    now_->frame.rays += gbuffer_.size();
+    finish_pass("gbuffer");
   }
 
   void direct() override {
-    frame_.rays +=
-        shade_direct(request_.world, gbuffer_, request_.settings, band_, sample_, light_.direct);
-    timer_.finish("direct");
+    now_->frame.rays +=
+        shade_direct(request().world, gbuffer_, request().settings, band_, sample_, light_.direct);
+    finish_pass("direct");
   }
 
   void indirect() override {
-    const IndirectSources& sources = request_.sources;
+    const World& world = request().world;
+    const FrameSettings& settings = request().settings;
+    const IndirectSources& sources = request().sources;
     const auto normal_at = [&](std::size_t i) { return gbuffer_.surfaces[i].normal_ws; };
-    if (request_.settings.gather_rays > 0) {
-      frame_.rays += gather_irradiance(request_.world, *sources.field, gbuffer_, request_.settings,
-                                       band_, sample_, light_.irradiance);
+    if (settings.gather_rays > 0) {
+      now_->frame.rays += gather_irradiance(world, *sources.field, gbuffer_, settings, band_,
+                                            sample_, light_.irradiance);
     } else {
-      look_up(request_.world, *sources.field, gbuffer_, normal_at, light_.irradiance);
+      look_up(world, *sources.field, gbuffer_, normal_at, queries_, light_.irradiance);
     }
     if (sources.subtracted_field != nullptr) {
-      look_up(request_.world, *sources.subtracted_field, gbuffer_, normal_at, subtracted_);
+      look_up(world, *sources.subtracted_field, gbuffer_, normal_at, queries_, subtracted_);
     }
-    timer_.finish("indirect");
+    finish_pass("indirect");
   }
 
   void glossy() override {
-    look_up(
-        request_.world, *request_.sources.field, gbuffer_,
-        [&](std::size_t i) {
-          return reflect(-gbuffer_.to_viewer_ws[i], gbuffer_.surfaces[i].normal_ws);
-        },
-        light_.mirror_irradiance);
-    timer_.finish("glossy");
+    const auto mirrored_at = [&](std::size_t i) {
+      return reflect(-gbuffer_.to_viewer_ws[i], gbuffer_.surfaces[i].normal_ws);
+    };
+    look_up(request().world, *request().sources.field, gbuffer_, mirrored_at, queries_,
+            light_.mirror_irradiance);
+    finish_pass("glossy");
   }
 
   void rsm_upsample() override {
-    const bool alone = request_.sources.field == nullptr;
-    look_up_rsm(*rsm_, gbuffer_, request_.camera, request_.settings.width, band_, from_maps_);
+    const bool alone = request().sources.field == nullptr;
+    look_up_rsm(rsm_, gbuffer_, request().camera, request().settings.width, band_, from_maps_);
     if (alone) light_.irradiance.clear();
     replace_light(subtracted_, from_maps_, light_.irradiance);
     if (alone) light_.mirror_irradiance = light_.irradiance;
-    timer_.finish("rsm.upsample");
+    finish_pass("rsm.upsample");
   }
 
   void compose(float share) override {
-    const FrameSettings& settings = request_.settings;
+    const FrameSettings& settings = request().settings;
     const int first_row = band_.first_row - rendered_rows(settings).first_row;
     const std::size_t first_pixel = static_cast<std::size_t>(first_row) * settings.width;
-    accumulate(request_.world, request_.camera, gbuffer_, light_, first_pixel, share, layers_);
-    timer_.finish("compose");
+    accumulate(request().world, request().camera, gbuffer_, light_, first_pixel, share,
+               now_->layers);
+    finish_pass("compose");
   }
 
-  void finish(RenderedFrame& frame) override {
-    frame = std::move(frame_);
-    if (!rsm_) return;
-    for (Layer& layer : rsm_->layers) frame.image.layers.push_back(std::move(layer));
-    frame.passes.insert(frame.passes.end(), rsm_->light.passes.begin(), rsm_->light.passes.end());
+  void finish() override {
+    RenderedFrame& frame = now_->frame;
+    if (now_->made_maps) {
+      for (Layer& layer : rsm_.layers) frame.image.layers.push_back(std::move(layer));
+      frame.passes.insert(frame.passes.end(), rsm_.light.passes.begin(), rsm_.light.passes.end());
+    }
+    now_.reset();
   }
 
  private:
-  /// The image, of the rendered rows.
-  static LayeredImage& prepared(LayeredImage& image, const FrameRequest& request) {
-    image.width = request.settings.width;
-    image.height = rendered_rows(request.settings).rows;
-    return image;
-  }
+  /// The frame that is being made.
+  struct Now {
+    Now(const FrameRequest& asked, RenderedFrame& made)
+        : request(asked), frame(made), timer(made.passes), layers(made.image) {}
+    const FrameRequest& request;
+    RenderedFrame& frame;
+    PassTimer timer;
+    Layers layers;
+    bool made_maps = false;
+  };
 
-  FrameRequest request_;
-  RenderedFrame frame_;
-  PassTimer timer_;
-  Layers layers_;
-  std::optional<RsmFrame> rsm_;
+  const FrameRequest& request() const { return now_->request; }
+  void finish_pass(const char* name) { now_->timer.finish(name); }
+
+  std::optional<Now> now_;
   Band band_;
   int sample_ = 0;
+
+  // From frame to frame; the memory of a band's pixels, and of the maps and their light
+  RsmFrame rsm_;
   GBuffer gbuffer_;
   BandLight light_;
+  std::vector<FieldQuery> queries_;
   std::vector<vec3> subtracted_, from_maps_;
 };
 
 }  // namespace
 
-std::unique_ptr<FramePasses> make_frame_passes_cpu(const FrameRequest& request) {
-  return std::make_unique<FramePassesCpu>(request);
+std::unique_ptr<FramePasses> make_frame_passes_cpu() {
+  return std::make_unique<FramePassesCpu>();
 }
 
 }  // namespace lambent

@@ -20,10 +20,9 @@ FrameKernels::FrameKernels(const vulkan::Device& device)
       gather_sum(device, shaders::gather_sum_comp(), "gather sum"),
       replace_light(device, shaders::replace_light_comp(), "replace light"),
       view_geometry(device, shaders::view_geometry_comp(), "view geometry"),
-      compose(device, shaders::compose_comp(), "compose"),
-      pixel_shading(device),
-      gather_shading(device),
-      mapper(device),
-      rsm(device) {}
+      compose(device, shaders::compose_comp(), "compose") {}
+
+FrameMemory::FrameMemory(const vulkan::Device& device)
+    : pixel_shading(device), gather_shading(device), mapper(device), rsm(device) {}
 
 }  // namespace lambent

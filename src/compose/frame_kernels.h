@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels of frames, and memory that one frame after the other uses.
+// Kernels of frames on a device, and the memory that a renderer keeps there.
 #pragma once
 
 #include <mutex>
@@ -13,14 +13,19 @@
 
 namespace lambent {
 
-/// Kept by the device (Device::kept); one frame at a time, which holds the lock.
+/// Kept by the device (Device::kept).
 struct FrameKernels {
   explicit FrameKernels(const vulkan::Device& device);
 
-  std::mutex in_use;
-
+  std::mutex in_use;  ///< Frames on a device take turns.
   vulkan::Kernel camera_rays, pixel_queries, gather_rays, ray_queries, gather_sum, replace_light,
       view_geometry, compose;
+};
+
+/// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
+struct FrameMemory {
+  explicit FrameMemory(const vulkan::Device& device);
+
   HitShading pixel_shading, gather_shading;
   RsmMapperVulkan mapper;
   RsmGathererVulkan rsm;

@@ -10,7 +10,9 @@
 
 namespace lambent {
 
-/// What a frame is made of.
+class DeviceWorld;
+
+/// What a frame is made of; all of it in range.
 struct FrameRequest {
   const World& world;
   const IndirectSources& sources;
@@ -18,13 +20,16 @@ struct FrameRequest {
   const FrameSettings& settings;
 };
 
-/// Passes over bands of rows. Each call leaves its result for those that follow, and its rays and
-/// time in the frame that `finish` fills. All live as long as the frame is made.
+/// Passes over bands of rows, of one frame after the other: always of the same world and sources.
+/// Each call leaves its result for those that follow, and its rays and time in the frame.
 class FramePasses {
  public:
   virtual ~FramePasses() = default;
 
-  /// Once, before all bands: reflective shadow maps and what they light.
+  /// Starts a frame, whose layers, rays and times are cleared. Both live until `finish`.
+  virtual void begin(const FrameRequest& request, RenderedFrame& frame) = 0;
+  /// Before all bands: reflective shadow maps and what they light. Left out where those of the
+  /// frame before serve this one, too.
   virtual void rsm() = 0;
   /// What the camera sees in a band, one sample a pixel; starts the band's sample.
   virtual void gbuffer(const Band& band, int sample) = 0;
@@ -38,12 +43,12 @@ class FramePasses {
   virtual void rsm_upsample() = 0;
   /// Adds the band's sample to the layers, with a share of the pixels' light.
   virtual void compose(float share) = 0;
-  /// After all bands: layers, rays and times.
-  virtual void finish(RenderedFrame& frame) = 0;
+  /// After all bands: layers, rays and times are in the frame.
+  virtual void finish() = 0;
 };
 
-std::unique_ptr<FramePasses> make_frame_passes_cpu(const FrameRequest& request);
+std::unique_ptr<FramePasses> make_frame_passes_cpu();
 /// For worlds on a device.
-std::unique_ptr<FramePasses> make_frame_passes_vulkan(const FrameRequest& request);
+std::unique_ptr<FramePasses> make_frame_passes_vulkan(const DeviceWorld& world);
 
 }  // namespace lambent

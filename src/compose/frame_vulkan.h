@@ -18,8 +18,9 @@ namespace lambent {
 
 class FramePassesVulkan final : public FramePasses {
  public:
-  explicit FramePassesVulkan(const FrameRequest& request);
+  explicit FramePassesVulkan(const DeviceWorld& world);
 
+  void begin(const FrameRequest& request, RenderedFrame& frame) override;
   void rsm() override;
   void gbuffer(const Band& band, int sample) override;
   void direct() override;
@@ -27,7 +28,7 @@ class FramePassesVulkan final : public FramePasses {
   void glossy() override;
   void rsm_upsample() override;
   void compose(float share) override;
-  void finish(RenderedFrame& frame) override;
+  void finish() override;
 
  private:
   using Buffer = vulkan::Buffer;
@@ -57,18 +58,23 @@ class FramePassesVulkan final : public FramePasses {
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, const Buffer& irradiance);
   void gather();
+  void read_layers(LayeredImage& image);
 
-  FrameRequest request_;
   const DeviceWorld& world_;
   const vulkan::Device& device_;
   FrameKernels& kernels_;
-  std::unique_lock<std::mutex> turn_;  // frames on a device take turns
+  FrameMemory memory_;
   vulkan::Timestamps timestamps_;
   Buffer shadow_rays_[2];  // of pixels, and of what gathering rays met
-  std::vector<Step> steps_;
-  RenderedFrame frame_;
-  std::vector<Layer> stage_layers_;
+  std::vector<PixelLayers> pixel_layers_;
   RsmViewOnDevice small_;  // the view that maps light
+
+  // Of the frame that is being made
+  std::unique_lock<std::mutex> turn_;
+  const FrameRequest* request_ = nullptr;
+  RenderedFrame* frame_ = nullptr;
+  std::vector<Step> steps_;
+  std::vector<Layer> stage_layers_;
   Band band_;
   std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
   std::uint32_t first_layer_pixel_ = 0;         // of the rendered rows

@@ -6,6 +6,7 @@
 #include "compose/frame_vulkan.h"
 #include "compose/rsm_frame.h"
 #include "core/stopwatch.h"
+#include "field/field_access.h"
 #include "field/field_backend.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
@@ -25,10 +26,10 @@ constexpr std::uint32_t kViewPixels = 1u << 18;
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count,
                                 const Buffer& irradiance) {
-  const DeviceLookups* there = field.on_device();
-  if (there != nullptr && there->is_on(request_.world)) {
+  const DeviceLookups* there = device_lookups_of(field);
+  if (there != nullptr && there->is_on(request_->world)) {
     add(name, [this, there, &queries, &irradiance, count](Recorder& to) {
-      there->record_lookups(to, &request_.world, queries.address(), count, irradiance.address());
+      there->record_lookups(to, &request_->world, queries.address(), count, irradiance.address());
     });
     return;
   }
@@ -36,116 +37,116 @@ void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
   std::vector<FieldQuery> asked(count);
   std::vector<vec3> answers(count);
   vulkan::read(device_, queries, std::span(asked));
-  field.irradiance(asked, answers, &request_.world);
+  field.irradiance(asked, answers, &request_->world);
   vulkan::write(device_, std::span<const vec3>(answers), irradiance);
 }
 
 void FramePassesVulkan::indirect() {
-  const IndirectSources& sources = request_.sources;
-  reserve<vec3>(pixels_, "irradiance", kernels_.irradiance);
-  reserve<QueryRecord>(std::max(pixels_, kGatherRays), "queries", kernels_.queries);
+  const IndirectSources& sources = request_->sources;
+  reserve<vec3>(pixels_, "irradiance", memory_.irradiance);
+  reserve<QueryRecord>(std::max(pixels_, kGatherRays), "queries", memory_.queries);
   const auto ask = [this](uint mirrored) {
     return [this, mirrored](Recorder& to) {
-      const PixelQueriesArguments arguments = {{kernels_.points.address()},
-                                               {kernels_.surfaces.address()},
-                                               {kernels_.queries.address()},
+      const PixelQueriesArguments arguments = {{memory_.points.address()},
+                                               {memory_.surfaces.address()},
+                                               {memory_.queries.address()},
                                                pixels_,
                                                mirrored};
       to.run(kernels_.pixel_queries, arguments, pixels_);
     };
   };
-  if (request_.settings.gather_rays > 0) {
+  if (request_->settings.gather_rays > 0) {
     gather();
   } else {
     add("indirect", ask(0u));
-    look_up("indirect", *sources.field, kernels_.queries, pixels_, kernels_.irradiance);
+    look_up("indirect", *sources.field, memory_.queries, pixels_, memory_.irradiance);
   }
   if (sources.subtracted_field == nullptr) return;
-  reserve<vec3>(pixels_, "taken out", kernels_.subtracted_field);
+  reserve<vec3>(pixels_, "taken out", memory_.subtracted_field);
   add("indirect", ask(0u));
-  look_up("indirect", *sources.subtracted_field, kernels_.queries, pixels_,
-          kernels_.subtracted_field);
+  look_up("indirect", *sources.subtracted_field, memory_.queries, pixels_,
+          memory_.subtracted_field);
 }
 
 /// Final gathering, some pixels at a time; see gather.cpp.
 void FramePassesVulkan::gather() {
-  const auto rays_per_pixel = static_cast<std::uint32_t>(request_.settings.gather_rays);
+  const auto rays_per_pixel = static_cast<std::uint32_t>(request_->settings.gather_rays);
   const std::uint32_t chunk = std::max(kGatherRays / rays_per_pixel, 1u);
-  FrameKernels& k = kernels_;
+  FrameMemory& m = memory_;
   const std::size_t most = static_cast<std::size_t>(chunk) * rays_per_pixel;
-  reserve<RayRecord>(most, "gathering rays", k.gathering_rays);
-  reserve<HitRecord>(most, "gathered hits", k.gathered_hits);
-  reserve<LitPointRecord>(most, "gathered points", k.gathered_points);
-  reserve<ShadedHitRecord>(most, "gathered light", k.gathered);
-  reserve<vec3>(most, "gathered direct light", k.gathered_direct);
-  reserve<vec3>(most, "gathered field", k.gathered_field);
-  reserve<QueryRecord>(most, "queries", k.queries);
-  reserve<uint>(chunk, "gathering indices", k.gathering_indices);
+  reserve<RayRecord>(most, "gathering rays", m.gathering_rays);
+  reserve<HitRecord>(most, "gathered hits", m.gathered_hits);
+  reserve<LitPointRecord>(most, "gathered points", m.gathered_points);
+  reserve<ShadedHitRecord>(most, "gathered light", m.gathered);
+  reserve<vec3>(most, "gathered direct light", m.gathered_direct);
+  reserve<vec3>(most, "gathered field", m.gathered_field);
+  reserve<QueryRecord>(most, "queries", m.queries);
+  reserve<uint>(chunk, "gathering indices", m.gathering_indices);
   ShadeHitsSettings shading;
   shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
-  shading.max_albedo = request_.sources.field->settings().max_albedo;
+  shading.max_albedo = request_->sources.field->settings().max_albedo;
   shading.back_faces_count = true;
   shading.salt = sample_;
-  shading.seed = request_.settings.seed;
+  shading.seed = request_->settings.seed;
 
   for (std::uint32_t first = 0; first < pixels_; first += chunk) {
     const std::uint32_t count = std::min(chunk, pixels_ - first), rays = count * rays_per_pixel;
-    frame_.rays += rays;
-    add("indirect", [=, this, &k](Recorder& to) {
-      const GatherRaysArguments drawn = {{k.points.address()},
-                                         {k.surfaces.address()},
-                                         {k.gathering_rays.address()},
-                                         {k.gathering_indices.address()},
+    frame_->rays += rays;
+    add("indirect", [=, this, &m](Recorder& to) {
+      const GatherRaysArguments drawn = {{m.points.address()},
+                                         {m.surfaces.address()},
+                                         {m.gathering_rays.address()},
+                                         {m.gathering_indices.address()},
                                          first,
                                          count,
                                          first_pixel_,
                                          rays_per_pixel,
                                          sample_,
-                                         request_.settings.seed};
-      to.run(k.gather_rays, drawn, count);
+                                         request_->settings.seed};
+      to.run(kernels_.gather_rays, drawn, count);
       to.barrier();
-      const HitArray hits{k.gathered_hits.address()};
-      world_.tracer().closest_hits(to, {{k.gathering_rays.address()}, rays}, hits);
+      const HitArray hits{m.gathered_hits.address()};
+      world_.tracer().closest_hits(to, {{m.gathering_rays.address()}, rays}, hits);
       to.barrier();
-      k.gather_shading.shade_hits(
-          to, stage(), {{k.gathering_rays.address()}, hits, rays}, {k.gathering_indices.address()},
+      m.gather_shading.shade_hits(
+          to, stage(), {{m.gathering_rays.address()}, hits, rays}, {m.gathering_indices.address()},
           rays_per_pixel, shading,
-          {{k.gathered_points.address()}, {k.gathered.address()}, {k.gathered_direct.address()}});
-      const RayQueriesArguments asked = {{k.gathered_points.address()},
-                                         {k.gathering_rays.address()},
-                                         {k.queries.address()},
+          {{m.gathered_points.address()}, {m.gathered.address()}, {m.gathered_direct.address()}});
+      const RayQueriesArguments asked = {{m.gathered_points.address()},
+                                         {m.gathering_rays.address()},
+                                         {m.queries.address()},
                                          rays,
                                          0u};
-      to.run(k.ray_queries, asked, rays);
+      to.run(kernels_.ray_queries, asked, rays);
     });
-    look_up("indirect", *request_.sources.field, k.queries, rays, k.gathered_field);
-    add("indirect", [=, &k](Recorder& to) {
-      const GatherSumArguments summed = {{k.points.address()},
-                                         {k.gathering_rays.address()},
-                                         {k.gathered.address()},
-                                         {k.gathered_direct.address()},
-                                         {k.gathered_field.address()},
-                                         {k.irradiance.address()},
+    look_up("indirect", *request_->sources.field, m.queries, rays, m.gathered_field);
+    add("indirect", [=, this, &m](Recorder& to) {
+      const GatherSumArguments summed = {{m.points.address()},
+                                         {m.gathering_rays.address()},
+                                         {m.gathered.address()},
+                                         {m.gathered_direct.address()},
+                                         {m.gathered_field.address()},
+                                         {m.irradiance.address()},
                                          first,
                                          count,
                                          rays_per_pixel,
                                          0u};
-      to.run(k.gather_sum, summed, count);
+      to.run(kernels_.gather_sum, summed, count);
     });
   }
 }
 
 void FramePassesVulkan::glossy() {
-  reserve<vec3>(pixels_, "mirror irradiance", kernels_.mirror_irradiance);
+  reserve<vec3>(pixels_, "mirror irradiance", memory_.mirror_irradiance);
   add("glossy", [this](Recorder& to) {
-    const PixelQueriesArguments arguments = {{kernels_.points.address()},
-                                             {kernels_.surfaces.address()},
-                                             {kernels_.queries.address()},
+    const PixelQueriesArguments arguments = {{memory_.points.address()},
+                                             {memory_.surfaces.address()},
+                                             {memory_.queries.address()},
                                              pixels_,
                                              1u};
     to.run(kernels_.pixel_queries, arguments, pixels_);
   });
-  look_up("glossy", *request_.sources.field, kernels_.queries, pixels_, kernels_.mirror_irradiance);
+  look_up("glossy", *request_->sources.field, memory_.queries, pixels_, memory_.mirror_irradiance);
 }
 
 RsmViewOnDevice FramePassesVulkan::reserve_geometry(int width, int height, Buffer (&geometry)[3]) {
@@ -160,10 +161,10 @@ RsmViewOnDevice FramePassesVulkan::reserve_geometry(int width, int height, Buffe
 void FramePassesVulkan::add_geometry(const char* name, const RsmViewOnDevice& view,
                                      std::uint32_t first, std::uint32_t count) {
   add(name, [this, view, first, count](Recorder& to) {
-    const CameraRecord camera = camera_record(request_.camera, 1, 1);
+    const CameraRecord camera = camera_record(request_->camera, 1, 1);
     const ViewGeometryArguments arguments = {
-        {kernels_.points.address()},
-        {kernels_.surfaces.address()},
+        {memory_.points.address()},
+        {memory_.surfaces.address()},
         {view.arrays.positions_ws.address + first * sizeof(vec3)},
         {view.arrays.normals_ws.address + first * sizeof(vec3)},
         {view.arrays.depths.address + first * sizeof(float)},
@@ -176,18 +177,18 @@ void FramePassesVulkan::add_geometry(const char* name, const RsmViewOnDevice& vi
 }
 
 void FramePassesVulkan::rsm() {
-  const FrameSettings& settings = request_.settings;
-  const RsmSettings& by = *request_.sources.rsm;
+  const FrameSettings& settings = request_->settings;
+  const RsmSettings& by = *request_->sources.rsm;
   const int width = (settings.width + by.downscale - 1) / by.downscale;
   const int height = (settings.height + by.downscale - 1) / by.downscale;
   const auto pixels = static_cast<std::uint32_t>(width) * height;
   reserve_pixels(std::min(pixels, kViewPixels));
-  small_ = reserve_geometry(width, height, kernels_.small_geometry);
+  small_ = reserve_geometry(width, height, memory_.small_geometry);
   for (std::uint32_t first = 0; first < pixels; first += kViewPixels) {
     const std::uint32_t count = std::min(kViewPixels, pixels - first);
     add("rsm.view", [=, this](Recorder& to) {
-      trace_pixels(to, {{kernels_.rays.address()},
-                        camera_record(request_.camera, width, height),
+      trace_pixels(to, {{memory_.rays.address()},
+                        camera_record(request_->camera, width, height),
                         static_cast<uint>(width),
                         first,
                         count,
@@ -201,40 +202,40 @@ void FramePassesVulkan::rsm() {
 
   const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   Stopwatch watch;
-  kernels_.mapper.render(request_.world, request_.camera, aspect, by, kernels_.maps);
-  frame_.passes.push_back({"rsm", watch.lap()});
+  memory_.mapper.render(request_->world, request_->camera, aspect, by, memory_.maps);
+  frame_->passes.push_back({"rsm", watch.lap()});
   RsmIrradiance light;
-  kernels_.rsm.light(kernels_.mapper, kernels_.maps, small_, by, world_, light,
-                     request_.sources.rsm_stages);
-  frame_.rays += light.rays;
-  frame_.passes.insert(frame_.passes.end(), light.passes.begin(), light.passes.end());
-  if (request_.sources.rsm_stages) {
-    stage_layers_ = rsm_stage_layers(download_maps(device_, kernels_.maps), light, settings.width,
+  memory_.rsm.light(memory_.mapper, memory_.maps, small_, by, world_, light,
+                    request_->sources.rsm_stages);
+  frame_->rays += light.rays;
+  frame_->passes.insert(frame_->passes.end(), light.passes.begin(), light.passes.end());
+  if (request_->sources.rsm_stages) {
+    stage_layers_ = rsm_stage_layers(download_maps(device_, memory_.maps), light, settings.width,
                                      settings.height);
   }
 }
 
 void FramePassesVulkan::rsm_upsample() {
-  const bool alone = request_.sources.field == nullptr;
-  const bool subtracts = request_.sources.subtracted_field != nullptr && !alone;
-  reserve<vec3>(pixels_, "light of maps", kernels_.from_maps);
-  reserve<vec3>(pixels_, "irradiance", kernels_.irradiance);
-  reserve<vec3>(subtracts ? pixels_ : 1, "taken out", kernels_.subtracted_field);
+  const bool alone = request_->sources.field == nullptr;
+  const bool subtracts = request_->sources.subtracted_field != nullptr && !alone;
+  reserve<vec3>(pixels_, "light of maps", memory_.from_maps);
+  reserve<vec3>(pixels_, "irradiance", memory_.irradiance);
+  reserve<vec3>(subtracts ? pixels_ : 1, "taken out", memory_.subtracted_field);
   const RsmViewOnDevice band =
-      reserve_geometry(request_.settings.width, band_.rows, kernels_.band_geometry);
+      reserve_geometry(request_->settings.width, band_.rows, memory_.band_geometry);
   add_geometry("rsm.upsample", band, 0u, pixels_);
   add("", [this, band](Recorder& to) {
-    kernels_.rsm.record_upsampling(to, small_, *request_.sources.rsm, band, band_.first_row,
-                                   {kernels_.from_maps.address()});
+    memory_.rsm.record_upsampling(to, small_, *request_->sources.rsm, band, band_.first_row,
+                                  {memory_.from_maps.address()});
   });
   add("rsm.upsample", [=, this](Recorder& to) {
     if (alone) {
-      to.fill(kernels_.irradiance, 0u);
+      to.fill(memory_.irradiance, 0u);
       to.barrier();
     }
-    const ReplaceLightArguments arguments = {{kernels_.irradiance.address()},
-                                             {kernels_.subtracted_field.address()},
-                                             {kernels_.from_maps.address()},
+    const ReplaceLightArguments arguments = {{memory_.irradiance.address()},
+                                             {memory_.subtracted_field.address()},
+                                             {memory_.from_maps.address()},
                                              pixels_,
                                              subtracts ? 1u : 0u};
     to.run(kernels_.replace_light, arguments, pixels_);

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "lambent/field.h"
 #include "raytracing/shade_hits.h"
+#include "raytracing/world_access.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -63,7 +64,7 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
     std::vector<Hit> hits(rays.size());
     std::vector<ShadedHit> shaded(rays.size());
     ShadeHitsScratch scratch;
-    world.tracer().closest_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     // Runs of pixels that all show a surface are shaded together
     for (std::size_t first = 0, end_of_run; first < pixels.size(); first = end_of_run) {
       end_of_run = first + 1;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compose/gbuffer.h"
 
+#include "compose/check_frame.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
@@ -28,7 +30,7 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
       const CameraRay ray = camera_ray(record, vec2(x, row) + offset);
       rays[x] = {ray.origin_ws, 0.0f, ray.direction_ws};
     }
-    world.tracer().closest_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = begin * width + x;
       gbuffer.to_viewer_ws[i] = -rays[x].direction;
@@ -38,8 +40,11 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
   });
 }
 
-std::vector<FieldQuery> visible_points(const World& world, const Camera& camera, int width,
-                                       int height) {
+Expected<std::vector<FieldQuery>> visible_points(const World& world, const Camera& camera,
+                                                 int width, int height) {
+  if (const Expected<void> fine = check_view(camera, width, height); !fine) {
+    return tl::unexpected(fine.error());
+  }
   FrameSettings settings;
   settings.width = width;
   settings.height = height;

@@ -2,6 +2,7 @@
 // What the camera sees, one entry a pixel of a band of rows.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct Band {
   int first_row = 0;
   int rows = 0;
 };
+
+/// Rows of a picture of this width that are rendered together: enough pixels to keep all cores
+/// busy, few enough to stay small (about 50 MB).
+inline int rows_of_a_band(int width) {
+  constexpr int kBandPixels = 1 << 18;
+  return std::max(1, kBandPixels / width);
+}
 
 /// Rows that the settings ask for.
 inline Band rendered_rows(const FrameSettings& settings) {

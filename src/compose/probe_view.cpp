@@ -11,10 +11,12 @@
 #include "core/image/color_map.h"
 #include "core/image/exposure.h"
 #include "core/parallel.h"
+#include "field/field_access.h"
 #include "field/probes/probe_store.h"
 #include "field/schedule/schedule.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "shared/color.h"
 #include "shared/constants.h"
 
@@ -143,8 +145,8 @@ float age_share(const IrradianceField& field, const ProbeStatus& record) {
 
 vec3 color_of(const IrradianceField& field, ProbeAspect aspect, const SphereHit& hit,
               const vec3& to_viewer_ws) {
-  const ProbeStore& store = field.store();
-  const ProbeStatus& record = field.probe_statuses()[hit.probe];
+  const ProbeStore& store = store_of(field);
+  const ProbeStatus& record = statuses_of(field)[hit.probe];
   const float round = mix(kRim, 1.0f, max(dot(hit.normal_ws, to_viewer_ws), 0.0f));
   switch (aspect) {
     case ProbeAspect::irradiance:
@@ -187,9 +189,9 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
   Image& probes = frame.require("probes", 4);
   Image& picture = *frame.find("");
   std::vector<SphereFinder> finders;
-  finders.reserve(static_cast<std::size_t>(field.store().volumes()));
-  for (int volume = 0; volume < field.store().volumes(); ++volume) {
-    finders.emplace_back(field.store(), volume, settings.radius);
+  finders.reserve(static_cast<std::size_t>(store_of(field).volumes()));
+  for (int volume = 0; volume < store_of(field).volumes(); ++volume) {
+    finders.emplace_back(store_of(field), volume, settings.radius);
   }
   const float brightness = settings.aspect == ProbeAspect::irradiance
                                ? 1.0f
@@ -205,7 +207,7 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
         rays[x] = camera_ray(camera, frame.width, frame.height, static_cast<float>(x) + dx,
                              static_cast<float>(y) + dy);
       }
-      world.tracer().closest_hits(rays, hits);
+      tracer_of(world).closest_hits(rays, hits);
       for (int x = 0; x < frame.width; ++x) {
         rays[x].t_max = min(rays[x].t_max, hits[x].distance);
         std::optional<SphereHit> hit;

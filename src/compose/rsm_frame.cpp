@@ -2,10 +2,12 @@
 #include "compose/rsm_frame.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
+#include "rsm/maps/map.h"
 #include "rsm/upsample.h"
 
 namespace lambent {
@@ -18,21 +20,26 @@ void trace_view(const World& world, const Camera& camera, int width, int height,
   FrameSettings settings;
   settings.width = width;
   settings.height = height;
-  GBuffer gbuffer;
-  trace_gbuffer(world, camera, settings, {0, height}, 0, gbuffer);
-  frame.positions_ws.assign(gbuffer.size(), vec3(0.0f));
-  frame.normals_ws.assign(gbuffer.size(), vec3(0.0f));
-  frame.depths.assign(gbuffer.size(), 0.0f);
-  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (gbuffer.hit[i] == 0) continue;
-      const float depth = view_depth(camera, gbuffer.surfaces[i].position_ws);
-      if (!(depth > 0.0f)) continue;
-      frame.positions_ws[i] = gbuffer.surfaces[i].position_ws;
-      frame.normals_ws[i] = gbuffer.surfaces[i].normal_ws;
-      frame.depths[i] = depth;
-    }
-  });
+  const std::size_t pixels = static_cast<std::size_t>(width) * height;
+  frame.positions_ws.assign(pixels, vec3(0.0f));
+  frame.normals_ws.assign(pixels, vec3(0.0f));
+  frame.depths.assign(pixels, 0.0f);
+  const int band_rows = rows_of_a_band(width);
+  for (int row = 0; row < height; row += band_rows) {
+    GBuffer& gbuffer = frame.gbuffer;
+    trace_gbuffer(world, camera, settings, {row, std::min(band_rows, height - row)}, 0, gbuffer);
+    const std::size_t first = static_cast<std::size_t>(row) * width;
+    parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (gbuffer.hit[i] == 0) continue;
+        const float depth = view_depth(camera, gbuffer.surfaces[i].position_ws);
+        if (!(depth > 0.0f)) continue;
+        frame.positions_ws[first + i] = gbuffer.surfaces[i].position_ws;
+        frame.normals_ws[first + i] = gbuffer.surfaces[i].normal_ws;
+        frame.depths[first + i] = depth;
+      }
+    });
+  }
 }
 
 /// An image fitted into a frame, its pixels enlarged or left out.
@@ -66,22 +73,25 @@ struct SmallPicture {
 
 }  // namespace
 
-RsmFrame light_by_rsm(const World& world, const Camera& camera, const FrameSettings& settings,
-                      const RsmSettings& rsm, bool keep_stages) {
-  RsmFrame frame;
+void light_by_rsm(const FrameRequest& request, RsmFrame& frame) {
+  const FrameSettings& settings = request.settings;
+  const RsmSettings& rsm = *request.sources.rsm;
   frame.downscale = rsm.downscale;
   frame.plane_tolerance = rsm.plane_tolerance;
   const int width = (settings.width + rsm.downscale - 1) / rsm.downscale;
   const int height = (settings.height + rsm.downscale - 1) / rsm.downscale;
-  trace_view(world, camera, width, height, frame);
+  trace_view(request.world, request.camera, width, height, frame);
   const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-  const std::vector<ReflectiveShadowMap> maps = render_rsms(world, camera, aspect, rsm);
+  render_rsms(request.world, request.camera, aspect, rsm, frame.maps);
   const RsmView view{width, height, frame.positions_ws, frame.normals_ws, frame.depths};
-  RsmGatherer().gather(world, maps, view, rsm, frame.light, keep_stages);
+  const bool keep_stages = request.sources.rsm_stages;
+  [[maybe_unused]] const Expected<void> done =
+      frame.gatherer.gather(request.world, frame.maps, view, rsm, frame.light, keep_stages);
+  assert(done);  // settings were checked, and the view is whole
+  frame.layers.clear();
   if (keep_stages) {
-    frame.layers = rsm_stage_layers(maps, frame.light, settings.width, settings.height);
+    frame.layers = rsm_stage_layers(frame.maps, frame.light, settings.width, settings.height);
   }
-  return frame;
 }
 
 std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,

@@ -5,12 +5,14 @@
 #include <span>
 #include <vector>
 
+#include "compose/frame_passes.h"
 #include "compose/gbuffer.h"
 #include "lambent/rsm.h"
 
 namespace lambent {
 
-/// What the camera sees through the middle of each pixel, and one bounce of light there.
+/// What the camera sees through the middle of each pixel, and one bounce of light there. Its memory
+/// is used again from frame to frame.
 struct RsmFrame {
   int downscale = 1;
   float plane_tolerance = 0.0f;
@@ -18,12 +20,16 @@ struct RsmFrame {
   std::vector<float> depths;
   RsmIrradiance light;
   std::vector<Layer> layers;  ///< Of the frame's size, where asked for; see docs/rsm.md.
+
+  // What light is made of
+  GBuffer gbuffer;
+  std::vector<ReflectiveShadowMap> maps;
+  RsmGatherer gatherer;
 };
 
 /// Renders the maps and gathers their light at 1 / downscale of the frame's width and height,
 /// rounded up.
-RsmFrame light_by_rsm(const World& world, const Camera& camera, const FrameSettings& settings,
-                      const RsmSettings& rsm, bool keep_stages);
+void light_by_rsm(const FrameRequest& request, RsmFrame& frame);
 
 /// The first map's flux and the gather's stages as layers of a frame of that size.
 std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "field/field_access.h"
 #include "field/field_state.h"
 
 namespace lambent {
@@ -100,15 +101,23 @@ std::size_t IrradianceField::store_bytes() const {
 std::size_t IrradianceField::surfel_bytes() const {
   return state_->backend->surfel_bytes();
 }
-const ProbeStore& IrradianceField::store() const {
-  state_->backend->fetch_store();
-  return state_->data.store;
+
+IrradianceField FieldAccess::make(std::unique_ptr<State> state) {
+  return IrradianceField(std::move(state));
 }
-const DeviceLookups* IrradianceField::on_device() const {
-  return state_->backend->on_device();
+
+const ProbeStore& store_of(const IrradianceField& field) {
+  const FieldAccess::State& state = FieldAccess::state_of(field);
+  state.backend->fetch_store();
+  return state.data.store;
 }
-std::span<const ProbeStatus> IrradianceField::probe_statuses() const {
-  return state_->statuses;
+
+std::span<const ProbeStatus> statuses_of(const IrradianceField& field) {
+  return FieldAccess::state_of(field).statuses;
+}
+
+const DeviceLookups* device_lookups_of(const IrradianceField& field) {
+  return FieldAccess::state_of(field).backend->on_device();
 }
 
 }  // namespace lambent

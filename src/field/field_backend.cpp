@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Picks where a field lives.
 #include "field/field_backend.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 
 bool lives_on_device(const World& world, int probes) {
-  return world.on_device() != nullptr && probes <= kMaxBackendProbes;
+  return device_world_of(world) != nullptr && probes <= kMaxBackendProbes;
 }
 
 std::unique_ptr<FieldBackend> make_field_backend([[maybe_unused]] const World& world,

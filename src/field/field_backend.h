@@ -12,6 +12,7 @@
 
 #include "field/edits/invalidation.h"
 #include "field/probe_data.h"
+#include "field/probes/tile_light_math.h"
 #include "field/transport/solve_bounces.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
@@ -23,12 +24,6 @@ namespace vulkan {
 class Recorder;
 }
 
-/// How much a probe's light changed in an update.
-struct LightChange {
-  float relative_square;  ///< relative_square() of tile_light.h, of the new light to the old.
-  float before, now;      ///< Mean luminance of the probe's texels before and after the update.
-};
-
 /// The arguments of FieldBackend::update_probes.
 struct ProbeUpdate {
   const World& world;
@@ -36,7 +31,6 @@ struct ProbeUpdate {
   std::vector<int> probes;           ///< The probes of all groups, group after group.
   std::vector<float> blend_weights;  ///< How much each probe's new light counts, 0 to 1.
   SolveSettings solve;
-  float darkest = 0.0f;  ///< See relative_square() [luminance].
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 

@@ -11,6 +11,7 @@
 #include "field/probes/tile_light.h"
 #include "field/schedule/importance.h"
 #include "field/transport/distances.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::size_t kProbesPerTask = 64;
 constexpr std::size_t kQueriesPerTask = 4096;
 
 VisibilityRays visibility_in(const World& world, const ProbeData& data) {
-  return {data.settings.visibility, &world.tracer(), &data.cell_visibility};
+  return {data.settings.visibility, &tracer_of(world), &data.cell_visibility};
 }
 
 void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& data) {
@@ -46,7 +47,7 @@ class FieldPassesCpu final : public FieldPasses {
 
   void trace(int batch) override {
     TraceGroup& group = update_.groups[batch];
-    trace_probe_rays(update_.world.tracer(), data_.store, group);
+    trace_probe_rays(tracer_of(update_.world), data_.store, group);
     result.probe_rays += group.hits.size();
   }
 
@@ -67,7 +68,7 @@ class FieldPassesCpu final : public FieldPasses {
   }
 
   void visibility() override {
-    result.shadow_rays += data_.cell_visibility.update(update_.world.tracer(), data_.store,
+    result.shadow_rays += data_.cell_visibility.update(tracer_of(update_.world), data_.store,
                                                        cells_around(data_.store, update_.probes));
   }
 
@@ -95,8 +96,7 @@ class FieldPassesCpu final : public FieldPasses {
     for (std::size_t k = 0; k < update_.probes.size(); ++k) {
       const TileLight held(&data_.light[update_.probes[k] * texels], texels),
           before(&history_[k * texels], texels);
-      result.changes.push_back({relative_square(held, before, update_.darkest),
-                                mean_luminance(before), mean_luminance(held)});
+      result.changes.push_back(light_change(before, held));
     }
   }
 
@@ -149,7 +149,7 @@ class FieldBackendCpu final : public FieldBackend {
   }
 
   std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) override {
-    return data_.cell_visibility.update(world.tracer(), data_.store, cells);
+    return data_.cell_visibility.update(tracer_of(world), data_.store, cells);
   }
 
   std::uint64_t find_lookups(const World& world, std::span<const int> moved,
@@ -184,7 +184,7 @@ class FieldBackendCpu final : public FieldBackend {
 
   void irradiance(std::span<const FieldQuery> queries, const World* world,
                   std::span<vec3> result) const override {
-    const RayTracer* tracer = world != nullptr ? &world->tracer() : nullptr;
+    const RayTracer* tracer = world != nullptr ? &tracer_of(*world) : nullptr;
     const VisibilityRays by = {data_.settings.visibility, tracer, &data_.cell_visibility};
     parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
       lookup_irradiance(data_.store, by, queries.subspan(begin, end - begin),

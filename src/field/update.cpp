@@ -119,9 +119,9 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
     for (const int probe : group.probes) data.traces[probe].rays = group.rays;
   }
   for (const int probe : traced.probes) data.last_estimate_is_coarse[probe] = 1;
-  const ProbeUpdateResult found = backend->update_probes(
-      {world, std::move(groups), traced.probes, traced.blend_weights, solve_settings(settings),
-       kDarkShare * scheduling.mean_light, dither_seed()});
+  const ProbeUpdateResult found =
+      backend->update_probes({world, std::move(groups), traced.probes, traced.blend_weights,
+                              solve_settings(settings), dither_seed()});
   statistics.probe_rays += found.probe_rays;
   statistics.shadow_rays += found.shadow_rays;
   statistics.solve_iterations += found.iterations;

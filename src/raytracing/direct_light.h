@@ -8,6 +8,7 @@
 #include "lambent/world.h"
 #include "raytracing/emitter_sampling.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "shared/rays.h"
 
@@ -45,7 +46,7 @@ void for_each_light(const World& world, const LitPoint& point, int emissive_samp
     if (sample.irradiance == glm::vec3(0.0f)) continue;
     visit(LightCandidate{sample.to_light, sample.distance, sample.irradiance});
   }
-  if (world.emissive().empty()) return;
+  if (emissive_of(world).empty()) return;
   const float share = 1.0f / static_cast<float>(emissive_samples);
   for (int i = 0; i < emissive_samples; ++i) {
     const EmitterDraw draw = draw_emitter(random, i, share);

@@ -4,6 +4,8 @@
 #include <cassert>
 
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
+#include "scene/environment_sampling.h"
 
 namespace lambent {
 namespace {
@@ -37,7 +39,7 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
   }
   // Add the light that does reach
   scratch.occluded.resize(scratch.shadow_rays.size());
-  world.tracer().occlusions(scratch.shadow_rays, scratch.occluded);
+  tracer_of(world).occlusions(scratch.shadow_rays, scratch.occluded);
   for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
     const ShadeHitsScratch::PendingLight& light = scratch.pending[i];
     if (scratch.occluded[i] == 0) irradiance[light.query] += light.irradiance;

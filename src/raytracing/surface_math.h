@@ -7,6 +7,19 @@
 
 LAMBENT_BEGIN
 
+/// A point of a surface as seen along a ray. Surfaces are two-sided: normals face the ray's origin.
+struct Surface {
+  vec3 position_ws;          ///< On the triangle [m].
+  vec3 normal_ws;            ///< Shading normal: interpolated, normal-mapped; unit.
+  vec3 geometric_normal_ws;  ///< Of the triangle; unit.
+  Reflectance reflectance;
+  vec3 emission;  ///< Radiance [W/(m^2 sr)].
+  uint material;  ///< Index into Scene::materials.
+  bool front_face;
+  bool double_sided;
+  bool receives_gi;  ///< Indirect light reaches it.
+};
+
 // A shading normal turned away from the viewer is bent back to where this cosine is left, so that
 // smooth silhouettes and steep normal maps neither go black nor divide by zero.
 const float kMinViewCosine = 1e-3f;

@@ -8,6 +8,7 @@
 #include "core/stopwatch.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/scene_snapshot.h"
+#include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #if LAMBENT_VULKAN
 #include "raytracing/vulkan/device_world.h"
@@ -25,8 +26,12 @@ std::shared_ptr<DeviceWorld> make_device_world(const Scene& scene,
   return std::make_shared<DeviceWorld>(scene, emissive, std::move(device));
 }
 
-std::shared_ptr<RayTracer> tracer_of(const std::shared_ptr<DeviceWorld>& world) {
+std::shared_ptr<RayTracer> shared_tracer(const std::shared_ptr<DeviceWorld>& world) {
   return {world, &world->tracer()};
+}
+
+std::shared_ptr<vulkan::Device> shared_device(const DeviceWorld& world) {
+  return world.shared_device();
 }
 
 void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& edits,
@@ -45,7 +50,10 @@ std::shared_ptr<DeviceWorld> make_device_world(const Scene&, const EmissiveTrian
                                                std::shared_ptr<vulkan::Device>) {
   return nullptr;
 }
-std::shared_ptr<RayTracer> tracer_of(const std::shared_ptr<DeviceWorld>&) {
+std::shared_ptr<RayTracer> shared_tracer(const std::shared_ptr<DeviceWorld>&) {
+  return nullptr;
+}
+std::shared_ptr<vulkan::Device> shared_device(const DeviceWorld&) {
   return nullptr;
 }
 void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits,
@@ -57,20 +65,25 @@ void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits,
 
 }  // namespace
 
-struct World::History {
+struct World::State::History {
   SceneSnapshot snapshot;
   std::uint64_t revision = 0;
   std::deque<WorldChanges> log;  // the last of them
 };
 
-World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device)
-    : scene_(&scene),
-      emissive_(std::make_unique<EmissiveTriangles>(scene)),
-      device_(make_device_world(scene, *emissive_, std::move(device))),
-      tracer_(device_ != nullptr ? tracer_of(device_) : make_embree_raytracer(scene)),
-      history_(std::make_unique<History>()) {
+World::State::State(const Scene& scene, std::shared_ptr<vulkan::Device> lent)
+    : emissive(std::make_unique<EmissiveTriangles>(scene)),
+      on_device(make_device_world(scene, *emissive, std::move(lent))),
+      tracer(on_device != nullptr ? shared_tracer(on_device) : make_embree_raytracer(scene)),
+      history(std::make_unique<History>()) {
+  history->snapshot = take_snapshot(scene, nullptr);
+}
+
+World::State::~State() = default;
+
+World::World(const Scene& scene, std::shared_ptr<vulkan::Device> device) : scene_(&scene) {
   assert(validate(scene));
-  history_->snapshot = take_snapshot(scene, nullptr);
+  state_ = std::make_unique<State>(scene, std::move(device));
 }
 
 World::~World() = default;
@@ -79,14 +92,14 @@ World& World::operator=(World&&) noexcept = default;
 
 Expected<WorldChanges> World::update() {
   Stopwatch watch;
-  History& history = *history_;
+  State::History& history = *state_->history;
   if (Expected<void> fine = validate_edits(*scene_, history.snapshot); !fine) {
     return tl::unexpected(std::move(fine).error());
   }
   SceneSnapshot now = take_snapshot(*scene_, &history.snapshot);
   SceneEdits edits = compare(history.snapshot, now);
-  if (edits.emitters_differ) emissive_ = std::make_unique<EmissiveTriangles>(*scene_);
-  update_tracer(device_.get(), *tracer_, edits, *emissive_);
+  if (edits.emitters_differ) state_->emissive = std::make_unique<EmissiveTriangles>(*scene_);
+  update_tracer(state_->on_device.get(), *state_->tracer, edits, *state_->emissive);
   history.snapshot = std::move(now);
 
   edits.changes.revision = history.revision;
@@ -99,11 +112,11 @@ Expected<WorldChanges> World::update() {
 }
 
 std::uint64_t World::revision() const {
-  return history_->revision;
+  return state_->history->revision;
 }
 
 std::optional<std::vector<WorldChanges>> World::changes_since(std::uint64_t revision) const {
-  const History& history = *history_;
+  const State::History& history = *state_->history;
   if (revision > history.revision) return std::nullopt;
   const std::uint64_t missed = history.revision - revision;
   if (missed > history.log.size()) return std::nullopt;
@@ -112,18 +125,22 @@ std::optional<std::vector<WorldChanges>> World::changes_since(std::uint64_t revi
 }
 
 Bounds World::instance_bounds(int instance) const {
-  const SceneSnapshot& snapshot = history_->snapshot;
+  const SceneSnapshot& snapshot = state_->history->snapshot;
   return world_box(snapshot, snapshot.placements[instance]);
 }
 
+std::shared_ptr<vulkan::Device> World::device() const {
+  return state_->on_device != nullptr ? shared_device(*state_->on_device) : nullptr;
+}
+
 double World::build_ms() const {
-  return tracer_->statistics().build_ms;
+  return tracer_of(*this).statistics().build_ms;
 }
 std::size_t World::bytes() const {
-  return tracer_->statistics().bytes;
+  return tracer_of(*this).statistics().bytes;
 }
 double World::refit_ms() const {
-  return tracer_->statistics().refit_ms;
+  return tracer_of(*this).statistics().refit_ms;
 }
 
 }  // namespace lambent

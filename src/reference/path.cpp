@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "shared/brdf.h"
 #include "shared/constants.h"
@@ -118,7 +119,7 @@ glm::vec3 PathIntegrator::emission_found(const Surface& surface, const Ray& ray,
                                          float pdf) const {
   if (surface.emission == glm::vec3(0.0f)) return surface.emission;
   const float cosine = std::abs(glm::dot(surface.geometric_normal_ws, ray.direction));
-  const float pdf_area = world_.emissive().pdf_area(hit.instance, hit.triangle);
+  const float pdf_area = emissive_of(world_).pdf_area(hit.instance, hit.triangle);
   const float light_pdf = cosine > 0.0f ? pdf_area * hit.distance * hit.distance / cosine : 0.0f;
   return surface.emission * found_weight(pdf, light_pdf);
 }
@@ -153,7 +154,7 @@ void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& light
 
 void PathIntegrator::add_emissive(const Vertex& vertex, const glm::vec3& u,
                                   Lighting& lighting) const {
-  const EmissiveSample light = world_.emissive().sample(u);
+  const EmissiveSample light = emissive_of(world_).sample(u);
   const glm::vec3 offset =
       light.position_ws - offset_ray_origin(vertex.position_ws, vertex.geometric_normal_ws);
   const float squared_distance = glm::dot(offset, offset);
@@ -185,7 +186,7 @@ void PathIntegrator::drop_occluded(const Vertex& vertex, Lighting& lighting,
         ray_from(vertex.position_ws, vertex.geometric_normal_ws, lighting.samples[i].to_light_ws);
     ray.t_max = lighting.samples[i].distance;
     ++rays;
-    if (!world_.tracer().occluded(ray)) lighting.samples[kept++] = lighting.samples[i];
+    if (!tracer_of(world_).occluded(ray)) lighting.samples[kept++] = lighting.samples[i];
   }
   lighting.count = kept;
 }
@@ -195,7 +196,7 @@ PathIntegrator::Lighting PathIntegrator::sample_lights(const Vertex& vertex, Sob
   Lighting lighting;
   if (!scene_.lights.empty()) add_punctual(vertex, random.next1(), lighting);
   if (strategy_ != Strategy::scatter) {
-    if (!world_.emissive().empty()) {
+    if (!emissive_of(world_).empty()) {
       const glm::vec2 point = random.next2();
       add_emissive(vertex, glm::vec3(random.next1(), point), lighting);
     }
@@ -211,7 +212,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
   glm::vec3 throughput(1.0f);
   for (int bounce = 1;; ++bounce) {
     ++rays;
-    const Hit hit = world_.tracer().closest_hit(ray);
+    const Hit hit = tracer_of(world_).closest_hit(ray);
     if (hit.missed()) {
       incident.other += throughput * sky_found(ray.direction, pdf);
       return incident;
@@ -250,7 +251,7 @@ PixelSample PathIntegrator::sample_pixel(const Ray& ray, SobolSampler& random,
                                          std::uint64_t& rays) const {
   PixelSample sample;
   ++rays;
-  const Hit hit = world_.tracer().closest_hit(ray);
+  const Hit hit = tracer_of(world_).closest_hit(ray);
   if (hit.missed()) {
     sample.emission = sky_radiance(scene_.environment, ray.direction);
     return sample;
@@ -290,7 +291,7 @@ IrradianceSample PathIntegrator::sample_irradiance(const glm::vec3& position_ws,
                                                    const glm::vec3& normal_ws, SobolSampler& random,
                                                    std::uint64_t& rays) const {
   // A white Lambert surface reflects its irradiance over pi
-  Surface surface;
+  Surface surface{};
   surface.position_ws = position_ws;
   surface.normal_ws = normal_ws;
   surface.geometric_normal_ws = normal_ws;

@@ -12,6 +12,7 @@
 
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/world_access.h"
 #include "reference/path.h"
 #include "reference/statistics.h"
 #include "shared/color.h"
@@ -144,7 +145,7 @@ void Renderer::write_first_hits(LayeredImage& image) const {
     for (int x = 0; x < settings_.width; ++x) {
       const Ray ray = camera_ray(camera_, settings_.width, settings_.height,
                                  static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-      const Hit hit = world_.tracer().closest_hit(ray);
+      const Hit hit = tracer_of(world_).closest_hit(ray);
       if (hit.missed()) continue;
       const glm::vec3 p = ray.origin + hit.distance * ray.direction;
       std::copy_n(&p.x, 3, position.at(x, y));

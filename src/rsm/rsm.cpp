@@ -5,7 +5,6 @@
 #include "lambent/rsm.h"
 
 #include <algorithm>
-#include <cassert>
 #include <limits>
 #include <sstream>
 
@@ -40,6 +39,16 @@ Expected<void> within(const char* name, T value, T low, T high) {
     cause << "between " << low << " and " << high;
   }
   return fail("", name, cause.str());
+}
+
+Expected<void> check_view(const RsmView& view) {
+  if (view.width <= 0 || view.height <= 0) return fail("", "view", "has no pixels");
+  const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
+  if (view.positions_ws.size() != pixels || view.normals_ws.size() != pixels ||
+      view.depths.size() != pixels) {
+    return fail("", "view", "needs a position, a normal and a depth for each of its pixels");
+  }
+  return {};
 }
 
 std::vector<BlurTap> irregular_taps() {
@@ -203,13 +212,12 @@ bool blurs(const RsmSettings& settings) {
   return settings.sub_blur_radius > 0 || settings.irregular_blur || blurs_picture(settings);
 }
 
-void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap> maps,
-                         const RsmView& view, const RsmSettings& settings, RsmIrradiance& result,
-                         bool keep_stages) {
-  assert(check(settings) && view.width > 0 && view.height > 0);
+Expected<void> RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap> maps,
+                                   const RsmView& view, const RsmSettings& settings,
+                                   RsmIrradiance& result, bool keep_stages) {
+  if (const Expected<void> fine = check(settings); !fine) return fine;
+  if (const Expected<void> fine = check_view(view); !fine) return fine;
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
-  assert(view.positions_ws.size() == pixels && view.normals_ws.size() == pixels &&
-         view.depths.size() == pixels);
   result.width = view.width;
   result.height = view.height;
   result.irradiance.resize(pixels);
@@ -227,6 +235,7 @@ void RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap
                            blur_reach(settings));
   PassesOnHost passes(world, view, maps, lights, settings, buffers_->mosaic, result);
   run_rsm_passes(settings, keep_stages, passes);
+  return {};
 }
 
 }  // namespace lambent

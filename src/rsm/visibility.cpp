@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "rsm/to_records.h"
 #include "rsm/visibility_rays.h"
 #include "shared/random.h"
@@ -57,7 +58,7 @@ std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
     if (asked.size() > before) pixels.push_back(x);
   }
   std::vector<std::uint8_t> occluded(asked.size());
-  world.tracer().occlusions(asked, occluded);
+  tracer_of(world).occlusions(asked, occluded);
   const auto per_pixel = static_cast<std::size_t>(rays);
   for (std::size_t p = 0; p < pixels.size(); ++p) {
     int arrived = 0;

@@ -70,17 +70,6 @@ float solid_angle_density(float v) {
 
 }  // namespace
 
-glm::vec3 sample_environment_map(const Image& map, const glm::vec2& uv) {
-  const MapTexels t = map_texels(uv, map.width, map.height);
-  const auto texel = [&](int x, int y) {
-    const float* p = map.at(x, y);
-    return glm::vec3(p[0], p[1], p[2]);
-  };
-  return glm::mix(glm::mix(texel(t.left, t.top), texel(t.right, t.top), t.fraction.x),
-                  glm::mix(texel(t.left, t.bottom), texel(t.right, t.bottom), t.fraction.x),
-                  t.fraction.y);
-}
-
 EnvironmentDistribution::EnvironmentDistribution(const Environment& environment)
     : environment_(&environment) {
   const Image& map = environment.map;

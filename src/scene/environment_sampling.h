@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A latitude-longitude map as a light: directions drawn by its brightness.
+// The sky as a light: its radiance, and directions drawn by the brightness of its map.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,8 +10,16 @@
 
 namespace lambent {
 
-/// A map read bilinearly; wraps around in u, clamps in v.
-glm::vec3 sample_environment_map(const Image& map, const glm::vec2& uv);
+// What environment.inl.h asks for.
+using MapRef = const Image&;
+using EnvironmentRef = const Environment&;
+
+inline vec3 fetch_map(const Image& map, int x, int y) {
+  const float* p = map.at(x, y);
+  return {p[0], p[1], p[2]};
+}
+
+#include "scene/environment.inl.h"
 
 /// A direction drawn from the sky.
 struct EnvironmentSample {

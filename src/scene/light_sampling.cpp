@@ -7,7 +7,6 @@
 
 #include "scene/attributes.h"
 #include "scene/emission_map.h"
-#include "scene/environment_sampling.h"
 #include "shared/color.h"
 #include "shared/sampling.h"
 
@@ -113,12 +112,13 @@ EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
 
   EmissiveSample sample = no_emissive_sample();
   sample.position_ws =
-      glm::vec3(instance.world_from_object * glm::vec4(interpolate(mesh.positions, point), 1.0f));
+      glm::vec3(instance.world_from_object * glm::vec4(position_at(mesh, point), 1.0f));
   sample.normal_ws = world_edge_product(mesh, instance, entry.triangle) / (2.0f * entry.area);
-  sample.radiance = emission_at(*scene_, mesh, material, point);
+  sample.radiance = emission_at(*scene_, mesh, material, point, 0.0f);
   if (material.alpha_mode != AlphaMode::opaque) {
-    const float alpha = base_color_at(*scene_, mesh, material, point).a;
-    sample.radiance *= stopping_probability(material, alpha);
+    const float alpha = coverage_at(*scene_, mesh, material, point);
+    sample.radiance *=
+        stopping_probability(static_cast<uint>(material.alpha_mode), material.alpha_cutoff, alpha);
   }
   sample.pdf_area = entry.probability / entry.area;
   return sample;
@@ -129,12 +129,6 @@ float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle
   if (found == index_of_.end()) return 0.0f;
   const Entry& entry = entries_[found->second];
   return entry.probability / entry.area;
-}
-
-glm::vec3 sky_radiance(const Environment& environment, const glm::vec3& direction_ws) {
-  if (environment.map.empty()) return environment.radiance;
-  const glm::vec2 uv = latitude_longitude_from_direction(direction_ws, environment.rotation);
-  return environment.radiance * sample_environment_map(environment.map, uv);
 }
 
 }  // namespace lambent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emissive triangles as lights, and the sky as a light: tables to draw from, and their densities.
+// Emissive triangles as lights: a table to draw from, and its densities.
 #pragma once
 
 #include <cstdint>
@@ -58,8 +58,5 @@ class EmissiveTriangles {
   std::unordered_map<std::uint64_t, std::uint32_t> index_of_;
   float total_power_ = 0.0f;
 };
-
-/// Radiance of the sky in a unit direction [W/(m^2 sr)].
-glm::vec3 sky_radiance(const Environment& environment, const glm::vec3& direction_ws);
 
 }  // namespace lambent

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/byte_decoding.h"
-#include "scene/texture_lookup.h"
 #include "shared/color.h"
 
 namespace lambent {
@@ -92,53 +90,6 @@ TextureLevel half_size(const TextureLevel& fine, bool srgb) {
   return coarse;
 }
 
-// How a texture's bytes become floats.
-struct Decoder {
-  const float* color;
-  const float* alpha;
-
-  glm::vec4 operator()(const TextureLevel& level, int x, int y) const {
-    const std::uint8_t* p = level.rgba.data() + (static_cast<std::size_t>(y) * level.width + x) * 4;
-    return {color[p[0]], color[p[1]], color[p[2]], alpha[p[3]]};
-  }
-};
-
-Decoder decoder_of(const Texture& texture) {
-  const float* const linear = linear_byte_decoding().data();
-  return {texture.srgb ? srgb_byte_decoding().data() : linear, linear};
-}
-
-uint number_of(Wrap wrap) {
-  return static_cast<uint>(wrap);
-}
-static_assert(kWrapRepeat == static_cast<uint>(Wrap::repeat) &&
-              kWrapMirroredRepeat == static_cast<uint>(Wrap::mirrored_repeat) &&
-              kWrapClampToEdge == static_cast<uint>(Wrap::clamp_to_edge));
-
-glm::vec2 wrap_uv(const TextureView& view, glm::vec2 uv) {
-  const glm::vec2 transformed = transform_uv(view, uv);
-  return {wrap_coordinate(transformed.x, number_of(view.wrap_u)),
-          wrap_coordinate(transformed.y, number_of(view.wrap_v))};
-}
-
-glm::vec4 sample_nearest(const TextureLevel& level, const Decoder& decode, const TextureView& view,
-                         glm::vec2 wrapped_uv) {
-  return decode(level, nearest_index(wrapped_uv.x, level.width, number_of(view.wrap_u)),
-                nearest_index(wrapped_uv.y, level.height, number_of(view.wrap_v)));
-}
-
-glm::vec4 sample_level(const TextureLevel& level, const Decoder& decode, const TextureView& view,
-                       glm::vec2 wrapped_uv) {
-  if (view.nearest) return sample_nearest(level, decode, view, wrapped_uv);
-  // Blend the four texels whose centres surround the point
-  const TexelPair x = texels_around(wrapped_uv.x, level.width, number_of(view.wrap_u));
-  const TexelPair y = texels_around(wrapped_uv.y, level.height, number_of(view.wrap_v));
-  return ((1.0f - x.fraction) * (1.0f - y.fraction)) * decode(level, x.first, y.first) +
-         (x.fraction * (1.0f - y.fraction)) * decode(level, x.second, y.first) +
-         ((1.0f - x.fraction) * y.fraction) * decode(level, x.first, y.second) +
-         (x.fraction * y.fraction) * decode(level, x.second, y.second);
-}
-
 }  // namespace
 
 void build_mips(Texture& texture) {
@@ -147,37 +98,6 @@ void build_mips(Texture& texture) {
   while (texture.levels.back().width > 1 || texture.levels.back().height > 1) {
     texture.levels.push_back(half_size(texture.levels.back(), texture.srgb));
   }
-}
-
-glm::vec2 uv_rotation(const TextureView& view) {
-  if (view.uv_rotation == 0.0f) return {1.0f, 0.0f};
-  return {std::cos(view.uv_rotation), std::sin(view.uv_rotation)};
-}
-
-glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv) {
-  return transform_uv(uv, view.uv_scale, uv_rotation(view), view.uv_offset);
-}
-
-glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv, float lod) {
-  assert(view.texture >= 0 && view.texture < static_cast<int>(scene.textures.size()));
-  const Texture& texture = scene.textures[view.texture];
-  const glm::vec2 wrapped = wrap_uv(view, uv);
-  const Decoder decode = decoder_of(texture);
-  const float last = static_cast<float>(texture.levels.size() - 1);
-  const float level = lod > 0.0f ? std::min(lod, last) : 0.0f;
-  const auto finer = static_cast<std::size_t>(level);
-  const float blend = level - static_cast<float>(finer);
-  const glm::vec4 fine = sample_level(texture.levels[finer], decode, view, wrapped);
-  if (blend <= 0.0f) return fine;
-  return glm::mix(fine, sample_level(texture.levels[finer + 1], decode, view, wrapped), blend);
-}
-
-glm::vec4 nearest_texel(const Scene& scene, const TextureView& view, glm::vec2 uv, int level) {
-  assert(view.texture >= 0 && view.texture < static_cast<int>(scene.textures.size()));
-  const Texture& texture = scene.textures[view.texture];
-  const int last = static_cast<int>(texture.levels.size()) - 1;
-  return sample_nearest(texture.levels[std::clamp(level, 0, last)], decoder_of(texture), view,
-                        wrap_uv(view, uv));
 }
 
 }  // namespace lambent

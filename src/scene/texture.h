@@ -1,27 +1,65 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <glm/glm.hpp>
+#include <cstddef>
 
+#include "core/byte_decoding.h"
 #include "lambent/scene.h"
+#include "scene/texture_lookup.h"
 
 namespace lambent {
 
-/// Cosine and sine of the view's rotation.
-glm::vec2 uv_rotation(const TextureView& view);
+static_assert(kWrapRepeat == static_cast<uint>(Wrap::repeat) &&
+              kWrapMirroredRepeat == static_cast<uint>(Wrap::mirrored_repeat) &&
+              kWrapClampToEdge == static_cast<uint>(Wrap::clamp_to_edge));
 
-/// Texture coordinates after the view's transform (KHR_texture_transform), before its wrap modes.
-glm::vec2 transform_uv(const TextureView& view, glm::vec2 uv);
+/// A MIP level, and what its bytes stand for.
+struct DecodedLevel {
+  const std::uint8_t* rgba;
+  int width;   ///< [texels]
+  int height;  ///< [texels]
+  const float* color;
+  const float* alpha;
+};
 
-/// Filtered texel at texture coordinates `uv` (glTF: (0, 0) is the top left corner), after the
-/// view's transform and wrap modes: linear RGBA. `lod` is the MIP level, fractional, clamped to
-/// what exists; 0 is full size.
-glm::vec4 sample_texture(const Scene& scene, const TextureView& view, glm::vec2 uv,
-                         float lod = 0.0f);
+// What texture.inl.h asks for.
+using SceneRef = const Scene&;
+using TextureViewRef = const TextureView&;
+using TextureLevelRef = DecodedLevel;
 
-/// The one texel of a MIP level (clamped to what exists) at texture coordinates: linear RGBA.
-/// Enough where the level was picked so that a texel is as wide as what asks, and four times as
-/// fast.
-glm::vec4 nearest_texel(const Scene& scene, const TextureView& view, glm::vec2 uv, int level);
+inline uint wrap_u(const TextureView& view) {
+  return static_cast<uint>(view.wrap_u);
+}
+inline uint wrap_v(const TextureView& view) {
+  return static_cast<uint>(view.wrap_v);
+}
+inline bool is_nearest(const TextureView& view) {
+  return view.nearest;
+}
+inline vec2 uv_rotation(const TextureView& view) {
+  if (view.uv_rotation == 0.0f) return {1.0f, 0.0f};
+  return {std::cos(view.uv_rotation), std::sin(view.uv_rotation)};
+}
+inline int level_count(const Scene& scene, const TextureView& view) {
+  return static_cast<int>(scene.textures[view.texture].levels.size());
+}
+inline DecodedLevel fetch_level(const Scene& scene, const TextureView& view, int index) {
+  const Texture& texture = scene.textures[view.texture];
+  const TextureLevel& level = texture.levels[index];
+  const float* const linear = linear_byte_decoding().data();
+  return {level.rgba.data(), level.width, level.height,
+          texture.srgb ? srgb_byte_decoding().data() : linear, linear};
+}
+inline vec4 fetch_texel(const DecodedLevel& level, int x, int y) {
+  const std::uint8_t* p = level.rgba + (static_cast<std::size_t>(y) * level.width + x) * 4;
+  return {level.color[p[0]], level.color[p[1]], level.color[p[2]], level.alpha[p[3]]};
+}
+
+#include "scene/texture.inl.h"
+
+/// A texture at full size, as its view says.
+inline vec4 sample_texture(const Scene& scene, const TextureView& view, vec2 uv) {
+  return filtered_texel(scene, view, uv);
+}
 
 }  // namespace lambent

@@ -14,20 +14,34 @@ namespace {
 constexpr float kObjectFov = 45.0f;
 constexpr float kRoomFov = 60.0f;
 
+Expected<void> check(const FirstViewSettings& settings) {
+  const float fov = settings.vertical_fov.value_or(1.0f);
+  if (!(fov > 0.0f && fov < glm::pi<float>())) {
+    return fail("", "vertical fov", "must be above 0 and below pi");
+  }
+  if (!(settings.aspect > 0.0f) || !std::isfinite(settings.aspect)) {
+    return fail("", "aspect", "must be above 0");
+  }
+  return {};
+}
+
 }  // namespace
 
-FirstView first_view(const World& world, const FirstViewSettings& settings) {
+Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings) {
+  if (const Expected<void> fine = check(settings); !fine) return tl::unexpected(fine.error());
   const float object_fov = settings.vertical_fov.value_or(glm::radians(kObjectFov));
   const float room_fov = settings.vertical_fov.value_or(glm::radians(kRoomFov));
   const Subject subject = find_subject(world);
-  if (subject.bounds.empty()) return {look_at({0.0f, 0.0f, 1.0f}, glm::vec3(0.0f), object_fov)};
+  if (subject.bounds.empty()) {
+    return FirstView{look_at({0.0f, 0.0f, 1.0f}, glm::vec3(0.0f), object_fov)};
+  }
 
   const SpaceSurvey survey = survey_space(world, subject.bounds);
   if (is_room(world, subject, survey)) {
     const auto inside = inside_view(world, survey, subject.bounds, room_fov, settings.aspect);
-    if (inside) return {*inside, true};
+    if (inside) return FirstView{*inside, true};
   }
-  return {outside_view(world, subject, object_fov, settings.aspect)};
+  return FirstView{outside_view(world, subject, object_fov, settings.aspect)};
 }
 
 }  // namespace lambent

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "raytracing/direct_light.h"
+#include "raytracing/world_access.h"
 #include "shared/constants.h"
 #include "shared/random.h"
 #include "shared/rays.h"
@@ -68,7 +69,7 @@ struct Panorama {
 std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
                                     RandomStream& random) {
   const std::vector<Light>& lights = world.scene().lights;
-  const std::size_t sources = lights.size() + (world.emissive().empty() ? 0 : 1);
+  const std::size_t sources = lights.size() + (emissive_of(world).empty() ? 0 : 1);
   const auto which = static_cast<std::size_t>(next_uniform(random) * static_cast<float>(sources));
   if (which < lights.size()) {
     const PunctualSample sample = sample_punctual(lights[which], from);
@@ -86,7 +87,7 @@ std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
 std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays,
                                    std::span<const Hit> hits) {
   std::vector<std::uint8_t> lit(rays.size(), 0);
-  if (world.scene().lights.empty() && world.emissive().empty()) return lit;
+  if (world.scene().lights.empty() && emissive_of(world).empty()) return lit;
   std::vector<Ray> to_lights;
   std::vector<std::size_t> hit_of_ray;
   for (std::size_t i = 0; i < rays.size(); ++i) {

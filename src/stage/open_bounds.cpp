@@ -6,6 +6,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "stage/survey.h"
 
 namespace lambent {
@@ -38,7 +39,7 @@ std::vector<float> depths_of_wall(const World& world, bool room, std::vector<Ray
   std::vector<Hit> hits;
   for (int i = 0; i < kMaxSurfaces && !rays.empty(); ++i) {
     hits.assign(rays.size(), {});
-    world.tracer().closest_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     std::size_t left = 0;
     for (std::size_t r = 0; r < rays.size(); ++r) {
       const Hit& hit = hits[r];
@@ -95,7 +96,7 @@ float side_inset(const World& world, bool room, const Bounds& bounds, int axis, 
       static_cast<std::size_t>(kMinWalledShare * kRaysAlongEdge * kRaysAlongEdge);
   if (depths.size() < kEnough) {
     std::vector<Hit> hits(side.rays.size());
-    world.tracer().closest_hits(side.rays, hits);
+    tracer_of(world).closest_hits(side.rays, hits);
     const float deepest = side.start + kMaxFacingDepth * longest;
     const auto facing = std::count_if(hits.begin(), hits.end(),
                                       [&](const Hit& h) { return h.distance <= deepest; });

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "scene/attributes.h"
 #include "shared/random.h"
 #include "stage/survey.h"
@@ -38,7 +39,7 @@ float largest(const glm::vec3& v) {
 /// Irradiance from emissive surfaces, by some samples of them.
 float emitted_irradiance(const World& world, const LitPoint& point, int samples,
                          RandomStream& random) {
-  if (world.emissive().empty()) return 0.0f;
+  if (emissive_of(world).empty()) return 0.0f;
   float sum = 0.0f;
   const float share = 1.0f / static_cast<float>(samples);
   for (int i = 0; i < samples; ++i) {
@@ -47,7 +48,8 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
     const float cosine = glm::dot(point.normal_ws, emitter.to_light);
     if (emitter.radiance == glm::vec3(0.0f) || cosine <= 0.0f) continue;
     const LightCandidate light = emitter_candidate(emitter, point.normal_ws, share);
-    if (world.tracer().occluded(shadow_ray(point.position_ws, point.geometric_normal_ws, light))) {
+    if (tracer_of(world).occluded(
+            shadow_ray(point.position_ws, point.geometric_normal_ws, light))) {
       continue;
     }
     sum += cosine * largest(light.perpendicular_irradiance);
@@ -63,12 +65,12 @@ float irradiance_of(const World& world, const LitPoint& point, RandomStream& ran
     const glm::vec3 direction =
         sample_cosine_about(point.geometric_normal_ws, next_uniform2(random));
     const Ray ray{offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f, direction};
-    const Hit hit = world.tracer().closest_hit(ray);
+    const Hit hit = tracer_of(world).closest_hit(ray);
     if (hit.missed()) {
       ++escaped;
       continue;
     }
-    if (world.emissive().empty()) continue;
+    if (emissive_of(world).empty()) continue;
     const Surface surface = surface_at(world.scene(), ray, hit);
     const float albedo = largest(surface.reflectance.diffuse);
     sum += albedo * emitted_irradiance(world, lit_point(surface), kBounceSamples, random) /

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "core/parallel.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "shared/rays.h"
 #include "shared/sampling.h"
@@ -105,20 +106,20 @@ glm::vec3 direction_from_angles(float azimuth, float elevation) {
 
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays) {
   std::vector<Hit> hits(rays.size());
-  const std::size_t chunk = std::max(kRaysPerTask, world.tracer().batch_rays());
+  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
   parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    world.tracer().closest_hits(rays.subspan(begin, end - begin),
-                                std::span(hits).subspan(begin, end - begin));
+    tracer_of(world).closest_hits(rays.subspan(begin, end - begin),
+                                  std::span(hits).subspan(begin, end - begin));
   });
   return hits;
 }
 
 std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays) {
   std::vector<std::uint8_t> occluded(rays.size());
-  const std::size_t chunk = std::max(kRaysPerTask, world.tracer().batch_rays());
+  const std::size_t chunk = std::max(kRaysPerTask, tracer_of(world).batch_rays());
   parallel_chunks(rays.size(), chunk, [&](std::size_t begin, std::size_t end) {
-    world.tracer().occlusions(rays.subspan(begin, end - begin),
-                              std::span(occluded).subspan(begin, end - begin));
+    tracer_of(world).occlusions(rays.subspan(begin, end - begin),
+                                std::span(occluded).subspan(begin, end - begin));
   });
   return occluded;
 }

@@ -15,7 +15,7 @@
 #include "vulkan/functions.h"
 
 // After Vulkan's headers without prototypes
-#include "lambent/vulkan_field.h"
+#include "lambent/vulkan_device.h"
 
 namespace lambent::vulkan {
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <lambent/field.h>
-#include <lambent/renderer.h>
-#include <lambent/world.h>
+#include <lambent/lambent.h>
 
 #include <array>
 #include <cstdio>
@@ -22,6 +20,8 @@ int main(int argc, char** argv) {
   std::printf("irradiance %g %g %g\n", irradiance[0].x, irradiance[0].y, irradiance[0].z);
 
   const lambent::Camera camera = lambent::look_at({2, 2, 3}, {0, 0, 0}, 0.8f);
-  const auto frame = lambent::render_frame(world, &*field, camera, {.width = 640, .height = 360});
-  return lambent::write_exr("frame.exr", frame.image) ? 0 : 1;
+  lambent::Renderer renderer(world, {.field = &*field});  // keeps its memory from frame to frame
+  const auto frame = renderer.render(camera, {.width = 640, .height = 360});
+  if (!frame) return std::fprintf(stderr, "%s\n", frame.error().message().c_str()), 2;
+  return lambent::write_exr("frame.exr", frame->image) ? 0 : 1;
 }

@@ -47,7 +47,7 @@ RenderedFrame render(const Stage& stage, const IrradianceField* field, int gathe
   frame.samples = 4;
   frame.emissive_samples = 32;
   frame.gather_rays = gather_rays;
-  return render_frame(stage.world, field, stage.scene.cameras[0], frame);
+  return Renderer(stage.world, {.field = field}).render(stage.scene.cameras[0], frame).value();
 }
 
 /// Mean of a layer over the pixels that show a surface.

@@ -121,7 +121,8 @@ TEST_P(FieldAgainstReference, HasItsIrradiance) {
   frame.width = view.width;
   frame.height = view.height;
   frame.samples = 8;
-  const LayeredImage image = render_frame(truth.stage.world, &field, truth.camera, frame).image;
+  const LayeredImage image =
+      Renderer(truth.stage.world, {.field = &field}).render(truth.camera, frame).value().image;
 
   const Image* error = truth.reference.find("irradiance.error");
   ASSERT_NE(error, nullptr);

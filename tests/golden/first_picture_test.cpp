@@ -34,7 +34,7 @@ TEST(FirstPicture, ShowsObjectsWhole) {
     const Expected<Scene> scene = load_without_cameras(path);
     ASSERT_TRUE(scene.has_value()) << scene.error().message();
     const World world(*scene);
-    const FirstView view = first_view(world);
+    const FirstView view = first_view(world).value();
     const test::Coverage coverage = test::coverage_of(world, view.camera, 192, 108);
     std::printf("%-60s %s covers %.2f backs %.2f%s\n", path.filename().c_str(),
                 view.inside ? "inside" : "outside", coverage.met, coverage.backs,
@@ -59,7 +59,7 @@ TEST(FirstPicture, StandsInRoomsAndLooksAlongThem) {
     ASSERT_TRUE(scene.has_value()) << scene.error().message();
     const World world(*scene);
     const auto start = std::chrono::steady_clock::now();
-    const FirstView view = first_view(world);
+    const FirstView view = first_view(world).value();
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     const float depth = test::coverage_of(world, view.camera).median_depth;
     const float share = depth / diagonal(world_bounds(*scene));

@@ -14,6 +14,7 @@
 #include "raytracing/camera_rays.h"
 #include "raytracing/direct_light.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "shared/color.h"
 #include "support/field_scenes.h"
 
@@ -31,7 +32,7 @@ struct RsmStage {
   RsmStage(Scene scene, const Camera& from)
       : stage(std::move(scene)),
         camera(from),
-        maps(render_rsms(stage.world, camera, aspect(), {})) {
+        maps(render_rsms(stage.world, camera, aspect(), {}).value()) {
     constexpr std::size_t kPixels = static_cast<std::size_t>(kWidth) * kHeight;
     positions.resize(kPixels);
     normals.assign(kPixels, vec3(0.0f));
@@ -40,7 +41,7 @@ struct RsmStage {
       for (int x = 0; x < kWidth; ++x) {
         const Ray ray = camera_ray(camera, kWidth, kHeight, static_cast<float>(x) + 0.5f,
                                    static_cast<float>(y) + 0.5f);
-        const Hit hit = stage.world.tracer().closest_hit(ray);
+        const Hit hit = tracer_of(stage.world).closest_hit(ray);
         if (hit.missed()) continue;
         const Surface surface = surface_at(stage.scene, ray, hit);
         const std::size_t i = y * kWidth + x;
@@ -66,7 +67,7 @@ struct RsmStage {
     all.final_blur = false;
     const RsmView few{static_cast<int>(chosen.size()), 1, few_positions, few_normals, few_depths};
     RsmIrradiance light;
-    RsmGatherer().gather(stage.world, maps, few, all, light);
+    EXPECT_TRUE(RsmGatherer().gather(stage.world, maps, few, all, light));
     exhaustive = light.irradiance;
   }
   static float aspect() { return static_cast<float>(kWidth) / kHeight; }
@@ -100,8 +101,9 @@ struct Errors {
 
 Errors errors_of(const RsmStage& work, const char* name) {
   RsmIrradiance light;
-  RsmGatherer().gather(work.stage.world, work.maps,
-                       {kWidth, kHeight, work.positions, work.normals, work.depths}, {}, light);
+  EXPECT_TRUE(RsmGatherer().gather(work.stage.world, work.maps,
+                                   {kWidth, kHeight, work.positions, work.normals, work.depths}, {},
+                                   light));
   double square[2] = {}, truth[2] = {}, count[2] = {}, mean = 0.0;
   for (std::size_t k = 0; k < work.chosen.size(); ++k) {
     const int edge = work.near_edge(work.chosen[k]) ? 1 : 0;
@@ -132,8 +134,8 @@ vec3 unoccluded_bounce(const Stage& stage, const vec3& position, const vec3& nor
     const vec2 u = fract(plastic_sequence(static_cast<uint>(i)) + vec2(0.5f));
     Ray ray{offset_ray_origin(position, normal), 0.0f,
             to_world(frame, sample_cosine_hemisphere(u))};
-    for (Hit hit = stage.world.tracer().closest_hit(ray); !hit.missed();
-         hit = stage.world.tracer().closest_hit(ray)) {
+    for (Hit hit = tracer_of(stage.world).closest_hit(ray); !hit.missed();
+         hit = tracer_of(stage.world).closest_hit(ray)) {
       const Surface s = surface_at(stage.scene, ray, hit);
       RandomStream random = make_random_stream(0, 0, 0);
       for_each_light(stage.world, {s.position_ws, s.normal_ws, s.geometric_normal_ws}, 1, random,
@@ -142,8 +144,8 @@ vec3 unoccluded_bounce(const Stage& stage, const vec3& position, const vec3& nor
                        if (cosine <= 0.0f || dot(s.geometric_normal_ws, light.to_light) <= 0.0f) {
                          return;
                        }
-                       if (stage.world.tracer().occluded(
-                               shadow_ray(s.position_ws, s.geometric_normal_ws, light))) {
+                       if (tracer_of(stage.world)
+                               .occluded(shadow_ray(s.position_ws, s.geometric_normal_ws, light))) {
                          return;
                        }
                        sum += effective_albedo(s.reflectance, cosine) *

@@ -15,7 +15,7 @@ ProbeGrid fetch_grid(int volume) {
   return volumes.grids[volume];
 }
 
-vec2 fetch_moments(ProbeGrid grid, int probe, vec3 direction) {
+vec2 fetch_moments(int probe, vec3 direction) {
   float mean = probes.irradiance_and_distance[probe].w + 0.0 * direction.x;
   return vec2(mean, mean * mean);
 }

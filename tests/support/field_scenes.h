@@ -47,7 +47,7 @@ inline std::vector<glm::vec3> look_up(const IrradianceField& field,
 
 /// What the scene's first camera sees, one point a pixel of a small picture.
 inline std::vector<FieldQuery> seen_points(const Stage& stage) {
-  return visible_points(stage.world, stage.scene.cameras[0], 48, 27);
+  return visible_points(stage.world, stage.scene.cameras[0], 48, 27).value();
 }
 
 /// Settings that leave storage out of what is tested.

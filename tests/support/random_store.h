@@ -16,8 +16,9 @@ struct SharedLookup {
   const ProbeStore& store;
 
   ProbeGrid fetch_grid(int volume) { return store.grid(volume); }
-  vec2 fetch_moments(const ProbeGrid& /*grid*/, int probe, vec3 direction) {
-    return store.moments(probe, direction);
+  vec2 fetch_moments(int probe, vec3 direction) {
+    const float unit = distance_unit(store.grid_of(probe));
+    return store.moments(probe, direction) / vec2(unit, unit * unit);
   }
   vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
   vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }

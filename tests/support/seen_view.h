@@ -5,6 +5,7 @@
 #include "lambent/world.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "support/made_view.h"
 
 namespace lambent::test {
@@ -16,7 +17,7 @@ inline MadeView seen_view(const World& world, const Camera& camera, int width, i
     for (int x = 0; x < width; ++x) {
       const Ray ray = camera_ray(camera, width, height, static_cast<float>(x) + 0.5f,
                                  static_cast<float>(y) + 0.5f);
-      const Hit hit = world.tracer().closest_hit(ray);
+      const Hit hit = tracer_of(world).closest_hit(ray);
       if (hit.missed()) {
         view.add(glm::vec3(0.0f), glm::vec3(0.0f), 0.0f);
         continue;

@@ -7,6 +7,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/world_access.h"
 
 namespace lambent::test {
 
@@ -28,7 +29,7 @@ inline Coverage coverage_of(const World& world, const Camera& camera, int width 
     for (int x = 0; x < width; ++x) {
       const Ray ray = camera_ray(camera, width, height, static_cast<float>(x) + 0.5f,
                                  static_cast<float>(y) + 0.5f);
-      const Hit hit = world.tracer().closest_hit(ray);
+      const Hit hit = tracer_of(world).closest_hit(ray);
       depths.push_back(hit.distance);
       if (hit.missed()) continue;
       met += 1.0f;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <random>
 
+#include "field/field_access.h"
 #include "lambent/field.h"
 #include "lambent/world.h"
 #include "scenes/builtin.h"
@@ -176,7 +177,7 @@ TEST_F(FieldOverTime, SeesByRaysAlike) {
     settings.visibility = visibility;
     Twins twins("two-rooms", settings, shared_device());
     for (int i = 0; i < 2; ++i) twins.update();
-    EXPECT_NE(twins.field_resources->on_device(), nullptr);
+    EXPECT_NE(device_lookups_of(*twins.field_resources), nullptr);
     EXPECT_LE(twins.difference(), kTolerance);
     EXPECT_NEAR(static_cast<double>(twins.on_device.shadow_rays),
                 static_cast<double>(twins.on_cpu.shadow_rays),
@@ -227,8 +228,8 @@ TEST_F(FieldOverTime, ComesAndGoesWithItsLight) {
   twins.cpu->irradiance(twins.points, a);
   twins.field_resources->irradiance(twins.points, b);
   EXPECT_LE(twins.difference(), kTolerance);
-  EXPECT_NE(twins.cpu->on_device(), nullptr);
-  EXPECT_EQ(twins.field_resources->on_device(), nullptr);
+  EXPECT_NE(device_lookups_of(*twins.cpu), nullptr);
+  EXPECT_EQ(device_lookups_of(*twins.field_resources), nullptr);
 }
 
 TEST_F(FieldOverTime, IsSavedAsItIs) {

@@ -12,6 +12,7 @@
 #include "field/transport/distances.h"
 #include "field/transport/solve_bounces.h"
 #include "field/vulkan/field_resources.h"
+#include "raytracing/world_access.h"
 #include "support/field_scenes.h"
 
 namespace lambent::test {
@@ -40,7 +41,7 @@ struct UpdateOnCpu {
       TraceGroup group;
       group.rays = std::make_shared<RaySet>(settings, settings.rays_per_probe / (part + 1), 3u);
       for (int probe = part; probe < store.probes(); probe += 2) group.probes.push_back(probe);
-      trace_probe_rays(stage.world.tracer(), store, group);
+      trace_probe_rays(tracer_of(stage.world), store, group);
       groups.push_back(std::move(group));
     }
     for (const TraceGroup& group : groups) {

@@ -51,8 +51,8 @@ LayeredImage render(const Scene& scene, const World& world, const Job& job) {
   maps.texels = 256;
   IndirectSources sources;
   sources.field = &*field;
-  if (job.with_rsm) sources.rsm = &maps;
-  return render_frame(world, sources, scene.cameras.front(), job.frame).image;
+  if (job.with_rsm) sources.rsm = maps;
+  return Renderer(world, sources).render(scene.cameras.front(), job.frame).value().image;
 }
 
 class Frame : public test::OnDevice {

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "scenes/builtin.h"
 #include "support/hand_made.h"
 #include "support/vulkan_device.h"
@@ -47,7 +48,7 @@ TEST_F(TracerTwin, AnswersAsEmbreeDoesInBuiltInScenes) {
     const Scene scene = scenes::make(name).value();
     const World on_host(scene), on_device(scene, shared_device());
     EXPECT_GT(expect_same_answers(on_device, on_host, random_rays(scene, kRays, 7u)), kRays / 3);
-    const AccelerationStatistics statistics = on_device.tracer().statistics();
+    const AccelerationStatistics statistics = tracer_of(on_device).statistics();
     EXPECT_EQ(statistics.triangles, triangle_count(scene));
     EXPECT_EQ(statistics.instances, scene.instances.size());
     EXPECT_GT(statistics.bytes, 0u);
@@ -62,7 +63,7 @@ TEST_F(TracerTwin, KnowsTheFrontOfMirroredInstances) {
   expect_same_answers(on_device, on_host, rays);
   // Both sides of both balls are among the hits that were compared
   std::vector<Hit> hits(rays.size());
-  on_device.tracer().closest_hits(rays, hits);
+  tracer_of(on_device).closest_hits(rays, hits);
   for (const std::size_t ball : {kBall, kMirrored}) {
     for (const bool front : {false, true}) {
       EXPECT_TRUE(std::any_of(hits.begin(), hits.end(), [&](const Hit& hit) {
@@ -94,8 +95,8 @@ TEST_F(TracerTwin, CountsHitsBetweenTheEndsOfRaysAlone) {
   const World world(scene, shared_device());
   const auto distance = [&](float t_min, float t_max) {
     const Ray ray{glm::vec3(0.0f), t_min, {0, 0, 1}, t_max};
-    const Hit hit = world.tracer().closest_hit(ray);
-    EXPECT_EQ(world.tracer().occluded(ray), !hit.missed());
+    const Hit hit = tracer_of(world).closest_hit(ray);
+    EXPECT_EQ(tracer_of(world).occluded(ray), !hit.missed());
     return hit.distance;
   };
   EXPECT_NEAR(distance(0.0f, kInfiniteDistance), 2.0f, 1e-5f);
@@ -109,8 +110,8 @@ TEST_F(TracerTwin, BearsScenesOfNothing) {
   Scene scene;
   World on_host(scene), on_device(scene, shared_device());
   EXPECT_EQ(expect_same_answers(on_device, on_host, random_rays(scene, 100, 3u)), 0);
-  on_device.tracer().closest_hits({}, {});
-  on_device.tracer().occlusions({}, {});
+  tracer_of(on_device).closest_hits({}, {});
+  tracer_of(on_device).occlusions({}, {});
   // ... and their becoming scenes of something
   scene = room_with_balls();
   ASSERT_TRUE(on_host.update());
@@ -141,8 +142,8 @@ TEST_F(TracerTwin, FollowsWhatMovesAppearsAndVanishes) {
     ASSERT_TRUE(on_host.update());
     ASSERT_TRUE(on_device.update());
     expect_same_answers(on_device, on_host, random_rays(scene, kRays, 5u));
-    EXPECT_EQ(on_device.tracer().statistics().triangles, triangle_count(scene));
-    EXPECT_EQ(on_device.tracer().statistics().instances, scene.instances.size());
+    EXPECT_EQ(tracer_of(on_device).statistics().triangles, triangle_count(scene));
+    EXPECT_EQ(tracer_of(on_device).statistics().instances, scene.instances.size());
   };
   scene.instances[kBall].world_from_object = at({-1.5f, 1.0f, 1.0f});
   expect_followed("moved");
@@ -200,12 +201,12 @@ TEST_F(TracerTwin, AnswersManyThreadsAtOnce) {
   const std::vector<Ray> rays = random_rays(scene, 4000, 8u);
   std::vector<Hit> together(rays.size()), apart(rays.size());
   std::vector<std::uint8_t> occluded(rays.size()), occluded_apart(rays.size());
-  world.tracer().closest_hits(rays, together);
-  world.tracer().occlusions(rays, occluded);
+  tracer_of(world).closest_hits(rays, together);
+  tracer_of(world).occlusions(rays, occluded);
   parallel_chunks(rays.size(), 61, [&](std::size_t begin, std::size_t end) {
     const auto some = std::span(rays).subspan(begin, end - begin);
-    world.tracer().closest_hits(some, std::span(apart).subspan(begin, end - begin));
-    world.tracer().occlusions(some, std::span(occluded_apart).subspan(begin, end - begin));
+    tracer_of(world).closest_hits(some, std::span(apart).subspan(begin, end - begin));
+    tracer_of(world).occlusions(some, std::span(occluded_apart).subspan(begin, end - begin));
   });
   EXPECT_EQ(occluded, occluded_apart);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -219,8 +220,8 @@ TEST_F(TracerTwin, AnswersManyThreadsAtOnce) {
 TEST_F(TracerTwin, TracesBatchesThatStayOnTheDevice) {
   const Scene scene = room_with_balls();
   const World world(scene, shared_device());
-  ASSERT_NE(world.on_device(), nullptr);
-  const DeviceTracer& tracer = world.on_device()->tracer();
+  ASSERT_NE(device_world_of(world), nullptr);
+  const DeviceTracer& tracer = device_world_of(world)->tracer();
   const std::vector<Ray> rays = random_rays(scene, 1000, 9u);
   constexpr std::uint32_t kTraced = 700, kUntouched = 12345u;
   const vulkan::Buffer up = vulkan::upload(device(), rays, "rays");
@@ -239,9 +240,9 @@ TEST_F(TracerTwin, TracesBatchesThatStayOnTheDevice) {
     tracer.occlusions(recorder, batch, {occluded.address()});
   });
   std::vector<Hit> expected(rays.size());
-  world.tracer().closest_hits(rays, expected);
+  tracer_of(world).closest_hits(rays, expected);
   std::vector<std::uint8_t> expected_occluded(rays.size());
-  world.tracer().occlusions(rays, expected_occluded);
+  tracer_of(world).occlusions(rays, expected_occluded);
   const auto found = vulkan::download<HitRecord>(device(), hits);
   const auto words = vulkan::download<std::uint32_t>(device(), occluded);
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -3,6 +3,7 @@
 // the processor's fields do, and are looked up with the same blending.
 #include <numeric>
 
+#include "field/field_access.h"
 #include "field/probes/volumes.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
@@ -82,7 +83,7 @@ TEST_F(RecordedCascades, FollowTheViewerAsTheProcessorsDo) {
     recycled += on_cpu.update(cornell().world, request).probes_recycled;
     const std::vector<ProbeGrid> grids = grids_of(field);
     for (int volume = 0; volume < 2; ++volume) {
-      const ProbeGrid& expected = on_cpu.store().grid(volume);
+      const ProbeGrid& expected = store_of(on_cpu).grid(volume);
       EXPECT_EQ(grids[volume].origin_ws, expected.origin_ws);
       EXPECT_EQ(grids[volume].scroll, expected.scroll);
       EXPECT_EQ(grids[volume].fade_centre, expected.fade_centre);

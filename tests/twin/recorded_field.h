@@ -11,6 +11,7 @@
 #include "field/transport/surfels.h"
 #include "lambent/shaders/ray_results.h"
 #include "lambent/vulkan_field.h"
+#include "raytracing/world_access.h"
 #include "shaders/engine_lookup_comp.h"
 #include "support/field_scenes.h"
 #include "support/vulkan_device.h"
@@ -70,7 +71,7 @@ class RecordedFieldTest : public OnDevice {
     // Rays that are traced again are shaded with the random numbers of the update that drew them
     static std::map<const RecordedField*, std::uint32_t> drawn_in;
     std::uint32_t number = field.updates();
-    const vulkan::PlannedUpdate planned = field.plan(plan);
+    const vulkan::PlannedUpdate planned = field.plan(plan).value();
     if (planned.retraces) number = drawn_in.at(&field);
     drawn_in[&field] = number;
     device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
@@ -88,7 +89,7 @@ class RecordedFieldTest : public OnDevice {
     }
     std::vector<Hit> hits(rays.size());
     std::vector<ShadedHit> shaded(rays.size());
-    world.tracer().closest_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     ShadeHitsScratch scratch;
     const std::size_t each = planned.rays_per_probe;
     for (std::size_t k = 0; k < planned.probes; ++k) {

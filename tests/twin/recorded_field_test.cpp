@@ -3,7 +3,9 @@
 #include "twin/recorded_field.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "field/field_access.h"
 #include "field/probes/probe_status.h"
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
@@ -12,7 +14,7 @@ namespace lambent {
 namespace {
 
 using test::cornell, test::recorded_settings, test::RecordedFieldTest;
-using vulkan::RecordedField, vulkan::RecordedFieldSettings;
+using vulkan::PlannedUpdate, vulkan::RecordedField, vulkan::RecordedFieldSettings;
 
 TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const FieldSettings settings = recorded_settings();
@@ -27,7 +29,7 @@ TEST_F(RecordedFieldTest, HoldsWhatTheProcessorsFieldDoes) {
   const auto states = download<uint>(field.states());
   int off = 0;
   for (std::size_t probe = 0; probe < states.size(); ++probe) {
-    EXPECT_EQ(states[probe] == kProbeOff, on_cpu.probe_statuses()[probe].state == ProbeState::off);
+    EXPECT_EQ(states[probe] == kProbeOff, statuses_of(on_cpu)[probe].state == ProbeState::off);
     off += states[probe] == kProbeOff ? 1 : 0;
   }
   EXPECT_GT(off, 0);
@@ -83,6 +85,27 @@ TEST_F(RecordedFieldTest, ForgetsWhatItIsToldTo) {
   EXPECT_LE(difference(look_up(field, queries), look_up(fresh, queries)), 0.001);
 }
 
+TEST_F(RecordedFieldTest, TellsItsMemory) {
+  FieldSettings settings = recorded_settings();
+  const RecordedField field = make(settings, {});
+  std::size_t known = 0;
+  const vulkan::LookupBuffers buffers = field.lookup_buffers();
+  for (const vulkan::BufferRange& range :
+       {field.rays(), field.hits(), field.results(), field.states(), buffers.grids, buffers.offsets,
+        buffers.irradiance, buffers.distance, buffers.record}) {
+    known += range.bytes;
+  }
+  EXPECT_GT(field.bytes(), known);
+  // What is in proportion to rays is most of it
+  settings.rays_per_probe *= 2;
+  const double ratio = static_cast<double>(make(settings, {}).bytes()) / field.bytes();
+  EXPECT_GT(ratio, 1.5);
+  EXPECT_LT(ratio, 2.0);
+  settings.rays_per_probe /= 2;
+  const std::size_t some = make(settings, {.probes_per_update = 8}).bytes();
+  EXPECT_LT(some, field.bytes());
+}
+
 TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   const auto refused = [](const FieldSettings& settings, const RecordedFieldSettings& recorded) {
     return !RecordedField::make(shared_device(), settings, cornell().bounds(), recorded);
@@ -99,6 +122,16 @@ TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   settings = recorded_settings();
   settings.visibility = Visibility::exact;
   EXPECT_TRUE(refused(settings, {}));
+}
+
+TEST_F(RecordedFieldTest, RefusesAPlanOutOfRangeAndBeginsNothing) {
+  RecordedField field = make(recorded_settings(), {});
+  for (const float history : {-0.1f, 1.1f, std::numeric_limits<float>::quiet_NaN()}) {
+    const Expected<PlannedUpdate> planned = field.plan({.history = history});
+    ASSERT_FALSE(planned) << history;
+    EXPECT_EQ(planned.error().place, "history");
+  }
+  EXPECT_EQ(field.updates(), 0u);
 }
 
 TEST(BatchPlan, ServesEachProbeOnceARound) {

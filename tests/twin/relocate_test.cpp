@@ -7,6 +7,7 @@
 
 #include "field/probes/volumes.h"
 #include "field/vulkan/recorded_state.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
@@ -106,7 +107,7 @@ class Relocated {
       viewpoints.push_back({store_.probe_position_ws(static_cast<int>(k)), store_.grid(0).axes});
     }
     fixed_hits_.resize(rays());
-    trace_fixed_rays(stage_.scene, stage_.world.tracer(), viewpoints, {}, fixed_hits_);
+    trace_fixed_rays(stage_.scene, tracer_of(stage_.world), viewpoints, {}, fixed_hits_);
     const std::span<const vec3> directions = fixed_ray_directions();
     for (std::size_t i = 0; i < rays(); ++i) {
       rays_.as<RayRecord>()[i] = {viewpoints[i / directions.size()].position_ws, 0.0f,

@@ -7,6 +7,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "rsm/vulkan/gather_vulkan.h"
 #include "rsm/vulkan/maps_vulkan.h"
 #include "scenes/builtin.h"
@@ -69,7 +70,7 @@ class RsmMapsTwin : public test::OnDevice {
  protected:
   /// Makes both, and says what share of texels differ: those at edges may see what is beside.
   double share_of_others(const TwinStage& stage, const RsmSettings& settings) {
-    const auto expected = render_rsms(stage.host, stage.camera(), kAspect, settings);
+    const auto expected = render_rsms(stage.host, stage.camera(), kAspect, settings).value();
     RsmMapsOnDevice made;
     device().kept<RsmMapperVulkan>().render(stage.world, stage.camera(), kAspect, settings, made);
     const auto maps = download_maps(device(), made);
@@ -134,7 +135,7 @@ struct TwinView {
 /// Light of the device's maps, chosen and gathered there.
 std::vector<vec3> light_on_device(const TwinStage& stage, const TwinView& view,
                                   const RsmSettings& settings, RsmMapsOnDevice& maps) {
-  const DeviceWorld& world = *stage.world.on_device();
+  const DeviceWorld& world = *device_world_of(stage.world);
   auto& mapper = world.device().kept<RsmMapperVulkan>();
   auto& gatherer = world.device().kept<RsmGathererVulkan>();
   mapper.render(stage.world, stage.camera(), kAspect, settings, maps);
@@ -149,7 +150,7 @@ std::vector<vec3> light_on_host(const TwinStage& stage, const TwinView& view,
                                 std::span<const ReflectiveShadowMap> maps,
                                 const RsmSettings& settings) {
   RsmIrradiance result;
-  RsmGatherer().gather(stage.host, maps, view.seen.view(), settings, result);
+  EXPECT_TRUE(RsmGatherer().gather(stage.host, maps, view.seen.view(), settings, result));
   return result.irradiance;
 }
 
@@ -165,7 +166,7 @@ TEST_F(RsmMapsTwin, LightTheViewAlikeWithoutLeavingTheDevice) {
     RsmMapsOnDevice maps;
     const std::vector<vec3> light = light_on_device(stage, view, settings, maps);
     const auto expected = light_on_host(
-        stage, view, render_rsms(stage.host, stage.camera(), kAspect, settings), settings);
+        stage, view, render_rsms(stage.host, stage.camera(), kAspect, settings).value(), settings);
     EXPECT_LT(relative_rmse(expected, light), 0.01);
   }
 }

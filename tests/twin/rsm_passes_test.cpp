@@ -7,6 +7,7 @@
 #include "compose/rsm_frame.h"
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "rsm/vulkan/gather_vulkan.h"
 #include "scenes/builtin.h"
 #include "shared/random.h"
@@ -97,7 +98,7 @@ class RsmTwin : public test::OnDevice {
     static const Scene empty;
     static const World world(empty);
     RsmIrradiance result;
-    RsmGatherer().gather(world, maps, view, settings, result, keep_stages);
+    EXPECT_TRUE(RsmGatherer().gather(world, maps, view, settings, result, keep_stages));
     return result;
   }
   float difference_of(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
@@ -219,7 +220,7 @@ struct Cornell {
         seen(test::seen_view(host, scene.cameras[0], 61, 43)) {
     RsmSettings settings;
     settings.resolution = 96;
-    maps = render_rsms(host, scene.cameras[0], 61.0f / 43.0f, settings);
+    maps = render_rsms(host, scene.cameras[0], 61.0f / 43.0f, settings).value();
   }
   const Scene scene;
   const World host, world;
@@ -239,11 +240,12 @@ TEST_F(RsmTwin, FindsTheSameTexelsHidden) {
   settings.sub_blur_radius = 0;
   settings.final_blur = false;
   RsmIrradiance expected, result;
-  RsmGatherer().gather(box.host, box.maps, box.seen.view(), settings, expected);
+  EXPECT_TRUE(RsmGatherer().gather(box.host, box.maps, box.seen.view(), settings, expected));
   for (const RsmLayout layout : {RsmLayout::full, RsmLayout::restructured}) {
     settings.layout = layout;
-    gatherer().gather(box.maps, box.seen.view(), settings, result, &box.world.on_device()->tracer(),
-                      box.world.on_device()->scene().textures());
+    gatherer().gather(box.maps, box.seen.view(), settings, result,
+                      &device_world_of(box.world)->tracer(),
+                      device_world_of(box.world)->scene().textures());
     EXPECT_EQ(result.rays, expected.rays);
     // Rays that graze an edge, or were drawn on one, may be told otherwise: a pixel in a hundred
     std::size_t others = 0;
@@ -264,7 +266,9 @@ TEST_F(RsmTwin, UpsamplesTheSameLight) {
   RsmSettings settings = few_texels();
   settings.resolution = 96;
   settings.downscale = 3;
-  const RsmFrame small = light_by_rsm(box.host, camera, frame, settings, false);
+  const IndirectSources sources = {.rsm = settings};
+  RsmFrame small;
+  light_by_rsm({box.host, sources, camera, frame}, small);
   GBuffer gbuffer;
   trace_gbuffer(box.host, camera, frame, {0, frame.height}, 0, gbuffer);
   std::vector<vec3> expected;
@@ -273,8 +277,8 @@ TEST_F(RsmTwin, UpsamplesTheSameLight) {
   RsmIrradiance light;
   const RsmView small_view = {small.light.width, small.light.height, small.positions_ws,
                               small.normals_ws, small.depths};
-  gatherer().gather(render_rsms(box.host, camera, 61.0f / 43.0f, settings), small_view, settings,
-                    light);
+  gatherer().gather(render_rsms(box.host, camera, 61.0f / 43.0f, settings).value(), small_view,
+                    settings, light);
   const UploadedRsmView from(device(), small_view), to(device(), box.seen.view());
   // The picture in two bands of rows
   constexpr int kFirstRows = 17;

@@ -43,7 +43,8 @@ struct Crowd {
     const bool off = states[probe] == kProbeOff;
     if (off) {
       const bool looked_at = look && waits_too_long(own.served, kUpdate + 1);
-      return looked_at ? priority_bin(0.0f, own.served, kUpdate + 1) : kNoPartBin;
+      return looked_at ? priority_bin(probe_urgency(0.0f, own.served, kUpdate + 1, 1.0f))
+                       : kNoPartBin;
     }
     const ProbeGrid& grid = store.grid_of(probe);
     float sum = own.known.noise;
@@ -58,8 +59,8 @@ struct Crowd {
     const float samples = standing[probe].samples;
     float reduction = error_reduction(noise, samples, longest_average(settings));
     if (reduction > 0.0f)
-      reduction = max(reduction, kMinNoiseOfMean * kMeanNoise * error_reduction_per_noise(samples));
-    return priority_bin(reduction, own.served, kUpdate + 1);
+      reduction = scheduled_reduction(reduction, error_reduction_per_noise(samples), kMeanNoise);
+    return priority_bin(probe_urgency(reduction, own.served, kUpdate + 1, 1.0f));
   }
 
   FieldSettings settings;
@@ -220,8 +221,8 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
     record.noise = service.known.noise;
     record.noise_samples = static_cast<std::uint16_t>(service.known.samples);
     record.samples = 1.0f / blend_weights[k] - 1.0f;
-    const float square = relative_square(now, was, kDarkShare * kMeanLight);
-    learn_noise(estimate_relative_square(square, mean_luminance(was), blend_weights[k], kMeanLight),
+    learn_noise(estimate_relative_square(light_change(was, now), static_cast<int>(texels),
+                                         blend_weights[k], kMeanLight),
                 1.0f, record);
     service = {{record.noise, record.noise_samples}, kUpdate + 1};
   }
@@ -278,7 +279,7 @@ TEST_F(BudgetedFieldTest, TracesNoMoreThanItsProbesDecidedOn) {
   RecordedField field = make(settings, recorded);
   // Two rounds, of which the second starts anew, and three times 24 of 80 probes
   for (int i = 0; i < 4 + 4 + 3; ++i) update(field);
-  const vulkan::PlannedUpdate planned = field.plan();
+  const vulkan::PlannedUpdate planned = field.plan().value();
   EXPECT_TRUE(planned.on_device);
   EXPECT_EQ(planned.probes, 24u);
 

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "support/hand_made.h"
 #include "support/vulkan_device.h"
 #include "twin/trace_agreement.h"
@@ -67,7 +68,7 @@ constexpr std::size_t kCurtain = 6;
 
 int hits_on(const World& world, std::span<const Ray> rays, std::size_t instance) {
   std::vector<Hit> hits(rays.size());
-  world.tracer().closest_hits(rays, hits);
+  tracer_of(world).closest_hits(rays, hits);
   return static_cast<int>(std::count_if(hits.begin(), hits.end(), [&](const Hit& hit) {
     return !hit.missed() && hit.instance == instance;
   }));
@@ -125,8 +126,8 @@ TEST_F(SeeThroughTwin, BlendsLetTheSameShareOfRaysPass) {
   for (const World* world : {&on_host, &on_device}) {
     std::vector<Hit> hits(rays.size());
     std::vector<std::uint8_t> occluded(rays.size());
-    world->tracer().closest_hits(rays, hits);
-    world->tracer().occlusions(rays, occluded);
+    tracer_of(*world).closest_hits(rays, hits);
+    tracer_of(*world).occlusions(rays, occluded);
     int passed = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
       // The two kinds of query agree on every ray

@@ -11,6 +11,7 @@
 #include "lambent/world.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/vulkan/hit_shading.h"
+#include "raytracing/world_access.h"
 #include "twin/host_tracer.h"
 
 namespace lambent::test {
@@ -23,7 +24,7 @@ struct HitBatch {
 inline HitBatch trace_batch(const World& world, std::vector<Ray> rays) {
   HitBatch batch{std::move(rays), {}};
   batch.hits.resize(batch.rays.size());
-  world.tracer().closest_hits(batch.rays, batch.hits);
+  tracer_of(world).closest_hits(batch.rays, batch.hits);
   return batch;
 }
 

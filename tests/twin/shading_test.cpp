@@ -9,6 +9,7 @@
 #include "compose/gbuffer.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "scenes/builtin.h"
 #include "support/vulkan_device.h"
@@ -44,7 +45,7 @@ constexpr double kUndecidedShare = 0.01;
 /// A world, on the host and on the device.
 struct TwinWorld {
   explicit TwinWorld(const vulkan::Device& device, Scene made)
-      : scene(std::move(made)), world(scene), on_device(device, scene, world.emissive()) {}
+      : scene(std::move(made)), world(scene), on_device(device, scene, emissive_of(world)) {}
   Scene scene;
   World world;
   DeviceScene on_device;
@@ -78,7 +79,7 @@ Shaded shade_on_device(const vulkan::Device& device, const World& world, const D
   const vulkan::Buffer points = room(sizeof(LitPointRecord));
   const vulkan::Buffer shaded = room(sizeof(ShadedHitRecord));
   const vulkan::Buffer irradiance = room(sizeof(glm::vec3));
-  HostTracer tracer(device, world.tracer());
+  HostTracer tracer(device, tracer_of(world));
   HitShading& shading = shading_on(device);
   tracer.run([&](vulkan::Recorder& to) {
     shading.shade_hits(to, {scene, tracer}, hits.view, {indices.address()}, per_index, settings,
@@ -152,13 +153,13 @@ TEST_F(ShadingTwin, LightsMaterialsOfAllKindsAsTheHostDoes) {
 TEST_F(ShadingTwin, FollowsEdits) {
   Scene scene = test::material_scene();
   World world(scene);
-  DeviceScene on_device(device(), scene, world.emissive());
+  DeviceScene on_device(device(), scene, emissive_of(world));
   ShadeHitsSettings settings;
   settings.cone_width = 0.02f;
   const auto expect_same = [&](const char* edit) {
     SCOPED_TRACE(edit);
     ASSERT_TRUE(world.update());
-    on_device.update(scene, world.emissive());
+    on_device.update(scene, emissive_of(world));
     expect_same_shading(device(), world, on_device, settings, kTolerance);
   };
   scene.instances[6].world_from_object[3].x += 0.5f;
@@ -193,7 +194,7 @@ TEST_F(ShadingTwin, LightsPointsAtAnyTimeAsWhenTheyWereHit) {
   const vulkan::Buffer points = vulkan::upload(device(), shaded.points, "points");
   const vulkan::Buffer irradiance(device(), shaded.points.size() * sizeof(glm::vec3),
                                   vulkan::Memory::device, "irradiance");
-  HostTracer tracer(device(), twin.world.tracer());
+  HostTracer tracer(device(), tracer_of(twin.world));
   HitShading& shading = shading_on(device());
   tracer.run([&](vulkan::Recorder& to) {
     shading.direct_irradiance(to, {twin.on_device, tracer}, {points.address()},
@@ -224,7 +225,7 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
     irradiance.emplace_back(device(), records.size() * sizeof(glm::vec3), vulkan::Memory::device,
                             "irradiance");
   }
-  HostTracer tracer(device(), twin.world.tracer());
+  HostTracer tracer(device(), tracer_of(twin.world));
   const auto light = [&](std::initializer_list<int> batches) {
     tracer.run([&](vulkan::Recorder& to) {
       for (const int b : batches) {
@@ -281,7 +282,7 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   settings.emissive_samples = frame.emissive_samples;
   settings.salt = 0;
   settings.seed = frame.seed;
-  HostTracer tracer(device, world.tracer());
+  HostTracer tracer(device, tracer_of(world));
   HitShading& shading = shading_on(device);
   tracer.run([&](vulkan::Recorder& to) {
     const DeviceStage stage = {twin.on_device, tracer};

@@ -10,6 +10,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 
@@ -49,11 +50,11 @@ inline std::vector<Ray> random_rays(const Scene& scene, int count, std::uint32_t
 /// answers but for rays that graze. Returns how many hit something.
 inline int expect_same_answers(const World& ours, const World& theirs, std::span<const Ray> rays) {
   std::vector<Hit> a(rays.size()), b(rays.size());
-  ours.tracer().closest_hits(rays, a);
-  theirs.tracer().closest_hits(rays, b);
+  tracer_of(ours).closest_hits(rays, a);
+  tracer_of(theirs).closest_hits(rays, b);
   std::vector<std::uint8_t> c(rays.size()), d(rays.size());
-  ours.tracer().occlusions(rays, c);
-  theirs.tracer().occlusions(rays, d);
+  tracer_of(ours).occlusions(rays, c);
+  tracer_of(theirs).occlusions(rays, d);
 
   int hits = 0, grazing = 0, contradictions = 0, elsewhere = 0, reversed = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {

@@ -2,9 +2,11 @@
 // Visibility by rays on a device against the processor's: pass by pass, and where no light may be.
 #include <cmath>
 
+#include "field/field_access.h"
 #include "field/lookup/visibility.h"
 #include "field_update_cpu.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "support/random_store.h"
 #include "support/vulkan_device.h"
@@ -33,14 +35,14 @@ struct Sighted {
       : there(stage.scene, std::move(device)),
         update(stage, settings_of(as)),
         cell_visibility(update.store.probes()),
-        field(there.on_device()->device(), update.settings, update.store),
-        by{as.visibility, &stage.world.tracer(), &cell_visibility} {
+        field(device_world_of(there)->device(), update.settings, update.store),
+        by{as.visibility, &tracer_of(stage.world), &cell_visibility} {
     // Distances that tell nothing leave much to rays
     test::fill_randomly(update.store);
     field.write_store(update.store);
     field.write_surfels(update.all, update.traces);
     const std::vector<int> cells = cells_around(update.store, update.all);
-    cell_rays = cell_visibility.update(stage.world.tracer(), update.store, cells);
+    cell_rays = cell_visibility.update(tracer_of(stage.world), update.store, cells);
     if (as.visibility != Visibility::hybrid) return;
     const vulkan::Buffer lowest = vulkan::upload(device_of(), cells, "cells");
     run([&](vulkan::Recorder& to, const DeviceTracer& tracer) {
@@ -53,11 +55,11 @@ struct Sighted {
     settings.visibility = as.visibility;
     return settings;
   }
-  const vulkan::Device& device_of() const { return there.on_device()->device(); }
+  const vulkan::Device& device_of() const { return device_world_of(there)->device(); }
 
   template <class Record>
   void run(Record record) const {
-    const DeviceWorld& world = *there.on_device();
+    const DeviceWorld& world = *device_world_of(there);
     world.device().run([&](vulkan::Recorder& to) {
       to.bind_textures(world.scene().textures());
       record(to, world.tracer());
@@ -180,10 +182,10 @@ TEST_P(SealedRoom, StaysDarkWhereverTheFieldGoes) {
   UpdateRequest request;
   request.ray_budget = 100;
   field.update(there, request);
-  ASSERT_NE(field.on_device(), nullptr);
+  ASSERT_NE(device_lookups_of(field), nullptr);
   EXPECT_EQ(brightest(field, stage, there), 0.0f);
   field.update(stage.world, request);
-  ASSERT_EQ(field.on_device(), nullptr);
+  ASSERT_EQ(device_lookups_of(field), nullptr);
   EXPECT_EQ(brightest(field, stage, stage.world), 0.0f);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "field/field_access.h"
 #include "field/probes/probe_status.h"
 #include "shared/color.h"
 #include "support/field_scenes.h"
@@ -103,14 +104,13 @@ TEST(Cascades, ATurnedVolumeHoldsTheSameLight) {
 TEST(Cascades, CoarseOnesAreTracedLessOften) {
   const Stage& stage = cornell();
   IrradianceField field = settled_cascades(stage, cascades(3), kMiddle, 1);
-  const std::vector<ProbeStatus> first(field.probe_statuses().begin(),
-                                       field.probe_statuses().end());
+  const std::vector<ProbeStatus> first(statuses_of(field).begin(), statuses_of(field).end());
   for (int i = 0; i < 16; ++i) field.update(stage.world, {0, 0.0, kMiddle});
   for (int level = 0; level < 3; ++level) {
     float samples = 0.0f;
     int live = 0;
     for (int probe = 1000 * level; probe < 1000 * (level + 1); ++probe) {
-      const ProbeStatus& record = field.probe_statuses()[probe];
+      const ProbeStatus& record = statuses_of(field)[probe];
       if (record.state != ProbeState::vigilant) continue;
       samples += record.samples - first[probe].samples;
       ++live;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "field/probes/volumes.h"
+#include "raytracing/world_access.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 
@@ -75,7 +76,7 @@ ClassificationInput reach_in(const Scene& scene) {
   const World world(scene);
   std::vector<FixedRayHit> fixed_hits(fixed_ray_directions().size());
   const Viewpoint origin{vec3(0.0f), mat3(1.0f)};
-  trace_fixed_rays(scene, world.tracer(), {&origin, 1}, {}, fixed_hits);
+  trace_fixed_rays(scene, tracer_of(world), {&origin, 1}, {}, fixed_hits);
   return classification_input(fixed_hits, vec3(0.0f), vec3(0.0f), vec3(1.0f));
 }
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/light_sampling.h"
 #include "shared/constants.h"
 #include "shared/random.h"
 #include "shared/sampling.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "field/field_access.h"
 #include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
 #include "lambent/field.h"
@@ -98,7 +99,7 @@ double relative_rmse(const std::vector<double>& a, const std::vector<double>& b)
 }
 
 std::vector<uint> words_of(const IrradianceField& field) {
-  const auto words = field.store().irradiance_words();
+  const auto words = store_of(field).irradiance_words();
   return {words.begin(), words.end()};
 }
 
@@ -279,7 +280,7 @@ TEST(FieldEdit, WhatDoesNotReceiveStaysDarkForTheNextBounce) {
 }
 
 std::vector<uint> offsets_of(const IrradianceField& field) {
-  const auto words = field.store().offset_words();
+  const auto words = store_of(field).offset_words();
   return {words.begin(), words.end()};
 }
 
@@ -302,12 +303,12 @@ TEST(FieldEdit, ProbesMakeWayForWhatIsBuiltAmongThemOnceItKeepsStill) {
   const IrradianceField fresh = edited.settled();
   std::vector<double> held, expected;
   for (int probe = 0; probe < fresh.probes(); ++probe) {
-    EXPECT_EQ(edited.field.store().offset_words()[probe], fresh.store().offset_words()[probe]);
-    EXPECT_EQ(edited.field.probe_statuses()[probe].state, fresh.probe_statuses()[probe].state);
-    if (fresh.probe_statuses()[probe].state == ProbeState::off) continue;
+    EXPECT_EQ(store_of(edited.field).offset_words()[probe], store_of(fresh).offset_words()[probe]);
+    EXPECT_EQ(statuses_of(edited.field)[probe].state, statuses_of(fresh)[probe].state);
+    if (statuses_of(fresh)[probe].state == ProbeState::off) continue;
     for (int t = 1; t <= 4; ++t) {
-      held.push_back(luminance(edited.field.store().irradiance_texel(probe, {t, t})));
-      expected.push_back(luminance(fresh.store().irradiance_texel(probe, {t, t})));
+      held.push_back(luminance(store_of(edited.field).irradiance_texel(probe, {t, t})));
+      expected.push_back(luminance(store_of(fresh).irradiance_texel(probe, {t, t})));
     }
   }
   EXPECT_LT(relative_rmse(held, expected), 0.06);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "field/field_access.h"
 #include "field/probes/probe_store.h"
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
@@ -33,7 +34,7 @@ FieldSettings small_field(std::uint32_t seed) {
 Outcome run(const Stage& stage, std::uint32_t seed) {
   const IrradianceField field = make_field(stage, small_field(seed), 3);
   Outcome outcome;
-  const ProbeStore& store = field.store();
+  const ProbeStore& store = store_of(field);
   outcome.words.assign(store.irradiance_words().begin(), store.irradiance_words().end());
   outcome.words.insert(outcome.words.end(), store.distance_words().begin(),
                        store.distance_words().end());
@@ -42,7 +43,8 @@ Outcome run(const Stage& stage, std::uint32_t seed) {
   frame.height = 64;
   frame.samples = 2;
   frame.seed = seed;
-  const RenderedFrame rendered = render_frame(stage.world, &field, stage.scene.cameras[0], frame);
+  const RenderedFrame rendered =
+      Renderer(stage.world, {.field = &field}).render(stage.scene.cameras[0], frame).value();
   for (const Layer& layer : rendered.image.layers) {
     outcome.pixels.insert(outcome.pixels.end(), layer.image.pixels.begin(),
                           layer.image.pixels.end());
@@ -77,7 +79,7 @@ TEST(IrradianceField, SameBitsForTheSameSeedAndOthersForAnother) {
 TEST(IrradianceField, ResetForgetsAllLight) {
   const Stage stage("cornell");
   IrradianceField field = make_field(stage, small_field(1), 1);
-  const auto words = field.store().irradiance_words();
+  const auto words = store_of(field).irradiance_words();
   const std::vector<uint> first(words.begin(), words.end());
   field.update(stage.world);
   EXPECT_EQ(field.updates(), 2);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lambent/first_picture.h"
+#include "raytracing/world_access.h"
 #include "scenes/builtin.h"
 #include "stage/seen.h"
 #include "support/box_scenes.h"
@@ -16,7 +17,7 @@ using test::scene_of;
 
 FirstLight chosen(const Scene& scene) {
   const World world(scene);
-  return choose_first_light(world, first_view(world).camera);
+  return choose_first_light(world, first_view(world).value().camera);
 }
 
 Scene unlit(const std::string& name) {
@@ -91,7 +92,7 @@ TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
   for (const char* name : {"two-rooms", "house"}) {
     Scene scene = unlit(name);
     World world(scene);
-    const Camera camera = first_view(world).camera;
+    const Camera camera = first_view(world).value().camera;
     set_first_light(FirstLight::lamps, world, camera, scene);
     ASSERT_TRUE(world.update().has_value());
     const SeenView view = pass_moving_surfaces(world, camera);
@@ -102,7 +103,7 @@ TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
         const PunctualSample sample = sample_punctual(lamp, seen.point.position_ws);
         if (glm::dot(sample.to_light, seen.point.normal_ws) <= 0.0f) continue;
         const LightCandidate light{sample.to_light, sample.distance, sample.irradiance};
-        lit = lit || !world.tracer().occluded(
+        lit = lit || !tracer_of(world).occluded(
                          shadow_ray(seen.point.position_ws, seen.point.geometric_normal_ws, light));
       }
       if (lit) reached += 1.0f;

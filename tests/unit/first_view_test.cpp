@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "lambent/first_picture.h"
+#include "raytracing/world_access.h"
 #include "scenes/builtin.h"
 #include "stage/survey.h"
 #include "support/box_scenes.h"
@@ -35,7 +36,7 @@ Scene without_cameras(const std::string& name) {
 TEST(FirstView, ShowsAClosedBoxFromOutside) {
   const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   const World world(scene);
-  const FirstView view = first_view(world);
+  const FirstView view = first_view(world).value();
   EXPECT_FALSE(view.inside);
   const Coverage coverage = coverage_of(world, view.camera);
   EXPECT_GT(coverage.met, 0.2f);
@@ -46,7 +47,7 @@ TEST(FirstView, ShowsAClosedBoxFromOutside) {
 
 TEST(FirstView, LooksDownOnThingsFromTheFront) {
   const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
-  const glm::vec3 eye = eye_of(first_view(World(scene)).camera);
+  const glm::vec3 eye = eye_of(first_view(World(scene)).value().camera);
   EXPECT_GT(eye.z, std::abs(eye.x));
   EXPECT_GT(eye.y, 0.0f);
   EXPECT_LT(eye.y, eye.z);
@@ -59,7 +60,7 @@ TEST(FirstView, FitsObjectsOfAnyShapeSizeAndPlace) {
       const glm::vec3 low = scale * glm::vec3(30.0f, -10.0f, 5.0f);
       const Scene scene = scene_of({box_mesh(low, low + scale * size)});
       const World world(scene);
-      const Coverage coverage = coverage_of(world, first_view(world).camera, 192, 108);
+      const Coverage coverage = coverage_of(world, first_view(world).value().camera, 192, 108);
       EXPECT_FALSE(coverage.cut) << scale << ": " << size.x << " " << size.y << " " << size.z;
       EXPECT_GT(coverage.met, 0.02f) << scale << ": " << size.x << " " << size.y << " " << size.z;
     }
@@ -70,7 +71,7 @@ TEST(FirstView, KeepsTheWholeObjectInFramesOfAnyShape) {
   const Scene scene = scene_of({box_mesh({-1, -1, -1}, {3, 1, 1})});
   const World world(scene);
   for (const float aspect : {0.25f, 1.0f, 4.0f}) {
-    const Camera camera = first_view(world, {.vertical_fov = {}, .aspect = aspect}).camera;
+    const Camera camera = first_view(world, {.vertical_fov = {}, .aspect = aspect}).value().camera;
     const Coverage coverage = coverage_of(world, camera, static_cast<int>(96.0f * aspect), 96);
     EXPECT_FALSE(coverage.cut) << aspect;
     EXPECT_GT(coverage.met, 0.08f) << aspect;
@@ -83,7 +84,7 @@ TEST(FirstView, SeesAOneSidedSheetFromItsFront) {
     scene.materials.push_back(test::lambert(glm::vec3(0.5f)));
     test::add(scene, test::quad({-facing, -1, 0}, {2 * facing, 0, 0}, {0, 2, 0}, 0));
     const World world(scene);
-    const Coverage coverage = coverage_of(world, first_view(world).camera);
+    const Coverage coverage = coverage_of(world, first_view(world).value().camera);
     EXPECT_GT(coverage.met, 0.15f) << facing;
     EXPECT_EQ(coverage.backs, 0.0f) << facing;
   }
@@ -94,14 +95,14 @@ TEST(FirstView, LooksDownOnGroundThatIsFlat) {
   scene.materials.push_back(test::lambert(glm::vec3(0.5f)));
   test::add(scene, test::quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0));
   const World world(scene);
-  EXPECT_GT(coverage_of(world, first_view(world).camera).met, 0.15f);
+  EXPECT_GT(coverage_of(world, first_view(world).value().camera).met, 0.15f);
 }
 
 TEST(FirstView, FramesTheThingAndNotTheGroundItStandsOn) {
   Scene scene =
       scene_of({box_mesh({-1, 0, -1}, {1, 2, 1}), box_mesh({-500, -1, -500}, {500, 0, 500})});
   const World world(scene);
-  const glm::vec3 eye = eye_of(first_view(world).camera);
+  const glm::vec3 eye = eye_of(first_view(world).value().camera);
   EXPECT_LT(glm::length(eye), 12.0f);
 }
 
@@ -109,7 +110,7 @@ TEST(FirstView, StandsInARoom) {
   for (const char* name : {"two-rooms", "two-rooms-sealed", "cornell", "atrium", "house"}) {
     const Scene scene = without_cameras(name);
     const World world(scene);
-    const FirstView view = first_view(world);
+    const FirstView view = first_view(world).value();
     const Bounds bounds = world_bounds(scene);
     EXPECT_TRUE(view.inside) << name;
     EXPECT_TRUE(holds(bounds, eye_of(view.camera))) << name;
@@ -121,7 +122,7 @@ TEST(FirstView, SeesDeepIntoARoom) {
   for (const char* name : {"cornell", "two-rooms"}) {
     const Scene scene = without_cameras(name);
     const World world(scene);
-    const Coverage coverage = coverage_of(world, first_view(world).camera);
+    const Coverage coverage = coverage_of(world, first_view(world).value().camera);
     EXPECT_GT(coverage.median_depth, 0.25f * diagonal(world_bounds(scene))) << name;
   }
 }
@@ -129,40 +130,40 @@ TEST(FirstView, SeesDeepIntoARoom) {
 TEST(FirstView, PrefersTheRoomThatIsLit) {
   const Scene scene = without_cameras("two-rooms-sealed");
   const World world(scene);
-  const glm::vec3 eye = eye_of(first_view(world).camera);
+  const glm::vec3 eye = eye_of(first_view(world).value().camera);
   const glm::vec3 lamp = scene.lights.at(0).position_ws;
   const glm::vec3 way = lamp - eye;
   EXPECT_FALSE(
-      world.tracer().occluded({eye, 0.0f, glm::normalize(way), glm::length(way) * 0.999f}));
+      tracer_of(world).occluded({eye, 0.0f, glm::normalize(way), glm::length(way) * 0.999f}));
 }
 
 TEST(FirstView, StandsAtEyeHeightWhereARoomIsOfHumanScale) {
   Scene scene =
       scene_of({box_mesh({-4, 0, -6}, {4, 3, 6}, true), box_mesh({-1, 0, -1}, {1, 1, 1})});
-  const FirstView view = first_view(World(scene));
+  const FirstView view = first_view(World(scene)).value();
   ASSERT_TRUE(view.inside);
   EXPECT_NEAR(eye_of(view.camera).y, 1.6f, 0.2f);
 }
 
 TEST(FirstView, IsTheSameEveryTime) {
   const Scene scene = without_cameras("house");
-  EXPECT_EQ(first_view(World(scene)).camera.world_from_view,
-            first_view(World(scene)).camera.world_from_view);
+  EXPECT_EQ(first_view(World(scene)).value().camera.world_from_view,
+            first_view(World(scene)).value().camera.world_from_view);
 }
 
 TEST(FirstView, ExistsWhereNothingCanBeSeen) {
   const Scene empty;
-  EXPECT_GT(first_view(World(empty)).camera.vertical_fov, 0.0f);
+  EXPECT_GT(first_view(World(empty)).value().camera.vertical_fov, 0.0f);
   // All of a scene in one point
   Scene point = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   for (glm::vec3& position : point.meshes[0].positions) position = {2.0f, 3.0f, 4.0f};
-  const glm::vec3 eye = eye_of(first_view(World(point)).camera);
+  const glm::vec3 eye = eye_of(first_view(World(point)).value().camera);
   EXPECT_TRUE(std::isfinite(eye.x + eye.y + eye.z));
 }
 
 TEST(FirstView, KeepsTheAngleThatIsAskedFor) {
   const Scene scene = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
-  EXPECT_EQ(first_view(World(scene), {.vertical_fov = 0.3f}).camera.vertical_fov, 0.3f);
+  EXPECT_EQ(first_view(World(scene), {.vertical_fov = 0.3f}).value().camera.vertical_fov, 0.3f);
 }
 
 }  // namespace

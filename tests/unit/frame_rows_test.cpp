@@ -35,12 +35,13 @@ class FrameRows : public ::testing::Test {
   /// The picture put together from pieces has the same bits in all layers.
   void expect_same_bits() const {
     const Camera& camera = stage.scene.cameras.at(0);
-    const RenderedFrame whole = render_frame(stage.world, sources, camera, frame);
+    Renderer renderer(stage.world, sources);
+    const RenderedFrame whole = renderer.render(camera, frame).value();
     FrameSettings piece = frame;
     std::uint64_t rays = 0;
     for (const int rows : kPieces) {
       piece.rows = rows;
-      const RenderedFrame part = render_frame(stage.world, sources, camera, piece);
+      const RenderedFrame part = renderer.render(camera, piece).value();
       rays += part.rays;
       ASSERT_EQ(part.image.height, rows);
       ASSERT_EQ(part.image.layers.size(), whole.image.layers.size());
@@ -53,7 +54,7 @@ class FrameRows : public ::testing::Test {
       piece.first_row += rows;
     }
     ASSERT_EQ(piece.first_row, kHeight);
-    EXPECT_TRUE(sources.rsm != nullptr || rays == whole.rays);
+    EXPECT_EQ(rays, whole.rays);
   }
 
   test::Stage stage{"cornell"};
@@ -76,14 +77,15 @@ TEST_F(FrameRows, AreThoseOfTheWholeWhereMapsLight) {
   maps.resolution = 32;
   maps.texels = 64;
   sources.field = nullptr;
-  sources.rsm = &maps;
+  sources.rsm = maps;
   expect_same_bits();
 }
 
 TEST_F(FrameRows, ThatAreLeftAreRenderedWhereNoNumberIsGiven) {
   frame.first_row = 20;
   const Camera& camera = stage.scene.cameras.at(0);
-  EXPECT_EQ(render_frame(stage.world, sources, camera, frame).image.height, kHeight - 20);
+  EXPECT_EQ(Renderer(stage.world, sources).render(camera, frame).value().image.height,
+            kHeight - 20);
 }
 
 }  // namespace

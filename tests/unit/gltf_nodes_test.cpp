@@ -7,6 +7,7 @@
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "unit/gltf_builder.h"
 
 namespace lambent {
@@ -86,7 +87,7 @@ TEST(GltfNodes, FlatInstancesAreDrawnFlat) {
   ASSERT_THAT(scene->instances, SizeIs(1));
   const World world(*scene);
   const Ray ray{{0.25f, 0.25f, 1.0f}, 0.0f, {0.0f, 0.0f, -1.0f}};
-  const Hit hit = world.tracer().closest_hit(ray);
+  const Hit hit = tracer_of(world).closest_hit(ray);
   ASSERT_FALSE(hit.missed());
   EXPECT_NEAR(hit.distance, 1.0f, 1e-5f);
   expect_near(surface_at(*scene, ray, hit, 0.0f).normal_ws, {0, 0, 1});
@@ -103,7 +104,7 @@ TEST(GltfNodes, NormalsOfAFlattenedMeshStandOnItsPlane) {
   ASSERT_TRUE(scene) << error_of(scene);
   const World world(*scene);
   const Ray ray{{0.3f, 1.0f, 0.3f}, 0.0f, {0.0f, -1.0f, 0.0f}};
-  const Hit hit = world.tracer().closest_hit(ray);
+  const Hit hit = tracer_of(world).closest_hit(ray);
   ASSERT_FALSE(hit.missed());
   EXPECT_NEAR(hit.distance, 1.0f, 1e-3f);
   const Surface surface = surface_at(*scene, ray, hit, 0.0f);

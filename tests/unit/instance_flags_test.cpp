@@ -3,6 +3,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "support/hand_made.h"
 
 namespace lambent {
@@ -29,8 +30,8 @@ Scene three_squares() {
 /// Which square a ray through all of them meets first; -1: none.
 int first_met(const World& world, std::uint32_t mask, float t_min) {
   const Ray ray{glm::vec3(0.0f), t_min, {0, 0, 1}, kInfiniteDistance, mask};
-  const Hit hit = world.tracer().closest_hit(ray);
-  EXPECT_EQ(world.tracer().occluded(ray), !hit.missed());
+  const Hit hit = tracer_of(world).closest_hit(ray);
+  EXPECT_EQ(tracer_of(world).occluded(ray), !hit.missed());
   return hit.missed() ? -1 : static_cast<int>(hit.instance);
 }
 

@@ -10,6 +10,7 @@
 
 #include "field/probes/volumes.h"
 #include "field/transport/distances.h"
+#include "raytracing/world_access.h"
 #include "support/field_scenes.h"
 
 namespace lambent {
@@ -26,7 +27,7 @@ TEST(InvalidationResult, SurfelsReadTheProbesAroundWhereTheyAreNow) {
   std::iota(all.begin(), all.end(), 0);
   TraceGroup group{std::make_shared<RaySet>(settings, settings.rays_per_probe, 0u), all, {}};
   std::vector<ProbeTrace> traces(store.probes());
-  trace_probe_rays(world.tracer(), store, group);
+  trace_probe_rays(tracer_of(world), store, group);
   blend_distances(scene, DistanceBlend(settings, group.rays->directions), group,
                   std::vector<float>(all.size(), 1.0f), 0u, store);
   shade_surfels(world, store, group, settings, traces);

@@ -74,16 +74,19 @@ void expect_finite_pictures(const Scene& scene, float size) {
     auto field = IrradianceField::make(settings, world_bounds(scene));
     ASSERT_TRUE(field) << field.error().message();
     for (int update = 0; update < 3; ++update) field->update(world);
-    expect_finite(render_frame(world, &*field, camera, frame).image, "field", true);
+    expect_finite(Renderer(world, {.field = &*field}).render(camera, frame).value().image, "field",
+                  true);
     frame.gather_rays = 1;
-    expect_finite(render_frame(world, &*field, camera, frame).image, "gathered", true);
+    expect_finite(Renderer(world, {.field = &*field}).render(camera, frame).value().image,
+                  "gathered", true);
     frame.gather_rays = 0;
   }
   RsmSettings rsm;
   rsm.resolution = 32;
   IndirectSources sources;
-  sources.rsm = &rsm;
-  expect_finite(render_frame(world, sources, camera, frame).image, "rsm", !scene.lights.empty());
+  sources.rsm = rsm;
+  expect_finite(Renderer(world, sources).render(camera, frame).value().image, "rsm",
+                !scene.lights.empty());
   ReferenceSettings reference;
   reference.width = 32;
   reference.height = 18;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "field/field_access.h"
 #include "field/probes/probe_store.h"
 #include "lambent/renderer.h"
 #include "shared/constants.h"
@@ -28,7 +29,7 @@ class ProbeView : public ::testing::Test {
     FrameSettings frame;
     frame.width = kWidth;
     frame.height = kHeight;
-    LayeredImage image = render_frame(stage.world, nullptr, camera(), frame).image;
+    LayeredImage image = Renderer(stage.world).render(camera(), frame).value().image;
     draw_probes(stage.world, field, camera(), {aspect, radius}, image);
     return image;
   }
@@ -53,7 +54,7 @@ TEST_F(ProbeView, SpheresStandWhereProbesDo) {
   ASSERT_NE(probes, nullptr);
   int seen = 0, hidden = 0;
   for (int probe = 0; probe < field.probes(); ++probe) {
-    const glm::vec3 at = project(field.store().probe_position_ws(probe));
+    const glm::vec3 at = project(store_of(field).probe_position_ws(probe));
     if (at.x < 1 || at.y < 1 || at.x >= kWidth - 1 || at.y >= kHeight - 1) continue;
     const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
     const float scene_depth = image.find("depth")->at(x, y)[0];
@@ -94,13 +95,13 @@ TEST_F(ProbeView, ScenesHideSpheresBehindThem) {
 TEST_F(ProbeView, ShowsWhatProbesHold) {
   // Straight at one probe: the sphere's middle faces the camera
   const int probe = 21;
-  const glm::vec3 centre = field.store().probe_position_ws(probe);
+  const glm::vec3 centre = store_of(field).probe_position_ws(probe);
   const glm::vec3 way = glm::normalize(glm::vec3(0.3f, 0.2f, 1.0f));
   const Camera camera = look_at(centre + 0.3f * field.grids()[0].spacing.x * way, centre, 0.02f);
   LayeredImage image{9, 9, {{"", Image(9, 9, 3)}}};
   draw_probes(stage.world, field, camera, {ProbeAspect::irradiance, 0.1f}, image);
   const float* pixel = image.find("probes")->at(4, 4);
-  const vec3 expected = field.store().irradiance(probe, way) * kInvPi;
+  const vec3 expected = store_of(field).irradiance(probe, way) * kInvPi;
   EXPECT_EQ(pixel[3], 1.0f);
   for (int c = 0; c < 3; ++c) {
     EXPECT_NEAR(pixel[c], expected[c], 0.02f * expected[c]);

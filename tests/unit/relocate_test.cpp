@@ -9,8 +9,10 @@
 #include <atomic>
 #include <numeric>
 
+#include "field/field_access.h"
 #include "field/lookup/visibility.h"
 #include "field/probes/volumes.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
@@ -34,7 +36,7 @@ constexpr int kAtOrigin = 7;
 vec3 relocated(const Scene& scene, std::span<const std::uint8_t> moving = {}) {
   const World world(scene);
   ProbeStore store = one_cell();
-  relocate_probes(scene, world.tracer(), {&kAtOrigin, 1}, moving, store);
+  relocate_probes(scene, tracer_of(world), {&kAtOrigin, 1}, moving, store);
   return store.probe_position_ws(kAtOrigin);
 }
 
@@ -110,7 +112,7 @@ std::vector<vec3> offsets_in(const Stage& stage, int rounds, int threads) {
   arena.execute([&] {
     ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
     for (int i = 0; i < rounds; ++i) {
-      relocate_probes(stage.scene, stage.world.tracer(), all_probes(store), {}, store);
+      relocate_probes(stage.scene, tracer_of(stage.world), all_probes(store), {}, store);
     }
     for (int i = 0; i < store.probes(); ++i) offsets.push_back(store.probe_offset(i));
   });
@@ -157,13 +159,13 @@ TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
   const Stage stage(clutter());
   std::vector<std::uint8_t> moving(stage.scene.instances.size(), 0);
   for (std::size_t i = 0; i < moving.size(); i += 3) moving[i] = 1;
-  const FarTracer far(stage.world.tracer());
+  const FarTracer far(tracer_of(stage.world));
   const auto offsets = [&](const RayTracer& tracer) {
     ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
     relocate_probes(stage.scene, tracer, all_probes(store), moving, store);
     return std::vector<uint>(store.offset_words().begin(), store.offset_words().end());
   };
-  EXPECT_EQ(offsets(far), offsets(stage.world.tracer()));
+  EXPECT_EQ(offsets(far), offsets(tracer_of(stage.world)));
   // As many as the steps of the probe that takes most, and a few more each for what moves in the
   // way
   EXPECT_LT(far.batches, 300);
@@ -172,7 +174,7 @@ TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
   ProbeStore store(still_grid({vec3(0.0f), vec3(0.9f, 1.0f, 1.1f), ivec3(6)}), FieldSettings{});
   CellVisibility near_sights(store.probes()), far_sights(store.probes());
   far.batches = 0;
-  EXPECT_EQ(near_sights.update(stage.world.tracer(), store, all_probes(store)),
+  EXPECT_EQ(near_sights.update(tracer_of(stage.world), store, all_probes(store)),
             far_sights.update(far, store, all_probes(store)));
   EXPECT_EQ(far.batches, 1);
   for (const int probe : all_probes(store)) {
@@ -185,9 +187,9 @@ TEST(Relocation, TellsWhichProbesMoved) {
   const World world(wall);
   ProbeStore store = one_cell();
   // Probes at x = -1 m are too far from the wall
-  EXPECT_EQ(relocate_probes(wall, world.tracer(), all_probes(store), {}, store),
+  EXPECT_EQ(relocate_probes(wall, tracer_of(world), all_probes(store), {}, store),
             (std::vector<int>{1, 3, 5, 7}));
-  EXPECT_TRUE(relocate_probes(wall, world.tracer(), all_probes(store), {}, store).empty());
+  EXPECT_TRUE(relocate_probes(wall, tracer_of(world), all_probes(store), {}, store).empty());
 }
 
 TEST(Relocation, IsASettingOfTheField) {
@@ -196,7 +198,7 @@ TEST(Relocation, IsASettingOfTheField) {
   settings.probe_count = ivec3(5);
   const auto moved = [&] {
     const IrradianceField field = test::make_field(stage, settings, 1);
-    const auto words = field.store().offset_words();
+    const auto words = store_of(field).offset_words();
     return std::any_of(words.begin(), words.end(), [](uint word) { return word != 0u; });
   };
   EXPECT_TRUE(moved());

@@ -121,8 +121,8 @@ Comparison compare(const BumpyWall& bumps, const BumpyWall& wall, const RsmSetti
   RsmSettings all = plain_gather();
   all.texels = 0;
   RsmIrradiance truth, light;
-  RsmGatherer().gather(world, {&map, 1}, bumps.view(), all, truth);
-  RsmGatherer().gather(world, {&map, 1}, wall.view(), settings, light);
+  EXPECT_TRUE(RsmGatherer().gather(world, {&map, 1}, bumps.view(), all, truth));
+  EXPECT_TRUE(RsmGatherer().gather(world, {&map, 1}, wall.view(), settings, light));
   double square = 0.0, sum = 0.0, mean = 0.0;
   for (std::size_t i = 0; i < truth.irradiance.size(); ++i) {
     square += std::pow(light.irradiance[i].x - truth.irradiance[i].x, 2.0);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/files/file_bytes.h"
+#include "field/field_access.h"
 #include "field/file/field_file.h"
 #include "support/field_scenes.h"
 #include "support/temporary_directory.h"
@@ -65,15 +66,15 @@ TEST_F(SavedField, IsTheSameToTheBit) {
     ASSERT_TRUE(save_field(path, field, stage.world));
     const LoadedField loaded = load();
     EXPECT_TRUE(loaded.same_light);
-    EXPECT_EQ(words_of(loaded.field.store()), words_of(field.store()));
+    EXPECT_EQ(words_of(store_of(loaded.field)), words_of(store_of(field)));
     EXPECT_EQ(loaded.field.grids()[0].origin, field.grids()[0].origin);
     EXPECT_EQ(loaded.field.grids()[0].spacing, field.grids()[0].spacing);
     EXPECT_EQ(loaded.field.updates(), 3);
     const std::vector<FieldQuery> queries = queries_in(field.grids()[0]);
     EXPECT_EQ(test::look_up(loaded.field, queries), test::look_up(field, queries));
     for (int p = 0; p < field.probes(); ++p) {
-      EXPECT_EQ(loaded.field.probe_statuses()[p].samples, field.probe_statuses()[p].samples);
-      EXPECT_EQ(loaded.field.probe_statuses()[p].noise, field.probe_statuses()[p].noise);
+      EXPECT_EQ(statuses_of(loaded.field)[p].samples, statuses_of(field)[p].samples);
+      EXPECT_EQ(statuses_of(loaded.field)[p].noise, statuses_of(field)[p].noise);
     }
   }
 }
@@ -88,7 +89,7 @@ TEST_F(SavedField, GoesOnFromWhereItWas) {
   // With nothing lost in the store's format, the next update of both is the same
   const UpdateStatistics a = field.update(stage.world), b = loaded.field.update(stage.world);
   EXPECT_EQ(a.change, b.change);
-  EXPECT_EQ(words_of(loaded.field.store()), words_of(field.store()));
+  EXPECT_EQ(words_of(store_of(loaded.field)), words_of(store_of(field)));
   EXPECT_EQ(loaded.field.updates(), 7);
   // Seven updates' mean moves less than a field's first
   EXPECT_LT(b.change, 0.2);

@@ -141,16 +141,15 @@ TEST(BuildMips, KeepEverySingleColor) {
   }
 }
 
-TEST(SampleTexture, BlendsBetweenLevelsAndClampsThem) {
+TEST(NearestTexel, ClampsLevelsToThoseThatExist) {
   const Scene scene = row_of({0, 200});
   const TextureView view = view_of(Wrap::clamp_to_edge);
-  const auto left = [&](float lod) {
-    return sample_texture(scene, view, {0.25f, 0.5f}, lod).r * 255.0f;
+  const auto left = [&](int level) {
+    return nearest_texel(scene, view, {0.25f, 0.5f}, level).r * 255.0f;
   };
-  EXPECT_NEAR(left(-3.0f), 0.0f, 1e-3f);
-  EXPECT_NEAR(left(0.5f), 50.0f, 1e-3f);
-  EXPECT_NEAR(left(1.0f), 100.0f, 1e-3f);
-  EXPECT_NEAR(left(99.0f), 100.0f, 1e-3f);
+  EXPECT_NEAR(left(-3), 0.0f, 1e-3f);
+  EXPECT_NEAR(left(1), 100.0f, 1e-3f);
+  EXPECT_NEAR(left(99), 100.0f, 1e-3f);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "field/probes/tile_fit.h"
 #include "field/probes/volumes.h"
 #include "field/transport/distances.h"
+#include "raytracing/world_access.h"
 #include "support/field_scenes.h"
 
 namespace lambent {
@@ -33,7 +34,7 @@ class Transport {
     group_.probes.resize(store_.probes());
     std::iota(group_.probes.begin(), group_.probes.end(), 0);
     const DistanceBlend distance_blend(settings, group_.rays->directions);
-    trace_probe_rays(stage.world.tracer(), store_, group_);
+    trace_probe_rays(tracer_of(stage.world), store_, group_);
     blend_distances(stage.scene, distance_blend, group_, all(), 0u, store_);
     shade_surfels(stage.world, store_, group_, settings, traces_);
     find_surfel_lookups(store_, {}, group_.probes, traces_);

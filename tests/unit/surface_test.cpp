@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "raytracing/camera_rays.h"
+#include "scene/attributes.h"
 #include "support/hand_made.h"
 
 namespace lambent {
@@ -231,7 +232,9 @@ TEST(Surface, CoverageIsAlphaTimesVertexAlpha) {
   scene.materials[0].base_color_texture.texture = 0;
   scene.materials[0].base_color.a = 0.5f;
   scene.meshes[0].colors.assign(4, {1.0f, 1.0f, 1.0f, 0.5f});
-  EXPECT_NEAR(coverage_at(scene, 0, 0, {0.2f, 0.3f}), 0.5f * 0.5f * 128.0f / 255.0f, 1e-5f);
+  const TrianglePoint point = triangle_point(scene.meshes[0], 0, {0.2f, 0.3f});
+  EXPECT_NEAR(coverage_at(scene, scene.meshes[0], scene.materials[0], point),
+              0.5f * 0.5f * 128.0f / 255.0f, 1e-5f);
 }
 
 TEST(CameraRays, CornersAndCentreOfAPerspectiveView) {

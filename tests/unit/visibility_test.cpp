@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "field/field_access.h"
 #include "field/lookup/lookup.h"
+#include "field/lookup/visibility_math.h"
 #include "field/probes/volumes.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "shared/random.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
@@ -64,15 +67,15 @@ TEST(Visibility, MomentsAreNearlyDarkBehindASealedWall) {
 struct Traced {
   explicit Traced(const Stage& stage)
       : field(test::make_field(stage, settings_of(Visibility::moments), 1)),
-        cell_visibility(field.store().probes()) {
-    std::vector<int> probes(field.store().probes());
+        cell_visibility(store_of(field).probes()) {
+    std::vector<int> probes(store_of(field).probes());
     std::iota(probes.begin(), probes.end(), 0);
-    rays = cell_visibility.update(stage.world.tracer(), field.store(), probes);
+    rays = cell_visibility.update(tracer_of(stage.world), store_of(field), probes);
   }
   std::vector<CornerWeights> weights(const Stage& stage, Visibility mode,
                                      std::span<const FieldQuery> queries) const {
     std::vector<CornerWeights> result(queries.size());
-    visible_corner_weights(field.store(), 0, {mode, &stage.world.tracer(), &cell_visibility},
+    visible_corner_weights(store_of(field), 0, {mode, &tracer_of(stage.world), &cell_visibility},
                            queries, result);
     return result;
   }
@@ -93,7 +96,7 @@ TEST(Visibility, HybridEqualsMomentsWithoutARayWhereAllProbesSeeEachOther) {
   const auto hybrid = traced.weights(stage, Visibility::hybrid, queries);
   int open = 0;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (traced.cell_visibility.of_cell(moments[i].base) != ~std::uint64_t{0}) continue;
+    if (traced.cell_visibility.of_cell(moments[i].base) != all_visible()) continue;
     ++open;
     EXPECT_TRUE(same(hybrid[i], moments[i])) << i;
   }
@@ -105,7 +108,7 @@ TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {
   const Traced traced(stage);
   const std::vector<FieldQuery> queries = test::seen_points(stage);
   std::vector<CornerWeights> result(queries.size());
-  visible_corner_weights(traced.field.store(), 0,
+  visible_corner_weights(store_of(traced.field), 0,
                          {Visibility::hybrid, nullptr, &traced.cell_visibility}, queries, result);
   const auto moments = traced.weights(stage, Visibility::moments, queries);
   for (std::size_t i = 0; i < queries.size(); ++i) EXPECT_TRUE(same(result[i], moments[i]));
@@ -114,7 +117,7 @@ TEST(Visibility, HybridFallsBackToMomentsWithoutAWorld) {
 TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
   const Stage stage("two-rooms");
   const Traced traced(stage);
-  const ProbeStore& store = traced.field.store();
+  const ProbeStore& store = store_of(traced.field);
   const ProbeGrid& grid = store.grid(0);
   const float smallest = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
   const std::vector<FieldQuery> queries = test::seen_points(stage);
@@ -131,7 +134,7 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
       const vec3 place = store.probe_position_ws(probe);
       const vec3 to_probe = place - start;
       const bool seen =
-          !stage.world.tracer().occluded({start, 0.0f, normalize(to_probe), length(to_probe)});
+          !tracer_of(stage.world).occluded({start, 0.0f, normalize(to_probe), length(to_probe)});
       const bool known = store.moments(probe, normalize(start - place)).x > 0.0f;
       const float wrap = wrap_weight(dot(normalize(place - q.position_ws), q.normal_ws));
       const float weight = trilinear_weight(cell.fraction, cell_corner(k));
@@ -152,14 +155,14 @@ TEST(CellVisibility, KnowWhichProbesOfACellAWallParts) {
   CellVisibility cell_visibility(store.probes());
   const int probes[] = {0, 1, 4, 8};
   // Two cells of 28 pairs each; the others' lowest probes are beyond the grid's last cell
-  EXPECT_EQ(cell_visibility.update(world.tracer(), store, probes), 56u);
+  EXPECT_EQ(cell_visibility.update(tracer_of(world), store, probes), 56u);
   for (int i = 0; i < 8; ++i) {
     for (int k = 0; k < 8; ++k) {
-      const bool seen = (cell_visibility.of_cell(0) >> (8 * i + k) & 1u) != 0;
+      const bool seen = (corners_seen_by(cell_visibility.of_cell(0), i) >> k & 1u) != 0;
       EXPECT_EQ(seen, (i < 4) == (k < 4)) << i << " " << k;
     }
   }
-  EXPECT_EQ(cell_visibility.of_cell(4), ~std::uint64_t{0});
+  EXPECT_EQ(cell_visibility.of_cell(4), all_visible());
 }
 
 }  // namespace

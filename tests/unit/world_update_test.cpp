@@ -8,6 +8,7 @@
 
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "support/hand_made.h"
 
@@ -52,7 +53,7 @@ std::vector<Ray> fan(const glm::vec3& origin) {
 
 std::vector<Hit> hits_of(const World& world, const std::vector<Ray>& rays) {
   std::vector<Hit> hits(rays.size());
-  world.tracer().closest_hits(rays, hits);
+  tracer_of(world).closest_hits(rays, hits);
   return hits;
 }
 
@@ -75,9 +76,9 @@ void expect_as_new(const World& world) {
     }
     EXPECT_GT(hits, 1000);
   }
-  EXPECT_EQ(world.emissive().size(), fresh.emissive().size());
-  EXPECT_EQ(world.emissive().total_power(), fresh.emissive().total_power());
-  EXPECT_EQ(world.tracer().statistics().triangles, fresh.tracer().statistics().triangles);
+  EXPECT_EQ(emissive_of(world).size(), emissive_of(fresh).size());
+  EXPECT_EQ(emissive_of(world).total_power(), emissive_of(fresh).total_power());
+  EXPECT_EQ(tracer_of(world).statistics().triangles, tracer_of(fresh).statistics().triangles);
 }
 
 WorldChanges updated(World& world) {
@@ -266,7 +267,7 @@ TEST(WorldUpdate, TakesALampThatMovesForAChangeOfEmission) {
   World world(scene);
   scene.instances[kLampQuad].world_from_object = at({1.0f, -1.0f, 0.0f});
   EXPECT_TRUE(updated(world).emission);
-  const EmissiveSample sample = world.emissive().sample({0.5f, 0.3f, 0.3f});
+  const EmissiveSample sample = emissive_of(world).sample({0.5f, 0.3f, 0.3f});
   EXPECT_NEAR(sample.position_ws.y, 3.9f, 1e-4f);
 }
 
@@ -275,8 +276,8 @@ TEST(WorldUpdate, KeepsEmittersRightWhenTheListIsRenumbered) {
   World world(scene);
   scene.instances.erase(scene.instances.begin() + kSecondBall);
   EXPECT_FALSE(updated(world).emission);
-  EXPECT_GT(world.emissive().pdf_area(kLampQuad - 1, 0), 0.0f);
-  EXPECT_EQ(world.emissive().pdf_area(kLampQuad, 0), 0.0f);
+  EXPECT_GT(emissive_of(world).pdf_area(kLampQuad - 1, 0), 0.0f);
+  EXPECT_EQ(emissive_of(world).pdf_area(kLampQuad, 0), 0.0f);
 }
 
 TEST(WorldUpdate, SeesATextureAndASkyThatWereEdited) {
@@ -303,17 +304,17 @@ TEST(WorldUpdate, LetsRaysThroughWhatBecomesSeeThrough) {
   Scene scene = furnished_room();
   World world(scene);
   const Ray ray{{0.0f, 0.0f, 0.0f}, 0.0f, {0.0f, 0.0f, 1.0f}};
-  EXPECT_NEAR(world.tracer().closest_hit(ray).distance, 1.5f, 0.05f);
+  EXPECT_NEAR(tracer_of(world).closest_hit(ray).distance, 1.5f, 0.05f);
   Material glass = scene.materials[kGrey];
   glass.alpha_mode = AlphaMode::mask;
   glass.base_color.a = 0.0f;
   scene.materials.push_back(glass);
   scene.meshes[scene.instances[kOwnBall].mesh].material = 2;
   EXPECT_EQ(updated(world).moved.size(), 1u);
-  EXPECT_NEAR(world.tracer().closest_hit(ray).distance, 5.0f, 1e-4f);
+  EXPECT_NEAR(tracer_of(world).closest_hit(ray).distance, 5.0f, 1e-4f);
   scene.materials[2].base_color.a = 1.0f;
   EXPECT_EQ(updated(world).moved.size(), 1u);
-  EXPECT_NEAR(world.tracer().closest_hit(ray).distance, 1.5f, 0.05f);
+  EXPECT_NEAR(tracer_of(world).closest_hit(ray).distance, 1.5f, 0.05f);
   scene.materials[2].alpha_mode = AlphaMode::opaque;
   updated(world);
   expect_as_new(world);

@@ -82,7 +82,7 @@ void reduce_history(const PendingEdits& pending, const WorkingIrradiance& light,
   for (const int probe : pending.updated) {
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
-    if (relative_square(found, held) < kChangedFraction * kChangedFraction) continue;
+    if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
     // The more the distribution of the light changed, the fewer samples the average is worth
     const float kept = likeness(found, held);
     statuses[probe].samples = samples_after_edit(statuses[probe].samples, kept);
@@ -198,7 +198,7 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
     const int probe = probes[k];
     vec4* now = &data.light[probe * texels];
     const TileLight held(&before[k * texels], texels), found(now, texels);
-    if (relative_square(found, held) < kChangedFraction * kChangedFraction) {
+    if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
       // The last estimate stays as well, so that several changes too small to be seen add up
       std::copy(held.begin(), held.end(), now);
       continue;

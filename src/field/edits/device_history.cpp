@@ -42,12 +42,8 @@ DeviceHistory::DeviceHistory(FieldResources& field, DeviceSolver& solver, const 
 }
 
 std::size_t DeviceHistory::bytes() const {
-  std::size_t sum = 0;
-  for (const Buffer* buffer : {&light_before_, &estimate_, &history_ratio_, &direct_before_,
-                               &direct_after_, &brighter_, &changed_}) {
-    sum += buffer->bytes();
-  }
-  return sum;
+  return bytes_of({&light_before_, &estimate_, &history_ratio_, &direct_before_, &direct_after_,
+                   &brighter_, &changed_});
 }
 
 /// Records the direct light that a list's probes receive. Texels that no ray counts for have none.

@@ -11,6 +11,8 @@
 #include "field/probes/moments_encoding.h"
 #include "field/transport/distances.h"
 #include "raytracing/boxes.h"
+#include "raytracing/world_access.h"
+#include "scene/environment_sampling.h"
 #include "scene/light_sampling.h"
 #include "shared/color.h"
 
@@ -71,7 +73,7 @@ bool may_change_light(const World& world, const Edits& edits, const LitPoint& po
     }
   }
   // Light from an emissive surface crosses the hull of the point and the surface's box
-  for (Bounds shaft : world.emissive().bounds()) {
+  for (Bounds shaft : emissive_of(world).bounds()) {
     shaft.add(point.position_ws);
     if (edits.boxes.overlapped_by(shaft)) return true;
   }
@@ -130,7 +132,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     if (!other_material && !edits_.boxes.crossed_by(origin, direction, distance)) continue;
 
     const Ray ray = probe_ray(origin, direction);
-    const Hit hit = world_.tracer().closest_hit(ray);
+    const Hit hit = tracer_of(world_).closest_hit(ray);
     ShadedHit shaded;
     shadow_rays += shade_hits(world_, {&ray, 1}, {&hit, 1}, shading, first_ray_index(probe) + i,
                               scratch_, {&shaded, 1});

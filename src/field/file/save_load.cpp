@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/files/atomic_file.h"
+#include "field/field_access.h"
 #include "field/field_state.h"
 #include "field/file/field_file.h"
 #include "field/probes/tile_light.h"
@@ -102,7 +103,7 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
 
 Expected<void> save_field(const std::string& path, const IrradianceField& field,
                           const World& world) {
-  const IrradianceField::State& state = *field.state_;
+  const FieldAccess::State& state = FieldAccess::state_of(field);
   state.backend->fetch_store();
   FieldFile file;
   file.updates = static_cast<std::uint32_t>(state.updates);
@@ -128,10 +129,14 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
     volumes.push_back({volume.grid, volume.role});
   }
   const FieldSettings merged = last.store_settings(settings);
-  Expected<IrradianceField> field = IrradianceField::make(merged, {});
-  if (!field) return tl::unexpected(field.error());
+  if (const Expected<void> fine = check_settings(merged); !fine) {
+    return tl::unexpected(fine.error());
+  }
+  if (const auto planned = plan_volumes(merged, {}); !planned) {
+    return tl::unexpected(planned.error());
+  }
   // Use exactly the grids of the file
-  field->state_ = std::make_unique<IrradianceField::State>(merged, volumes);
+  auto state = std::make_unique<FieldAccess::State>(merged, volumes);
 
   const bool same_light = file->scene.light == scene.light;
   if (!same_light) {
@@ -140,8 +145,8 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
       for (ProbeStatus& status : volume.records) status.samples = 0.0f;
     }
   }
-  field->state_->restore(*file, world);
-  return LoadedField{std::move(*field), same_light};
+  state->restore(*file, world);
+  return LoadedField{FieldAccess::make(std::move(state)), same_light};
 }
 
 }  // namespace lambent

@@ -6,6 +6,7 @@
 #define LAMBENT_FIELD_LOOKUP_LOOKUP_H
 
 #include "field/probes/probe_grid.h"
+#include "field/probes/tile.h"
 
 LAMBENT_BEGIN
 
@@ -36,6 +37,11 @@ const float kMinVisibilityWeight = 1e-6f;
 // where both are at the same place.
 const float kMinProbeDistance = 1e-6f;
 
+// These keep divisions finite: by the length of a direction [m], and where distances have no
+// variance [distance_unit^2]. They are far below the resolution of the results.
+const float kTiniestLength = 1e-12f;
+const float kTiniestSquare = 1e-20f;
+
 // Where the volumes so far leave less than this weight, the rest is rounding.
 const float kNothingLeft = 1e-6f;
 
@@ -46,17 +52,40 @@ LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer
          (kNormalBias * normal_ws + kViewBias * to_viewer_ws) * (kBiasScale * kBias * spacing_min);
 }
 
-/// Visibility over a distance, from the mean and the mean square of the distances to occluders.
-/// Chebyshev's one-sided inequality gives an upper bound on the fraction of light paths that are
-/// not blocked (Donnelly and Lauritzen, "Variance Shadow Maps", I3D 2006, Eq. 5). Its cube (JCGT
-/// 10(2) 2021) is no longer a bound, but darkens leaks: behind a closed wall, their mean falls
-/// from 5.0 % to 0.4 %.
+/// A bilinear fetch of distances. Agrees with tile_fetch() but for rounding: it divides once, has
+/// no branches, and takes directions of any length, 0 included.
+LAMBENT_FN TileFetch moments_fetch(vec3 direction, int texels) {
+  float l1_norm = abs(direction.x) + abs(direction.y) + abs(direction.z);
+  float inverse = 1.0f / max(kTiniestLength, l1_norm);
+  float x = direction.x * inverse;
+  float y = direction.y * inverse;
+  float folded_x = (1.0f - abs(y)) * sign_not_zero(x);
+  float folded_y = (1.0f - abs(x)) * sign_not_zero(y);
+  float last = float(texels);
+  float u = ((direction.z < 0.0f ? folded_x : x) + 1.0f) * (0.5f * last) + 0.5f;
+  float v = ((direction.z < 0.0f ? folded_y : y) + 1.0f) * (0.5f * last) + 0.5f;
+  // u and v lie in [0.5, texels + 0.5], so truncation is floor
+  ivec2 corner = ivec2(int(u < last ? u : last), int(v < last ? v : last));
+  TileFetch fetch = {corner, vec2(u - float(corner.x), v - float(corner.y))};
+  return fetch;
+}
+
+/// Interpolates the moments of four texels: the fetch's first one, and those to its right, below
+/// it, and below to the right.
+LAMBENT_FN vec2 bilinear_moments(vec2 first, vec2 right, vec2 below, vec2 beyond, vec2 fraction) {
+  return mix(mix(first, right, fraction.x), mix(below, beyond, fraction.x), fraction.y);
+}
+
+/// Visibility over a distance, from the mean and the mean square of the distances to occluders, all
+/// in distance_unit() of the grid. Chebyshev's one-sided inequality gives an upper bound on the
+/// fraction of light paths that are not blocked (Donnelly and Lauritzen, "Variance Shadow Maps",
+/// I3D 2006, Eq. 5). Its cube (JCGT 10(2) 2021) is no longer a bound, but darkens leaks: behind a
+/// closed wall, their mean falls from 5.0 % to 0.4 %.
 LAMBENT_FN float chebyshev_visibility(vec2 moments, float dist) {
-  float beyond = dist - moments.x;
-  if (beyond <= 0.0f) return 1.0f;
   float variance = abs(moments.y - moments.x * moments.x);
-  float bound = variance / (variance + beyond * beyond);
-  return bound * bound * bound;
+  float beyond = dist - moments.x;
+  float bound = variance / (variance + beyond * beyond + kTiniestSquare);
+  return beyond <= 0.0f ? 1.0f : bound * bound * bound;
 }
 
 /// The wrap-shading weight of a probe: 1 straight in front of the surface, falling off smoothly
@@ -68,20 +97,84 @@ LAMBENT_FN float wrap_weight(float cos_probe) {
   return wrap * wrap;
 }
 
+/// A weight, or where it is small what it falls off to: `cube`, the weight's cube over the square
+/// of kCrushThreshold.
+LAMBENT_FN float crushed_weight(float weight, float cube) {
+  float chosen = weight < kCrushThreshold ? cube : weight;
+  return chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight;
+}
+
 /// The weight of a probe before trilinear interpolation, from its wrap-shading weight and
 /// visibility.
 LAMBENT_FN float combined_weight(float wrap, float visibility) {
   float weight = wrap * visibility;
-  if (weight < kCrushThreshold) weight *= weight * weight / (kCrushThreshold * kCrushThreshold);
-  return max(weight, kMinVisibilityWeight);
+  return crushed_weight(weight,
+                        weight * weight * weight * (1.0f / (kCrushThreshold * kCrushThreshold)));
 }
 
-/// The weight of a probe before trilinear interpolation, from the cosine as for wrap_weight() and
-/// from the stored distances. A probe inside geometry holds a mean distance of 0. It has no light
-/// and no weight, even where all other probes are hidden.
-LAMBENT_FN float probe_weight(float cos_probe, vec2 moments, float dist) {
-  float weight = combined_weight(wrap_weight(cos_probe), chebyshev_visibility(moments, dist));
-  return moments.x > 0.0f ? weight : 0.0f;
+/// What the lookups in a grid have in common.
+struct LookupGrid {
+  ProbeGrid grid;
+  float spacing_min;      ///< smallest_spacing() [m]
+  float units_per_metre;  ///< Units of the stored distances in a metre.
+};
+
+LAMBENT_FN LookupGrid lookup_grid(ProbeGrid grid) {
+  LookupGrid result = {grid, smallest_spacing(grid), 1.0f / distance_unit(grid)};
+  return result;
+}
+
+/// What the corners of the cell around a point have in common.
+struct LookupCell {
+  ProbeCell cell;
+  vec3 lowest_ws;  ///< The place on the grid of the cell's lowest probe.
+  vec3 biased_ws;  ///< The point at which visibility is evaluated.
+};
+
+LAMBENT_FN LookupCell lookup_cell(LookupGrid volume, vec3 position_ws, vec3 normal_ws,
+                                  vec3 to_viewer_ws) {
+  ProbeCell cell = probe_cell(volume.grid, position_ws);
+  LookupCell result = {cell, probe_position(volume.grid, cell.base),
+                       biased_position(position_ws, normal_ws, to_viewer_ws, volume.spacing_min)};
+  return result;
+}
+
+/// What is known of a corner before its distances are read.
+struct LookupCorner {
+  vec3 from_probe;  ///< From the probe to the biased point [m].
+  float dist;       ///< The length of that [distance_unit].
+  float trilinear;
+  float wrap;  ///< Wrap-shading weight, 0 to 1.
+};
+
+/// `offset` is the offset of the corner's probe from its place on the grid [cells].
+LAMBENT_FN LookupCorner lookup_corner(LookupGrid volume, LookupCell cell, ivec3 corner, vec3 offset,
+                                      vec3 position_ws, vec3 normal_ws) {
+  // Compute where the probe is
+  vec3 spacing = volume.grid.spacing;
+  vec3 way = vec3(corner.x != 0 ? spacing.x : 0.0f, corner.y != 0 ? spacing.y : 0.0f,
+                  corner.z != 0 ? spacing.z : 0.0f) +
+             offset * spacing;
+  vec3 probe_ws = cell.lowest_ws + volume.grid.axes * way;
+
+  // Compute on which side of the surface that is
+  vec3 to_probe = probe_ws - position_ws;
+  float length_squared = dot(to_probe, to_probe);
+  float cosine =
+      dot(to_probe, normal_ws) / sqrt(max(kMinProbeDistance * kMinProbeDistance, length_squared));
+
+  vec3 from_probe = cell.biased_ws - probe_ws;
+  LookupCorner result = {from_probe, sqrt(dot(from_probe, from_probe)) * volume.units_per_metre,
+                         trilinear_weight(cell.cell.fraction, corner), wrap_weight(cosine)};
+  return result;
+}
+
+/// The weight of a corner, from what its probe stores of distances [distance_unit]. A probe inside
+/// geometry holds a mean distance of 0. It has no light and no weight, even where all other probes
+/// are hidden.
+LAMBENT_FN float corner_weight(float wrap, float trilinear, float dist, vec2 moments) {
+  float weight = combined_weight(wrap, chebyshev_visibility(moments, dist));
+  return (moments.x > 0.0f ? weight : 0.0f) * trilinear;
 }
 
 LAMBENT_END

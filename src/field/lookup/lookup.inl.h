@@ -1,39 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of the irradiance field, in the common subset of C++ and GLSL. The includer provides
 //   ProbeGrid fetch_grid(int volume)
-//   vec2 fetch_moments(ProbeGrid grid, int probe, vec3 direction)
-//       mean distance [m] and mean squared distance [m^2] of a probe of that grid, bilinear, along
-//       a direction of any length
+//   vec2 fetch_moments(int probe, vec3 direction)
+//       mean distance [distance_unit] and mean squared distance of a probe, bilinear, along a
+//       direction of any length
 //   vec3 fetch_offset(int probe)
 //       offset of the probe from its place on the grid [cells]
 //   vec3 fetch_irradiance(int probe, vec3 direction)
 //       linear irradiance [W/m^2], bilinear
 // In C++, this file is included in the body of a struct that has these as members.
 
-/// The position of a probe, with its offset.
-LAMBENT_FN vec3 placed_probe(ProbeGrid grid, ivec3 coords) {
-  return grid_position(grid, vec3(coords) + fetch_offset(probe_index(grid, coords)));
-}
-
-/// The cosine between a surface's normal and the direction to a probe.
-LAMBENT_FN float probe_cosine(vec3 probe_ws, vec3 position_ws, vec3 normal_ws) {
-  vec3 to_probe = probe_ws - position_ws;
-  return dot(to_probe, normal_ws) / max(length(to_probe), kMinProbeDistance);
-}
-
-/// The weight of a probe for a point with a normal, before trilinear interpolation. `biased_ws` is
-/// the point at which visibility is evaluated.
-LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, vec3 normal_ws,
-                               vec3 biased_ws) {
-  vec3 probe_ws = placed_probe(grid, coords);
-
-  // Fetch the distances that the probe sees along the direction to the biased point
-  vec3 from_probe = biased_ws - probe_ws;
-  float dist = max(length(from_probe), kMinProbeDistance);
-  vec2 moments = fetch_moments(grid, probe_index(grid, coords), from_probe);
-
-  // Combine visibility and the wrap-shading weight
-  return probe_weight(probe_cosine(probe_ws, position_ws, normal_ws), moments, dist);
+/// The weight of a corner for a point with a normal.
+LAMBENT_FN float lookup_weight(LookupGrid volume, LookupCell cell, ivec3 corner, vec3 position_ws,
+                               vec3 normal_ws) {
+  int probe = probe_index(volume.grid, cell.cell.base + corner);
+  LookupCorner at =
+      lookup_corner(volume, cell, corner, fetch_offset(probe), position_ws, normal_ws);
+  return corner_weight(at.wrap, at.trilinear, at.dist, fetch_moments(probe, at.from_probe));
 }
 
 /// Irradiance at a point with a normal, seen from `to_viewer_ws`, from the probes of one volume.
@@ -42,18 +25,15 @@ LAMBENT_FN float lookup_weight(ProbeGrid grid, ivec3 coords, vec3 position_ws, v
 /// probes hold.
 LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float volume_weight, vec3 position_ws, vec3 normal_ws,
                               vec3 to_viewer_ws) {
-  float spacing_min = smallest_spacing(grid);
-  vec3 biased_ws = biased_position(position_ws, normal_ws, to_viewer_ws, spacing_min);
-  ProbeCell cell = probe_cell(grid, position_ws);
+  LookupGrid volume = lookup_grid(grid);
+  LookupCell cell = lookup_cell(volume, position_ws, normal_ws, to_viewer_ws);
 
   vec3 sum = vec3(0.0f);
   float weight_sum = 0.0f;
-  LAMBENT_UNROLL for (int corner = 0; corner < kCellCorners; ++corner) {
-    ivec3 offset = cell_corner(corner);
-    ivec3 coords = cell.base + offset;
-    float weight = lookup_weight(grid, coords, position_ws, normal_ws, biased_ws) *
-                   trilinear_weight(cell.fraction, offset);
-    sum += fetch_irradiance(probe_index(grid, coords), normal_ws) * weight;
+  LAMBENT_UNROLL for (int k = 0; k < kCellCorners; ++k) {
+    ivec3 corner = cell_corner(k);
+    float weight = lookup_weight(volume, cell, corner, position_ws, normal_ws);
+    sum += fetch_irradiance(probe_index(grid, cell.cell.base + corner), normal_ws) * weight;
     weight_sum += weight;
   }
   // Where no probe of this volume has a weight, the next volumes answer

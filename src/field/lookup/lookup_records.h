@@ -21,6 +21,14 @@ struct CornerWeights {
   float weight[kCellCorners];
 };
 
+/// Scales weights to a sum of 1, where any is above 0.
+LAMBENT_FN void normalize_weights(LAMBENT_INOUT(CornerWeights) corners) {
+  float sum = 0.0f;
+  for (int k = 0; k < kCellCorners; ++k) sum += corners.weight[k];
+  float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
+  for (int k = 0; k < kCellCorners; ++k) corners.weight[k] *= scale;
+}
+
 /// How a surfel reads the field: with the weights of the eight probes around it and, in each of
 /// their tiles, a bilinear fetch along its normal.
 struct SurfelLookup {

@@ -6,20 +6,14 @@
 /// of these probes are inside geometry.
 LAMBENT_FN CornerWeights lookup_weights(ProbeGrid grid, int volume, vec3 position_ws,
                                         vec3 normal_ws, vec3 to_viewer_ws) {
-  vec3 biased_ws = biased_position(position_ws, normal_ws, to_viewer_ws, smallest_spacing(grid));
-  ProbeCell cell = probe_cell(grid, position_ws);
+  LookupGrid in_volume = lookup_grid(grid);
+  LookupCell cell = lookup_cell(in_volume, position_ws, normal_ws, to_viewer_ws);
   CornerWeights weights;
-  weights.base = probe_index(grid, cell.base);
-  weights.table = uint(kCellWraps * volume + cell_wrap(grid, cell.base));
-  float sum = 0.0f;
-  for (int corner = 0; corner < kCellCorners; ++corner) {
-    ivec3 offset = cell_corner(corner);
-    float weight = lookup_weight(grid, cell.base + offset, position_ws, normal_ws, biased_ws) *
-                   trilinear_weight(cell.fraction, offset);
-    weights.weight[corner] = weight;
-    sum += weight;
+  weights.base = probe_index(grid, cell.cell.base);
+  weights.table = uint(kCellWraps * volume + cell_wrap(grid, cell.cell.base));
+  for (int k = 0; k < kCellCorners; ++k) {
+    weights.weight[k] = lookup_weight(in_volume, cell, cell_corner(k), position_ws, normal_ws);
   }
-  float scale = sum > 0.0f ? 1.0f / sum : 0.0f;
-  for (int corner = 0; corner < kCellCorners; ++corner) weights.weight[corner] *= scale;
+  normalize_weights(weights);
   return weights;
 }

@@ -12,19 +12,14 @@ namespace lambent {
 namespace {
 
 constexpr int kCorners = kCellCorners;
-constexpr std::uint64_t kAllSeen = ~std::uint64_t{0};
 constexpr std::size_t kCellsPerTask = 64;
 
 Ray to_ray(const RayRecord& ray) {
   return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
 }
 
-std::uint64_t sight(int corner, int other) {
-  return std::uint64_t{1} << visibility_bit(corner, other);
-}
-
 /// Names the query and the corner that a visibility ray tests.
-struct Question {
+struct CornerTest {
   std::size_t query;
   int corner;
 };
@@ -33,22 +28,28 @@ struct Question {
 class CornerRays {
  public:
   CornerRays(const ProbeStore& store, int volume)
-      : store_(store), spacing_min_(smallest_spacing(store.grid(volume))) {}
+      : store_(store), volume_(lookup_grid(store.grid(volume))) {}
 
-  /// Adds a ray from the biased position of a query to a corner. The biased position is off the
-  /// surface, so that rounding cannot make the ray hit the surface itself.
-  void ask(const FieldQuery& query, int base, std::uint32_t table, std::size_t index, int corner) {
-    const vec3 start =
-        biased_position(query.position_ws, query.normal_ws, query.to_viewer_ws, spacing_min_);
-    const int probe = base + store_.corner_table()[table].probe[corner];
-    rays_.push_back(to_ray(visibility_ray(start, store_.probe_position_ws(probe))));
-    tests_.push_back({index, corner});
+  /// Exact visibility: the weights of a query's corners if they are visible.
+  CornerWeights weights_if_visible(const FieldQuery& query, const CornerWeights& corners) {
+    return visible_corners(volume_, cell_of(query), corners, query.position_ws, query.normal_ws);
+  }
+
+  /// Adds rays from the biased position of a query to some corners, given as bits.
+  void add(const FieldQuery& query, std::size_t index, uint corners) {
+    if (corners == 0u) return;
+    const LookupCell cell = cell_of(query);
+    for (int k = 0; k < kCorners; ++k) {
+      if ((corners >> k & 1u) == 0u) continue;
+      rays_.push_back(to_ray(corner_ray(volume_.grid, cell, k)));
+      tests_.push_back({index, k});
+    }
   }
 
   /// Traces the rays and calls hidden(test) for every corner that is occluded. Returns their
   /// number.
   template <class Hidden>
-  std::uint64_t answer(const RayTracer& tracer, Hidden hidden) {
+  std::uint64_t trace(const RayTracer& tracer, Hidden hidden) {
     occluded_.resize(rays_.size());
     tracer.occlusions(rays_, occluded_);
     for (std::size_t r = 0; r < rays_.size(); ++r) {
@@ -58,34 +59,36 @@ class CornerRays {
   }
 
  private:
+  vec3 fetch_offset(int probe) const { return store_.probe_offset(probe); }
+#include "field/lookup/visibility.inl.h"
+
+  LookupCell cell_of(const FieldQuery& query) const {
+    return lookup_cell(volume_, query.position_ws, query.normal_ws, query.to_viewer_ws);
+  }
+
   const ProbeStore& store_;
-  float spacing_min_;
+  LookupGrid volume_;
   std::vector<Ray> rays_;
-  std::vector<Question> tests_;
+  std::vector<CornerTest> tests_;
   std::vector<std::uint8_t> occluded_;
 };
 
 /// Exact visibility: traces a ray to each corner that could count.
 std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer& tracer,
                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
-  CornerRays rays(store, volume);
-  std::vector<CornerTerms> terms(queries.size());
-  std::vector<CornerWeights> seen(queries.size());
-  corner_terms(store, volume, queries, terms);
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    seen[i] = {terms[i].base, terms[i].table, {}};
-    for (int k = 0; k < kCorners; ++k) {
-      seen[i].weight[k] = seen_weight(terms[i].trilinear[k], terms[i].wrap[k]);
-      if (seen[i].weight[k] > 0.0f) rays.ask(queries[i], terms[i].base, terms[i].table, i, k);
-    }
-  }
-  const std::uint64_t traced =
-      rays.answer(tracer, [&](const Question& q) { seen[q.query].weight[q.corner] = 0.0f; });
-
-  // Where no probe is visible, use the weights by distances
   corner_weights(store, volume, queries, result);
+  CornerRays rays(store, volume);
+  std::vector<CornerWeights> visible(queries.size());
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (scale_weights(seen[i], 1.0f) != 0) result[i] = seen[i];
+    visible[i] = rays.weights_if_visible(queries[i], result[i]);
+    rays.add(queries[i], i, weighed_corners(visible[i]));
+  }
+  const std::uint64_t traced = rays.trace(
+      tracer, [&](const CornerTest& test) { visible[test.query].weight[test.corner] = 0.0f; });
+
+  // Where no probe is visible, the weights by distances stay
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (scale_weights(visible[i], 1.0f) != 0) result[i] = visible[i];
   }
   return traced;
 }
@@ -98,21 +101,15 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
   CornerRays rays(store, volume);
   std::vector<std::size_t> checked;
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    const std::uint64_t cell = by.cell_visibility->of_cell(result[i].base);
-    if (cell == kAllSeen) continue;
-    const auto seen = static_cast<uint>(cell >> visibility_bit(heaviest_corner(result[i]), 0));
-    const VisibilityMask mask = visibility_mask(result[i], seen, 1.0f);
-    for (int k = 0; k < kCorners; ++k) {
-      if (((mask.hidden >> k) & 1u) != 0) result[i].weight[k] = 0.0f;
-      if (((mask.tested >> k) & 1u) != 0) {
-        rays.ask(queries[i], result[i].base, result[i].table, i, k);
-      }
-    }
+    const uvec2& cell = by.cell_visibility->of_cell(result[i].base);
+    if (cell == all_visible()) continue;
+    const VisibilityMask mask = visibility_mask(result[i], cell, 1.0f);
+    hide_corners(result[i], mask.hidden);
+    rays.add(queries[i], i, mask.tested);
     checked.push_back(i);
   }
-  const std::uint64_t traced = rays.answer(*by.tracer, [&](const Question& question) {
-    result[question.query].weight[question.corner] = 0.0f;
-  });
+  const std::uint64_t traced = rays.trace(
+      *by.tracer, [&](const CornerTest& test) { result[test.query].weight[test.corner] = 0.0f; });
   // The heaviest corner always keeps its weight, so that a sum remains
   for (const std::size_t i : checked) scale_weights(result[i], 1.0f);
   return traced;
@@ -120,7 +117,7 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
 
 }  // namespace
 
-CellVisibility::CellVisibility(int probes) : cells_(probes, kAllSeen) {}
+CellVisibility::CellVisibility(int probes) : cells_(probes, all_visible()) {}
 
 std::uint64_t CellVisibility::update(const RayTracer& tracer, const ProbeStore& store,
                                      std::span<const int> probes) {
@@ -128,7 +125,6 @@ std::uint64_t CellVisibility::update(const RayTracer& tracer, const ProbeStore& 
   const std::size_t batch = batch_of(tracer, kCellPairs, kCellsPerTask);
   parallel_chunks(probes.size(), batch, [&](std::size_t begin, std::size_t end) {
     std::vector<Ray> rays;
-    std::vector<std::uint64_t> pairs;
     std::vector<int> cells;
     for (const int base : probes.subspan(begin, end - begin)) {
       const int volume = store.volume_of(base);
@@ -138,21 +134,21 @@ std::uint64_t CellVisibility::update(const RayTracer& tracer, const ProbeStore& 
       if (glm::any(glm::greaterThanEqual(coords, grid.count - ivec3(1)))) continue;
       const CornerOffsets& offsets = store.corner_table()[static_cast<std::size_t>(
           kCellWraps * volume + cell_wrap(grid, coords))];
-      cells_[base] = kAllSeen;
-      for (int i = 0; i < kCorners; ++i) {
-        const vec3 start = store.probe_position_ws(base + offsets.probe[i]);
-        for (int k = i + 1; k < kCorners; ++k) {
-          const vec3 other = store.probe_position_ws(base + offsets.probe[k]);
-          rays.push_back(to_ray(visibility_ray(start, other)));
-          pairs.push_back(sight(i, k) | sight(k, i));
-          cells.push_back(base);
-        }
+      cells.push_back(base);
+      for (int pair = 0; pair < kCellPairs; ++pair) {
+        const ivec2 ends = cell_pair(pair);
+        const vec3 start = store.probe_position_ws(base + offsets.probe[ends.x]);
+        const vec3 other = store.probe_position_ws(base + offsets.probe[ends.y]);
+        rays.push_back(to_ray(visibility_ray(start, other)));
       }
     }
     std::vector<std::uint8_t> occluded(rays.size());
     tracer.occlusions(rays, occluded);
-    for (std::size_t r = 0; r < rays.size(); ++r) {
-      if (occluded[r] != 0) cells_[cells[r]] &= ~pairs[r];
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      uvec2& cell = cells_[cells[c]] = all_visible();
+      for (int pair = 0; pair < kCellPairs; ++pair) {
+        if (occluded[c * kCellPairs + pair] != 0) cell = without_pair(cell, cell_pair(pair));
+      }
     }
     traced += rays.size();
   });

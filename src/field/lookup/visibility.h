@@ -24,12 +24,11 @@ class CellVisibility {
   std::uint64_t update(const RayTracer& tracer, const ProbeStore& store,
                        std::span<const int> probes);
 
-  /// Bit 8 i + k says whether corners i and k of a cell see each other. `base` is the cell's lowest
-  /// probe.
-  std::uint64_t of_cell(int base) const { return cells_[base]; }
+  /// Which corners of a cell see each other (all_visible). `base` is the cell's lowest probe.
+  const uvec2& of_cell(int base) const { return cells_[base]; }
 
  private:
-  std::vector<std::uint64_t> cells_;
+  std::vector<uvec2> cells_;
 };
 
 /// The lowest probes of all cells that have one of the probes as a corner, in ascending order.

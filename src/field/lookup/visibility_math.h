@@ -25,9 +25,37 @@ LAMBENT_FN RayRecord visibility_ray(vec3 from_ws, vec3 to_ws) {
   return ray;
 }
 
-/// The bit of a cell's visibility that says whether one corner sees another.
-LAMBENT_FN int visibility_bit(int corner, int other) {
-  return kCellCorners * corner + other;
+/// The corners of a cell's pair, the pairs numbered from 0.
+LAMBENT_FN ivec2 cell_pair(int pair) {
+  int corner = 0;
+  int others = kCellCorners - 1;
+  while (pair >= others) {
+    pair -= others;
+    ++corner;
+    --others;
+  }
+  return ivec2(corner, corner + 1 + pair);
+}
+
+/// Which corners of a cell see each other: bit 8 i + k says whether corner i sees corner k. The
+/// first 32 bits are in x.
+LAMBENT_FN uvec2 all_visible() {
+  return uvec2(0xFFFFFFFFu, 0xFFFFFFFFu);
+}
+
+/// Notes that the corners of a pair do not see each other.
+LAMBENT_FN uvec2 without_pair(uvec2 cell_visibility, ivec2 pair) {
+  for (int side = 0; side < 2; ++side) {
+    int bit = kCellCorners * pair[side] + pair[1 - side];
+    cell_visibility[bit >> 5] &= ~(1u << uint(bit & 31));
+  }
+  return cell_visibility;
+}
+
+/// The corners that a corner sees, as the lowest bits.
+LAMBENT_FN uint corners_seen_by(uvec2 cell_visibility, int corner) {
+  int bit = kCellCorners * corner;
+  return cell_visibility[bit >> 5] >> uint(bit & 31);
 }
 
 /// The corner with the largest weight.
@@ -62,13 +90,14 @@ struct VisibilityMask {
   uint tested;
 };
 
-/// Hybrid visibility. `corners` has weights by distances with a sum of `total`. Bit k of `seen`
-/// says whether the heaviest corner sees corner k.
-LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uint seen, float total) {
+/// Hybrid visibility. `corners` has weights by distances with a sum of `total`.
+LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uvec2 cell_visibility,
+                                          float total) {
+  uint visible = corners_seen_by(cell_visibility, heaviest_corner(corners));
   VisibilityMask mask = {0u, 0u};
   for (int k = 0; k < kCellCorners; ++k) {
     uint bit = 1u << uint(k);
-    if ((seen & bit) != 0u || corners.weight[k] <= 0.0f) continue;
+    if ((visible & bit) != 0u || corners.weight[k] <= 0.0f) continue;
     if (corners.weight[k] < kMinTestedWeight * total) {
       mask.hidden |= bit;
     } else {
@@ -78,10 +107,27 @@ LAMBENT_FN VisibilityMask visibility_mask(CornerWeights corners, uint seen, floa
   return mask;
 }
 
+/// Sets the weights of hidden corners, given as bits, to 0.
+LAMBENT_FN void hide_corners(LAMBENT_INOUT(CornerWeights) corners, uint hidden) {
+  for (int k = 0; k < kCellCorners; ++k) {
+    if ((hidden >> uint(k) & 1u) != 0u) corners.weight[k] = 0.0f;
+  }
+}
+
+/// The corners with a weight above 0, as bits.
+LAMBENT_FN uint weighed_corners(CornerWeights corners) {
+  uint weighed = 0u;
+  for (int k = 0; k < kCellCorners; ++k) {
+    if (corners.weight[k] > 0.0f) weighed |= 1u << uint(k);
+  }
+  return weighed;
+}
+
 /// Exact visibility: the weight of a corner if it is visible. A corner of weight 0 needs no ray.
 /// `wrap` is 0 for probes inside geometry.
-LAMBENT_FN float seen_weight(float trilinear, float wrap) {
-  return trilinear * wrap > 0.0f ? trilinear * combined_weight(wrap, 1.0f) : 0.0f;
+LAMBENT_FN float visible_weight(float trilinear, float wrap) {
+  float cube = wrap * (wrap * wrap / (kCrushThreshold * kCrushThreshold));
+  return trilinear * wrap > 0.0f ? trilinear * crushed_weight(wrap, cube) : 0.0f;
 }
 
 LAMBENT_END

@@ -10,6 +10,7 @@
 #include "field/transport/distances.h"
 #include "lambent/world.h"
 #include "raytracing/boxes.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
@@ -37,7 +38,7 @@ std::vector<int> IrradianceField::State::place_probes(const World& world,
     const std::vector<uint> before(data.store.offset_words().begin(),
                                    data.store.offset_words().end());
     for (const int probe : probes) data.store.set_probe_offset(probe, vec3(0.0f));
-    relocate_probes(world.scene(), world.tracer(), probes, moving, data.store);
+    relocate_probes(world.scene(), tracer_of(world), probes, moving, data.store);
     for (const int probe : probes) {
       if (data.store.offset_words()[probe] != before[probe]) moved.push_back(probe);
     }
@@ -155,7 +156,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
     blend.moments(seen, max_probe_distance(grid), moments);
     data.store.blend_moments(probe, moments, 1.0f, dither_seed());
   };
-  const std::size_t batch = viewpoints_of_batch(world.tracer());
+  const std::size_t batch = viewpoints_of_batch(tracer_of(world));
   parallel_chunks(probes.size(), batch, [&](std::size_t first, std::size_t last) {
     std::vector<Viewpoint> viewpoints;
     for (std::size_t k = first; k < last; ++k) {
@@ -163,7 +164,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
           {data.store.probe_position_ws(probes[k]), data.store.grid_of(probes[k]).axes});
     }
     std::vector<FixedRayHit> around(viewpoints.size() * directions);
-    trace_fixed_rays(world.scene(), world.tracer(), viewpoints, moving, around);
+    trace_fixed_rays(world.scene(), tracer_of(world), viewpoints, moving, around);
     // A device traces large batches, whose results all cores work on
     parallel_chunks(viewpoints.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {

@@ -11,6 +11,7 @@
 #include "field/probes/tile.h"
 #include "field/probes/volumes.h"
 #include "lambent/world.h"
+#include "raytracing/world_access.h"
 
 namespace lambent {
 namespace {
@@ -76,7 +77,7 @@ int IrradianceField::State::scroll_volumes(const World& world, const vec3& viewe
     }
   }
   if (settings.relocation) {
-    relocate_probes(world.scene(), world.tracer(), recycled, moving_instances(world.scene()),
+    relocate_probes(world.scene(), tracer_of(world), recycled, moving_instances(world.scene()),
                     data.store);
   }
   initialize_relocated(world, recycled, statistics);

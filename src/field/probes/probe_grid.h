@@ -167,8 +167,9 @@ LAMBENT_FN vec3 decode_probe_offset(uint word) {
 
 /// Trilinear weight of a corner.
 LAMBENT_FN float trilinear_weight(vec3 fraction, ivec3 corner) {
-  vec3 w = mix(vec3(1.0f) - fraction, fraction, vec3(corner));
-  return w.x * w.y * w.z;
+  return (corner.x != 0 ? fraction.x : 1.0f - fraction.x) *
+         (corner.y != 0 ? fraction.y : 1.0f - fraction.y) *
+         (corner.z != 0 ? fraction.z : 1.0f - fraction.z);
 }
 
 LAMBENT_END

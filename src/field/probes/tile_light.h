@@ -20,16 +20,21 @@ inline float mean_luminance(TileLight tile) {
   return sum / static_cast<float>(tile.size());
 }
 
-/// The mean square of the difference between two tiles, over the square of the second tile's mean
-/// or of `darkest`, whichever is larger.
-inline float relative_square(TileLight a, TileLight b, float darkest = 0.0f) {
-  float sum = 0.0f;
-  for (std::size_t t = 0; t < a.size(); ++t) {
-    const float difference = luminance(glm::vec3(a[t] - b[t]));
-    sum += difference * difference;
-  }
-  const float mean = glm::max(mean_luminance(b), darkest);
-  return mean_relative_square(sum, static_cast<int>(a.size()), mean);
+/// The change from one tile to another of the same size.
+inline LightChange light_change(TileLight before, TileLight now) {
+  struct Tiles {
+    TileLight before, now;
+    glm::vec3 fetch_before(int texel) const { return before[texel]; }
+    glm::vec3 fetch_now(int texel) const { return now[texel]; }
+#include "field/probes/tile_light.inl.h"
+  };
+  return Tiles{before, now}.light_change(static_cast<int>(now.size()));
+}
+
+/// The mean square of a change of light over the square of the mean before.
+inline float relative_square(TileLight before, TileLight now) {
+  const LightChange change = light_change(before, now);
+  return mean_relative_square(change.squares, static_cast<int>(now.size()), change.before);
 }
 
 /// The similarity of two tiles' distributions of light over directions. See likeness_of().

@@ -31,14 +31,17 @@ const int kPriorityBins = 115;
 const uint kReductionShift = 21u;
 const int kMinReductionStep = (127 - 14) << 2;
 
-/// The bin of a probe that is not left out. Updates are counted from 1; `served` is 0 for a probe
-/// that was never traced.
-LAMBENT_FN int priority_bin(float reduction, uint served, uint update) {
-  if (served == 0u) return kNeverBin;
-  if (waits_too_long(served, update)) {
-    return kFirstOldBin + min(int((update - served) / kMaxProbeAge) - 1, kOldBins - 1);
+/// The bin of a probe that is not left out, by its probe_urgency(): a more urgent one is in no
+/// lower bin.
+LAMBENT_FN int priority_bin(float urgency) {
+  if (urgency >= kNeverUrgency) return kNeverBin;
+  if (urgency >= kOldUrgency) {
+    // Of probes that wait too long, the urgency is above kOldUrgency by 0.5 to 1
+    int old = int((urgency - kOldUrgency - 0.5f) * (2.0f * float(kOldBins)));
+    return kFirstOldBin + clamp(old, 0, kOldBins - 1);
   }
-  if (reduction <= 0.0f) return kRestBin;
+  if (urgency <= 0.0f) return kRestBin;
+  float reduction = urgency / (kOldUrgency - urgency);
   int octaves = int(floatBitsToUint(reduction) >> kReductionShift) - kMinReductionStep;
   return kFirstReductionBin + clamp(octaves, 0, kReductionBins - 1);
 }
@@ -117,7 +120,7 @@ struct ScheduleListArguments {
 };
 
 /// Arguments of update_variability. `changes` has an entry per probe of the list, as compare_light
-/// computes it with `darkest` 0.
+/// computes it.
 struct UpdateVariabilityArguments {
   ScheduleStateArray state;
   ServiceArray service;

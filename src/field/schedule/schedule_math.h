@@ -4,7 +4,8 @@
 #ifndef LAMBENT_FIELD_SCHEDULE_SCHEDULE_MATH_H
 #define LAMBENT_FIELD_SCHEDULE_SCHEDULE_MATH_H
 
-#include "shared/lang.h"
+#include "field/probes/probe_grid.h"
+#include "field/probes/tile_light_math.h"
 
 LAMBENT_BEGIN
 
@@ -57,15 +58,23 @@ LAMBENT_FN KnownNoise learned_noise(KnownNoise known, float relative_square, flo
 }
 
 /// The relative square of the difference between an update's estimate and the light that a probe
-/// held. It follows from `relative_square`, that of the light after blending the estimate in with
-/// `blend_weight`. The visibility of noise is taken to be proportional to the square root of the
-/// light (Rose, "The Sensitivity Performance of the Human Eye on an Absolute Scale", J. Opt. Soc.
-/// Am. 38(2), 1948). `before` is the luminance that the probe held, and `mean_light` that of all
-/// probes.
-LAMBENT_FN float estimate_relative_square(float relative_square, float before, float blend_weight,
+/// held. It follows from the `change` of the light of a tile of `texels` texels by blending the
+/// estimate in with `blend_weight`. The visibility of noise is taken to be proportional to the
+/// square root of the light (Rose, "The Sensitivity Performance of the Human Eye on an Absolute
+/// Scale", J. Opt. Soc. Am. 38(2), 1948). `mean_light` is the luminance of all probes.
+LAMBENT_FN float estimate_relative_square(LightChange change, int texels, float blend_weight,
                                           float mean_light) {
-  float brightness = mean_light > 0.0f ? max(before, kDarkShare * mean_light) / mean_light : 1.0f;
+  float before = max(change.before, kDarkShare * mean_light);
+  float relative_square = mean_relative_square(change.squares, texels, before);
+  float brightness = mean_light > 0.0f ? before / mean_light : 1.0f;
   return relative_square * brightness / (blend_weight * blend_weight);
+}
+
+/// The weight in the blend with a probe's history of rays that amount to `weight` updates. The
+/// history is of `samples` updates, and the average remembers `longest` at most.
+LAMBENT_FN float history_blend_weight(float samples, float weight, float longest) {
+  float held = min(samples, max(longest - weight, 0.0f));
+  return weight / (held + weight);
 }
 
 /// The mean light of `live` probes after an update in which `count` of them have the mean light
@@ -96,10 +105,47 @@ LAMBENT_FN float error_reduction_per_noise(float samples) {
   return 1.0f / max(samples, kFewestSamples);
 }
 
+/// The error reduction by which a probe, or a block of probes, is scheduled. `per_noise` is 0 where
+/// it has converged.
+LAMBENT_FN float scheduled_reduction(float reduction, float per_noise, float mean_noise) {
+  return max(reduction, kMinNoiseOfMean * mean_noise * per_noise);
+}
+
+/// The neighbours of a probe along the axes of its grid: their greatest number.
+const int kNeighbours = 6;
+
+/// The index of a neighbour, 0 to kNeighbours - 1, of the probe with these coordinates; -1 where
+/// the grid ends.
+LAMBENT_FN int neighbour_of(ProbeGrid grid, ivec3 coords, int neighbour) {
+  int axis = neighbour / 2;
+  coords[axis] += 2 * (neighbour % 2) - 1;
+  bool exists = coords[axis] >= 0 && coords[axis] < grid.count[axis];
+  return exists ? probe_index(grid, coords) : -1;
+}
+
+// The number of the last update of a probe that takes no part.
+const uint kNotLive = 0xFFFFFFFFu;
+
 /// Whether a probe has waited for kMaxProbeAge. Updates are counted from 1; `served` is 0 for a
 /// probe that was never traced.
 LAMBENT_FN bool waits_too_long(uint served, uint update) {
-  return served == 0u || update - served >= kMaxProbeAge;
+  return served != kNotLive && (served == 0u || update - served >= kMaxProbeAge);
+}
+
+// The urgency of a probe is below 1 while its age is below kMaxProbeAge, between 1 and 2 above that
+// age, and at least 2 where it has never been traced.
+const float kOldUrgency = 1.0f;
+const float kNeverUrgency = 2.0f;
+
+/// The urgency of a probe from its error reduction and its weight; 0: it need not be traced. It
+/// grows with both and with the age. For `served` and `update`, see waits_too_long().
+LAMBENT_FN float probe_urgency(float reduction, uint served, uint update, float weight) {
+  if (served == 0u) return kNeverUrgency + weight;
+  if (waits_too_long(served, update)) {
+    float age = float(update - served);
+    return kOldUrgency + age / (age + float(kMaxProbeAge));
+  }
+  return kOldUrgency * reduction * weight / (1.0f + reduction * weight);
 }
 
 LAMBENT_END

@@ -2,7 +2,6 @@
 // Choice of the most urgent probes, without looking at those that are not urgent.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/parallel.h"
 #include "field/schedule/schedule.h"
@@ -26,38 +25,14 @@ constexpr float kHalfWeightCells = 16.0f;
 // will turn.
 constexpr float kUnseenWeight = 0.02f;
 
-constexpr std::uint32_t kNotLive = std::numeric_limits<std::uint32_t>::max();
-
-// The urgency of a probe is below 1 while its age is below kMaxProbeAge, between 1 and 2 above that
-// age, and at least 2 where it has never been traced.
-constexpr float kOld = 1.0f, kNever = 2.0f;
-
-bool is_old(std::uint32_t served, std::uint32_t update) {
-  return served != kNotLive && (served == 0 || update - served >= kMaxProbeAge);
-}
-
-/// The urgency of a probe from its error reduction and its weight; 0: it need not be traced. It
-/// grows with both and with the age.
-float urgency_of(float reduction, std::uint32_t served, std::uint32_t update, float weight) {
-  if (served == 0) return kNever + weight;
-  if (is_old(served, update)) {
-    const auto age = static_cast<float>(update - served);
-    return kOld + age / (age + kMaxProbeAge);
-  }
-  return kOld * reduction * weight / (1.0f + reduction * weight);
-}
-
 /// Calls body(neighbour) for the probes next to one in its grid.
 template <class Body>
 void for_each_neighbour(const ProbeStore& store, int probe, Body body) {
   const ProbeGrid& grid = store.grid_of(probe);
-  const ivec3 place = probe_coords(grid, probe);
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int side : {-1, 1}) {
-      ivec3 next = place;
-      next[axis] += side;
-      if (next[axis] >= 0 && next[axis] < grid.count[axis]) body(probe_index(grid, next));
-    }
+  const ivec3 coords = probe_coords(grid, probe);
+  for (int i = 0; i < kNeighbours; ++i) {
+    const int neighbour = neighbour_of(grid, coords, i);
+    if (neighbour >= 0) body(neighbour);
   }
 }
 
@@ -169,14 +144,14 @@ void ProbeScheduler::refresh_noise(const ProbeStore& store, std::span<const Prob
   const ProbeStatus& own = statuses[probe];
   entry.noise = entry.reduction = entry.reduction_per_noise = 0.0f;
   if (entry.served == kNotLive) return;
-  float sum = own.noise;
-  int count = 1;
-  for_each_neighbour(store, probe, [&](int neighbour) {
-    if (entries_[neighbour].served == kNotLive) return;
-    sum += statuses[neighbour].noise;
-    ++count;
-  });
-  entry.noise = probe_noise(own.noise, sum / static_cast<float>(count));
+  struct Neighbourhood {
+    std::span<const Entry> entries;
+    std::span<const ProbeStatus> statuses;
+    bool fetch_live(int at) const { return entries[at].served != kNotLive; }
+    float fetch_noise(int at) const { return statuses[at].noise; }
+#include "field/schedule/noise_around.inl.h"
+  } near = {entries_, statuses};
+  entry.noise = probe_noise(own.noise, near.noise_around(store.grid_of(probe), probe));
   if (own.state == ProbeState::sleeping) {
     entry.reduction = kSleepingReduction;
     return;
@@ -266,19 +241,19 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
   // Order the blocks by an upper bound on the urgency of their probes
   std::vector<Candidate> blocks;
   const float noise = mean_noise();
-  const float least = kMinNoiseOfMean * noise;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
     // Only the oldest probe of a block matters here: if it is not old, none is
-    const std::uint32_t served = is_old(block.served, update) ? block.served : kNotLive;
+    const std::uint32_t served = waits_too_long(block.served, update) ? block.served : kNotLive;
     float weight = 1.0f;
     if (viewer_ws && importance.empty()) {
       const int first = static_cast<int>(b * kBlock);
       const int last = static_cast<int>(std::min((b + 1) * kBlock, entries_.size())) - 1;
       weight = distance_weight(least_cells_away(store, first, last, *viewer_ws));
     }
-    const float urgency = urgency_of(std::max(block.reduction, least * block.reduction_per_noise),
-                                     served, update, weight);
+    const float urgency =
+        probe_urgency(scheduled_reduction(block.reduction, block.reduction_per_noise, noise),
+                      served, update, weight);
     if (urgency > 0.0f) blocks.push_back({urgency, static_cast<int>(b)});
   }
   const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };
@@ -292,12 +267,13 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
     blocks.pop_back();
     for (std::size_t i = first; i < std::min(first + kBlock, entries_.size()); ++i) {
       const Entry& entry = entries_[i];
-      if (entry.reduction == 0.0f && !is_old(entry.served, update)) continue;
+      if (entry.reduction == 0.0f && !waits_too_long(entry.served, update)) continue;
       const int probe = static_cast<int>(i);
       const float weight = view_weight(store, probe, viewer_ws, importance);
-      best.add({urgency_of(std::max(entry.reduction, least * entry.reduction_per_noise),
-                           entry.served, update, weight),
-                probe});
+      best.add(
+          {probe_urgency(scheduled_reduction(entry.reduction, entry.reduction_per_noise, noise),
+                         entry.served, update, weight),
+           probe});
     }
   }
 

@@ -13,8 +13,8 @@ TracedProbes blend_weights_of(std::span<const TraceGroup> groups, const FieldSet
     const float weight =
         static_cast<float>(group.rays->rays()) / static_cast<float>(settings.rays_per_probe);
     for (const int probe : group.probes) {
-      const float held = min(statuses[probe].samples, max(longest - weight, 0.0f));
-      traced.blend_weights.push_back(weight / (held + weight));
+      traced.blend_weights.push_back(
+          history_blend_weight(statuses[probe].samples, weight, longest));
     }
     traced.probes.insert(traced.probes.end(), group.probes.begin(), group.probes.end());
     traced.weights.insert(traced.weights.end(), group.probes.size(), weight);
@@ -26,15 +26,16 @@ void update_variability(const TracedProbes& traced, std::span<const LightChange>
                         const TracedIn& in, const FieldSettings& settings,
                         std::span<ProbeStatus> statuses, Scheduling& scheduling) {
   const float longest = longest_average(settings);
+  const int texels = settings.irradiance_texels * settings.irradiance_texels;
   double light_sum = 0.0;
   for (std::size_t k = 0; k < traced.probes.size(); ++k) {
     const int probe = traced.probes[k];
     ProbeStatus& status = statuses[probe];
     const LightChange& change = changes[k];
     light_sum += change.now;
-    learn_noise(estimate_relative_square(change.relative_square, change.before,
-                                         traced.blend_weights[k], scheduling.mean_light),
-                traced.weights[k], status);
+    learn_noise(
+        estimate_relative_square(change, texels, traced.blend_weights[k], scheduling.mean_light),
+        traced.weights[k], status);
     status.samples = min(status.samples, longest);
     status.served = in.update;
     status.state = state_once_traced(status.state);

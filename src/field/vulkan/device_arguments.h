@@ -174,7 +174,7 @@ struct CellVisibilityRaysArguments {
 };
 
 /// Arguments of cell_visibility_bits, which stores the results in two words per lowest probe
-/// (visibility_bit).
+/// (all_visible).
 struct CellVisibilityBitsArguments {
   IntArray cells;
   UintArray occluded;
@@ -290,9 +290,9 @@ struct CompareLightArguments {
   IntArray probes;
   Vec4Array light;
   Vec4Array before;
-  Vec3Array changes;  ///< Relative square, luminance before, luminance after.
+  Vec3Array changes;  ///< The members of LightChange.
   int count;
-  float darkest;
+  int unused;
 };
 
 /// Arguments of lookup, which looks the field up for queries.

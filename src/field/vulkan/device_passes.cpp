@@ -254,10 +254,9 @@ void FieldResources::record_store_light(vulkan::Recorder& to, const DeviceProbes
 }
 
 void FieldResources::record_compare_light(vulkan::Recorder& to, const DeviceProbes& list,
-                                          Vec4Array before, float darkest,
-                                          Vec3Array changes) const {
+                                          Vec4Array before, Vec3Array changes) const {
   const CompareLightArguments arguments = {
-      list.index_array(), {light_.address()}, before, changes, list.count(), darkest};
+      list.index_array(), {light_.address()}, before, changes, list.count(), 0};
   run_over(to, kernels_.compare_light, arguments, list, kOverLanes);
   to.barrier();
 }

@@ -57,6 +57,11 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, int most_probes, int
       Buffer(device, sizeof(ProbeBlock) * list_.block_count, Memory::device, "their blocks");
 }
 
+std::size_t DeviceSchedule::bytes() const {
+  return bytes_of({&list_.indices, &list_.ray_sets, &list_.blocks, &state_, &service_, &bins_,
+                   &chunk_records_, &sizes_, &changes_});
+}
+
 void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& probes,
                                    std::uint32_t update, bool look) const {
   const int all = field_.probes();
@@ -100,7 +105,7 @@ void DeviceSchedule::record_update_variability(vulkan::Recorder& to, const Devic
                                                   0u};
   const ScheduleMeansArguments means = {
       state, {chunk_records_.address()}, blend_weights, changes, chunks_, list.count(), chosen, 0u};
-  field_.record_compare_light(to, list, before, /*darkest=*/0.0f, changes);
+  field_.record_compare_light(to, list, before, changes);
   field_.run_over(to, update_variability_, variability, list, kOverLanes);
   to.barrier();
   to.run(means_, means, kGroupLanes);

@@ -74,6 +74,8 @@ class FieldResources {
   int volumes() const { return volumes_; }
   int tile_texels() const { return settings_.irradiance_texels * settings_.irradiance_texels; }
   int lookups_per_surfel() const { return lookups_; }
+  /// Bytes of all that it holds but cell visibility.
+  std::size_t bytes() const;
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
 
   // The store's arrays and buffers.
@@ -204,10 +206,10 @@ class FieldResources {
   /// State::store_last_estimates.
   void record_last_estimates(vulkan::Recorder& to, const DeviceProbes& list,
                              Vec4Array solution) const;
-  /// Records relative_square() and mean_luminance() of tile_light.h, of the light that the list's
-  /// probes hold to what they held before.
+  /// Records light_change() of tile_light.h, from the light that the list's probes held before to
+  /// what they hold.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
-                            float darkest, Vec3Array changes) const;
+                            Vec3Array changes) const;
   /// Records lookup_irradiance(). For `tracer`, see record_lookups().
   void record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                      Vec3Array irradiance, const DeviceTracer* tracer = nullptr) const;

@@ -2,7 +2,6 @@
 // A field that an engine records: the parts of an update are recorded between the engine's own
 // commands.
 #include <algorithm>
-#include <cassert>
 
 #include "field/probes/volumes.h"
 #include "field/vulkan/recorded_state.h"
@@ -74,9 +73,11 @@ RecordedField::~RecordedField() = default;
 RecordedField::RecordedField(RecordedField&&) noexcept = default;
 RecordedField& RecordedField::operator=(RecordedField&&) noexcept = default;
 
-PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
+Expected<PlannedUpdate> RecordedField::plan(const UpdatePlan& update) {
   State& s = *state_;
-  assert(update.history >= 0.0f && update.history <= 1.0f);
+  if (!(update.history >= 0.0f && update.history <= 1.0f)) {
+    return fail("", "history", "must be 0 to 1");
+  }
   ScrolledVolumes scrolling = s.scroll(update.viewer_ws);
   s.batch = s.plan.next(update, scrolling.recycled);
   UpdateMemory& memory = s.memory();
@@ -84,12 +85,12 @@ PlannedUpdate RecordedField::plan(const UpdatePlan& update) {
   memory.write(s.batch, s.settings);
   if (s.settings.cascades > 0) memory.write(scrolling);
   s.grids = std::move(scrolling.grids);
-  return {static_cast<std::uint32_t>(s.batch.count),
-          static_cast<std::uint32_t>(s.settings.rays_per_probe),
-          s.ray_count(),
-          s.batch.places,
-          s.batch.on_device,
-          s.batch.retraces};
+  return PlannedUpdate{static_cast<std::uint32_t>(s.batch.count),
+                       static_cast<std::uint32_t>(s.settings.rays_per_probe),
+                       s.ray_count(),
+                       s.batch.places,
+                       s.batch.on_device,
+                       s.batch.retraces};
 }
 
 void RecordedField::State::record_part(EngineRays& source, VkCommandBuffer commands,
@@ -154,6 +155,9 @@ BufferRange RecordedField::states() const {
 }
 const std::vector<PassTime>& RecordedField::pass_times() const {
   return state_->times;
+}
+std::size_t RecordedField::bytes() const {
+  return state_->bytes();
 }
 LookupBuffers RecordedField::lookup_buffers() const {
   const FieldResources& field = state_->field;

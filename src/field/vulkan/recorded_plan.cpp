@@ -192,7 +192,7 @@ void BatchPlan::choose(ProbeBatch& batch) {
 
 /// Counts the samples of a batch's probes, and bounds their blend weights.
 void BatchPlan::count_samples(ProbeBatch& batch) {
-  float least = longest_ - 1.0f;
+  float least = longest_;
   for (const int probe : batch.probes) {
     Known& known = known_[probe];
     if (batch.discards_history) known.least_samples = 0.0f;
@@ -206,7 +206,7 @@ void BatchPlan::count_samples(ProbeBatch& batch) {
   }
   batch.drawn_in = {batch.update};
   batch.ray_sets.assign(batch.probes.size(), 0);
-  batch.largest_blend_weight = 1.0f / (least + 1.0f);
+  batch.largest_blend_weight = history_blend_weight(least, 1.0f, longest_);
 }
 
 ProbeBatch BatchPlan::next(const UpdatePlan& update, std::span<const int> recycled) {

@@ -249,6 +249,21 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
   }
 }
 
+std::size_t UpdateMemory::bytes() const {
+  return bytes_of(
+      {&list.indices, &list.ray_sets, &list.blocks, &directions, &sets, &grids, &recycled});
+}
+
+std::size_t RecordedField::State::bytes() const {
+  std::size_t bytes = field.bytes() + solver.bytes() +
+                      bytes_of({&standing, &states, &record, &rays, &hits, &results, &blend_weights,
+                                &irradiance_weights, &distance_weights});
+  if (schedule) bytes += schedule->bytes();
+  if (history) bytes += history->bytes();
+  for (const UpdateMemory& memory : ring) bytes += memory.bytes();
+  return bytes;
+}
+
 ScrolledVolumes RecordedField::State::scroll(const std::optional<vec3>& viewer_ws) const {
   if (settings.cascades == 0 || !viewer_ws || !is_finite(*viewer_ws)) return {grids, {}};
   return scroll_volumes(grids, roles, *viewer_ws, /*at_once=*/plan.updates() == 0);

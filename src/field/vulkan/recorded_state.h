@@ -65,6 +65,7 @@ struct UpdateMemory {
   /// Returns what times the next part of the update, or null where all parts have been recorded.
   Timestamps* next_timer() { return parts < timers.size() ? timers[parts++].get() : nullptr; }
 
+  std::size_t bytes() const;
   /// The directions of a ray set of the batch.
   Vec3Array directions_of(int set, int rays) const {
     return {directions.address() + static_cast<std::size_t>(set) * rays * sizeof(vec3)};
@@ -99,6 +100,7 @@ struct RecordedField::State {
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
+  std::size_t bytes() const;
   /// Records a part of an update into an engine's command buffer, between barriers.
   void record_part(EngineRays& source, VkCommandBuffer commands, void (*part)(FieldPasses&));
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "field/passes.h"
+#include "raytracing/world_access.h"
 #include "shared/color.h"
 #include "vulkan/device_memory.h"
 #include "vulkan/recorder.h"
@@ -39,21 +40,19 @@ std::vector<PassTime> pass_times(const vulkan::Timestamps& timestamps) {
 /// Brings the changes of light to where the host reads them, which schedules.
 class ChangesForHost final : public VariabilityVulkan {
  public:
-  ChangesForHost(const FieldResources& field, std::size_t probes, float darkest)
+  ChangesForHost(const FieldResources& field, std::size_t probes)
       : found(field.device(), probes * sizeof(LightChange), vulkan::Memory::readback,
               "changes of light"),
-        field_(field),
-        darkest_(darkest) {}
+        field_(field) {}
 
   void record(Recorder& to, const DeviceProbes& list, FloatArray, Vec4Array before) override {
-    field_.record_compare_light(to, list, before, darkest_, {found.address()});
+    field_.record_compare_light(to, list, before, {found.address()});
   }
 
   const Buffer found;
 
  private:
   const FieldResources& field_;
-  float darkest_;
 };
 
 /// Of passes that change no light.
@@ -68,7 +67,7 @@ class Unchanged final : public VariabilityVulkan {
 
 VulkanFieldBackend::VulkanFieldBackend(const World& world, ProbeData& data)
     : data_(data),
-      device_(world.on_device()->shared_device()),
+      device_(device_world_of(world)->shared_device()),
       field_(*device_, data.settings, data.store),
       solver_(field_),
       shading_(*device_) {
@@ -76,7 +75,7 @@ VulkanFieldBackend::VulkanFieldBackend(const World& world, ProbeData& data)
 }
 
 bool VulkanFieldBackend::is_on(const World& world) const {
-  return world.on_device() != nullptr && &world.on_device()->device() == device_.get();
+  return device_world_of(world) != nullptr && &device_world_of(world)->device() == device_.get();
 }
 
 void VulkanFieldBackend::fetch_light() {
@@ -147,9 +146,9 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
   const bool hybrid = data_.settings.visibility == Visibility::hybrid;
   const std::vector<int> cells =
       hybrid ? cells_around(data_.store, update.probes) : std::vector<int>();
-  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *update.world.on_device(), list, cells,
+  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(update.world), list, cells,
                        /*sees=*/true);
-  ChangesForHost changes(field_, update.probes.size(), update.darkest);
+  ChangesForHost changes(field_, update.probes.size());
   field_.reserve_seen(list);
   field_.reserve_transport(list);
   solver_.reserve(list);
@@ -183,7 +182,7 @@ InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<con
   const std::vector<int> traced = traced_among(probes);
   if (traced.empty()) return {};
   const DeviceProbes list = field_.list(traced), everyone = field_.list(traced_among(among));
-  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *world.on_device(), list, {},
+  WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(world), list, {},
                        /*sees=*/false);
   Unchanged unchanged;
   const Buffer no_weights;

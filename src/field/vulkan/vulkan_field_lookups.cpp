@@ -5,6 +5,7 @@
 
 #include "field/lookup/visibility_math.h"
 #include "field/vulkan/vulkan_field_backend.h"
+#include "raytracing/world_access.h"
 #include "vulkan/device_memory.h"
 #include "vulkan/recorder.h"
 
@@ -21,7 +22,7 @@ constexpr std::size_t kQueriesAtATime = 1 << 20;
 
 std::uint64_t VulkanFieldBackend::update_cell_visibility(const World& world,
                                                          std::span<const int> cells) {
-  const DeviceWorld& there = *world.on_device();
+  const DeviceWorld& there = *device_world_of(world);
   const Buffer lowest = host_buffer(*device_, cells, "cells to look at");
   device_->run([&](Recorder& to) {
     to.bind_textures(there.scene().textures());
@@ -39,8 +40,8 @@ std::uint64_t VulkanFieldBackend::find_lookups(const World& world, std::span<con
   const DeviceProbes list = field_.list(traced);
   const Buffer rays(*device_, sizeof(uint), vulkan::Memory::readback, "rays of lookups");
   device_->run([&](Recorder& to) {
-    to.bind_textures(world.on_device()->scene().textures());
-    field_.record_lookups(to, list, &world.on_device()->tracer());
+    to.bind_textures(device_world_of(world)->scene().textures());
+    field_.record_lookups(to, list, &device_world_of(world)->tracer());
     field_.take_ray_count(to, rays);
   });
   return rays.as<uint>().front();
@@ -65,8 +66,8 @@ void VulkanFieldBackend::record_lookups(Recorder& recorder, const World* world,
                                         std::uint64_t irradiance) const {
   const DeviceTracer* tracer = nullptr;
   if (world != nullptr && is_on(*world)) {
-    recorder.bind_textures(world->on_device()->scene().textures());
-    tracer = &world->on_device()->tracer();
+    recorder.bind_textures(device_world_of(*world)->scene().textures());
+    tracer = &device_world_of(*world)->tracer();
   }
   field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer);
 }

@@ -5,8 +5,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "raytracing/raytracer.h"
-#include "raytracing/surface.h"
-#include "scene/coverage.h"
+#include "scene/attributes.h"
 
 namespace lambent::embree {
 namespace {
@@ -21,13 +20,10 @@ void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
     bool baked = false;
     const std::uint32_t instance =
         slots.instance_of[Slots::slot_of(hit.geomID, hit.instID[0], baked)];
-    const Material& material =
-        scene.materials[scene.meshes[scene.instances[instance].mesh].material];
-    const float coverage = coverage_at(scene, instance, hit.primID, {hit.u, hit.v});
-    const bool counts =
-        stops_ray(static_cast<uint>(material.alpha_mode), material.alpha_cutoff, coverage,
-                  {hit.u, hit.v}, RTCRayN_tfar(args->ray, args->N, lane), hit.primID);
-    if (!counts) args->valid[lane] = 0;
+    const float distance = RTCRayN_tfar(args->ray, args->N, lane);
+    if (!stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance)) {
+      args->valid[lane] = 0;
+    }
   }
 }
 

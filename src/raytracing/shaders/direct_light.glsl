@@ -49,12 +49,12 @@ EmissiveSample sample_emissive(SceneArray scene, vec3 u) {
   TrianglePoint p = triangle_point(mesh, entry.triangle, sample_uniform_triangle(vec2(u.y, u.z)));
 
   EmissiveSample drawn;
-  drawn.position_ws = transform_point(instance.world_from_object, interpolate3(mesh.positions, p));
+  drawn.position_ws = transform_point(instance.world_from_object, position_at(mesh, p));
   drawn.normal_ws = world_edge_product(instance, mesh, p.vertices) / (2.0f * entry.area);
-  drawn.radiance = emission_at(mesh, material, p, 0.0f);
+  drawn.radiance = emission_at(scene, mesh, material, p, 0.0f);
   if (material.alpha_mode != kAlphaOpaque) {
     drawn.radiance *= stopping_probability(material.alpha_mode, material.alpha_cutoff,
-                                           coverage_at(mesh, material, p));
+                                           coverage_at(scene, mesh, material, p));
   }
   drawn.pdf_area = entry.probability / entry.area;
   return drawn;
@@ -71,7 +71,7 @@ EmitterPoint emitter_of_hit(SceneArray scene, RayRecord ray, HitRecord hit) {
   MaterialRecord material = scene.at[0].materials.at[mesh.material];
   TrianglePoint p = triangle_point(mesh, hit.triangle, hit.barycentrics);
   vec3 normal = normalize(world_edge_product(instance, mesh, p.vertices));
-  return emitter_met(ray.direction_ws, hit.distance, emission_at(mesh, material, p, 0.0f), normal,
+  return emitter_met(ray.direction_ws, hit.distance, emission_at(scene, mesh, material, p, 0.0f), normal,
                      pdf_area);
 }
 

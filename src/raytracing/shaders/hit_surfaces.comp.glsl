@@ -20,7 +20,7 @@ void main() {
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
   ShadedHitRecord shaded = ShadedHitRecord(vec3(0.0f), vec3(0.0f), 0u, kSurfaceMissed);
   if (missed(hit)) {
-    shaded.radiance = sky_radiance(args.scene, ray.direction_ws);
+    shaded.radiance = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
     shaded.flags |= kSurfaceReceivesGi;
     args.points.at[i] = point;
     args.shaded.at[i] = shaded;
@@ -28,7 +28,7 @@ void main() {
   }
 
   // Record the surface
-  Surface surface = surface_at(args.scene, ray, hit, args.cone_width * hit.distance);
+  Surface surface = surface_at(args.scene, ray.direction_ws, hit, args.cone_width * hit.distance);
   point.position_ws = surface.position_ws;
   point.normal_ws = surface.normal_ws;
   point.geometric_normal_ws = surface.geometric_normal_ws;

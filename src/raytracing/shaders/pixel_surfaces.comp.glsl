@@ -21,9 +21,9 @@ void main() {
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
                                                 -ray.direction_ws, kSurfaceMissed);
   if (missed(hit)) {
-    pixel.emission = sky_radiance(args.scene, ray.direction_ws);
+    pixel.emission = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
   } else {
-    Surface surface = surface_at(args.scene, ray, hit, 0.0f);
+    Surface surface = surface_at(args.scene, ray.direction_ws, hit, 0.0f);
     point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
                            args.first_index + i);
     pixel.reflectance = surface.reflectance;

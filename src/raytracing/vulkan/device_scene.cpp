@@ -219,13 +219,13 @@ void DeviceScene::update_record(const Environment& environment) {
   record.emitters.address = emitters_.address();
   record.emitter_cumulative.address = emitter_cumulative_.address();
   record.emitter_pdfs.address = emitter_pdfs_.address();
-  record.sky_map.address = sky_map_.address();
+  record.environment.map.texels.address = sky_map_.address();
   record.light_count = static_cast<uint>(light_count_);
   record.emitter_count = static_cast<uint>(emitter_count_);
-  record.sky_radiance = environment.radiance;
-  record.sky_rotation = environment.rotation;
-  record.sky_width = sky_data_.width;
-  record.sky_height = sky_data_.height;
+  record.environment.radiance = environment.radiance;
+  record.environment.rotation = environment.rotation;
+  record.environment.map.width = sky_data_.width;
+  record.environment.map.height = sky_data_.height;
   record_.set(device_, {record}, "scene");
 }
 

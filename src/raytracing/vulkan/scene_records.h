@@ -110,6 +110,20 @@ LAMBENT_DEVICE_ARRAY(InstanceArray, InstanceRecord, 4)
 LAMBENT_DEVICE_ARRAY(LightArray, LightRecord, 4)
 LAMBENT_DEVICE_ARRAY(EmitterArray, EmitterRecord, 4)
 
+/// A latitude-longitude map of radiance.
+struct EnvironmentMapRecord {
+  Vec3Array texels;  ///< Rows from the top.
+  int width;         ///< [texels]; 0: there is none.
+  int height;        ///< [texels]
+};
+
+/// As struct Environment of scene.h.
+struct EnvironmentRecord {
+  EnvironmentMapRecord map;
+  vec3 radiance;   ///< [W/(m^2 sr)]; multiplies the map where there is one.
+  float rotation;  ///< Of the map about +Y [rad].
+};
+
 /// All of a scene.
 struct SceneRecord {
   InstanceArray instances;
@@ -121,13 +135,9 @@ struct SceneRecord {
   /// Density with which points of a triangle are drawn [1/m^2], for all triangles of instances that
   /// emit.
   FloatArray emitter_pdfs;
-  Vec3Array sky_map;  ///< Latitude-longitude radiance, rows from the top.
   uint light_count;
   uint emitter_count;
-  vec3 sky_radiance;   ///< [W/(m^2 sr)]; multiplies the map where there is one.
-  float sky_rotation;  ///< Of the map about +Y [rad].
-  int sky_width;       ///< Of the map [texels]; 0: there is none.
-  int sky_height;      ///< [texels]
+  EnvironmentRecord environment;
 };
 LAMBENT_DEVICE_ARRAY(SceneArray, SceneRecord, 8)
 

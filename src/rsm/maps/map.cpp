@@ -3,7 +3,6 @@
 // traced, not rasterised, so that any projection may be chosen: point lights have one octahedral
 // map in place of six faces, without seams and with texels of more even solid angle.
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -12,11 +11,13 @@
 #include "lambent/world.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
+#include "raytracing/world_access.h"
 #include "rsm/maps/map.h"
 #include "rsm/maps/map_texel.h"
 #include "rsm/maps/projection.h"
 #include "rsm/to_records.h"
 #include "scene/light_sampling.h"
+#include "scene/validate.h"
 #include "shared/color.h"
 
 namespace lambent {
@@ -97,13 +98,19 @@ void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, S
     for (std::size_t x = 0; x < resolution; ++x) {
       rays[x] = make_ray(texel_middle(static_cast<int>(x), static_cast<int>(y), map.resolution));
     }
-    world.tracer().closest_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     // What casts no indirect light keeps it off what is behind, too
     for (Hit& hit : hits) {
       if (!hit.missed() && !world.scene().instances[hit.instance].casts_gi) hit = {};
     }
     shade(y * resolution, rays, hits);
   });
+}
+
+Expected<void> check_view(const Camera& camera, float aspect) {
+  if (const char* flaw = flaw_of(camera)) return fail("", "camera", flaw);
+  if (aspect > 0.0f && std::isfinite(aspect)) return {};
+  return fail("", "aspect", "must be above 0");
 }
 
 }  // namespace
@@ -139,10 +146,8 @@ ShadeHitsSettings camera_shading(const RsmSettings& settings) {
   return shading;
 }
 
-ReflectiveShadowMap render_rsm(const World& world, const Light& light,
-                               const RsmSettings& settings) {
-  assert(check(settings));
-  ReflectiveShadowMap map;
+void render_rsm(const World& world, const Light& light, const RsmSettings& settings,
+                ReflectiveShadowMap& map) {
   map.resolution = settings.resolution;
   map.projection = fit_projection(world.scene(), light);
   const MapProjection projection = to_record(map.projection);
@@ -160,13 +165,10 @@ ReflectiveShadowMap render_rsm(const World& world, const Light& light,
           }
         }
       });
-  return map;
 }
 
-ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float aspect,
-                               const RsmSettings& settings) {
-  assert(check(settings) && aspect > 0.0f);
-  ReflectiveShadowMap map;
+void render_rsm(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,
+                ReflectiveShadowMap& map) {
   map.resolution = settings.resolution;
   map.projection = camera_projection(camera, aspect);
   const MapProjection projection = to_record(map.projection);
@@ -188,19 +190,42 @@ ReflectiveShadowMap render_rsm(const World& world, const Camera& camera, float a
                          perpendicular_area(projection, square, map.resolution, hits[i].distance)));
         }
       });
+}
+
+void render_rsms(const World& world, const Camera& camera, float aspect,
+                 const RsmSettings& settings, std::vector<ReflectiveShadowMap>& maps) {
+  const std::vector<Light>& lights = world.scene().lights;
+  maps.resize(settings.from_camera ? 1 : lights.size());
+  if (settings.from_camera) return render_rsm(world, camera, aspect, settings, maps.front());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    render_rsm(world, lights[i], settings, maps[i]);
+  }
+}
+
+Expected<ReflectiveShadowMap> render_rsm(const World& world, const Light& light,
+                                         const RsmSettings& settings) {
+  if (const auto fine = check(settings); !fine) return tl::unexpected(fine.error());
+  if (const char* flaw = flaw_of(light)) return fail("", "light", flaw);
+  ReflectiveShadowMap map;
+  render_rsm(world, light, settings, map);
   return map;
 }
 
-std::vector<ReflectiveShadowMap> render_rsms(const World& world, const Camera& camera, float aspect,
-                                             const RsmSettings& settings) {
+Expected<ReflectiveShadowMap> render_rsm(const World& world, const Camera& camera, float aspect,
+                                         const RsmSettings& settings) {
+  if (const auto fine = check(settings); !fine) return tl::unexpected(fine.error());
+  if (const auto fine = check_view(camera, aspect); !fine) return tl::unexpected(fine.error());
+  ReflectiveShadowMap map;
+  render_rsm(world, camera, aspect, settings, map);
+  return map;
+}
+
+Expected<std::vector<ReflectiveShadowMap>> render_rsms(const World& world, const Camera& camera,
+                                                       float aspect, const RsmSettings& settings) {
+  if (const auto fine = check(settings); !fine) return tl::unexpected(fine.error());
+  if (const auto fine = check_view(camera, aspect); !fine) return tl::unexpected(fine.error());
   std::vector<ReflectiveShadowMap> maps;
-  if (settings.from_camera) {
-    maps.push_back(render_rsm(world, camera, aspect, settings));
-    return maps;
-  }
-  for (const Light& light : world.scene().lights) {
-    maps.push_back(render_rsm(world, light, settings));
-  }
+  render_rsms(world, camera, aspect, settings, maps);
   return maps;
 }
 

@@ -2,6 +2,8 @@
 // How maps are laid over the scene, and shaded, whatever traces them.
 #pragma once
 
+#include <vector>
+
 #include "lambent/rsm.h"
 #include "raytracing/shade_hits.h"
 
@@ -15,5 +17,13 @@ RsmProjection camera_projection(const Camera& camera, float aspect);
 
 /// How what the camera sees is lit for its map.
 ShadeHitsSettings camera_shading(const RsmSettings& settings);
+
+/// The public functions of these names, for what they accept; `map` and `maps` keep their memory.
+void render_rsm(const World& world, const Light& light, const RsmSettings& settings,
+                ReflectiveShadowMap& map);
+void render_rsm(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,
+                ReflectiveShadowMap& map);
+void render_rsms(const World& world, const Camera& camera, float aspect,
+                 const RsmSettings& settings, std::vector<ReflectiveShadowMap>& maps);
 
 }  // namespace lambent

@@ -43,10 +43,20 @@ void start(int width, int height, RsmIrradiance& result) {
 
 }  // namespace
 
+RsmGatherKernels::RsmGatherKernels(const vulkan::Device& device)
+    : restructure(device, shaders::rsm_restructure_comp(), "rsm.restructure"),
+      upsample(device, shaders::rsm_upsample_comp(), "rsm.upsample"),
+      device_(device) {}
+
+const RsmKernels& RsmGatherKernels::of(int sub_images) {
+  const std::lock_guard lock(compiling_);
+  const auto found = compiled_.find(sub_images);
+  if (found != compiled_.end()) return found->second;
+  return compiled_.emplace(sub_images, RsmKernels(device_, sub_images)).first->second;
+}
+
 RsmGathererVulkan::RsmGathererVulkan(const vulkan::Device& device)
-    : device_(device),
-      restructure_(device_, shaders::rsm_restructure_comp(), "rsm.restructure"),
-      upsample_(device_, shaders::rsm_upsample_comp(), "rsm.upsample") {
+    : device_(device), kernels_(device.kept<RsmGatherKernels>()) {
   // Passes are given addresses of what they do not read, too
   texels_.places.reserve(device_, 0, "rsm.places");
   picture_.arrived.reserve(device_, 0, "rsm.arrived");
@@ -55,12 +65,6 @@ RsmGathererVulkan::RsmGathererVulkan(const vulkan::Device& device)
   picture_.light.reserve(device_, 0, "rsm.light");
   picture_.blurred.reserve(device_, 0, "rsm.blurred");
   picture_.ray_count.reserve(device_, sizeof(std::uint32_t), "rsm.ray_count");
-}
-
-const RsmKernels& RsmGathererVulkan::kernels(int sub_images) {
-  const auto found = kernels_.find(sub_images);
-  if (found != kernels_.end()) return found->second;
-  return kernels_.emplace(sub_images, RsmKernels(device_, sub_images)).first->second;
 }
 
 void RsmGathererVulkan::set_lights(const RsmLights& lights, const RsmSettings& settings) {
@@ -111,7 +115,7 @@ void RsmGathererVulkan::set_disks(std::span<const DiskSource> sources,
       const RestructureArguments arguments = {map.rendered, next, map.resolution,
                                               settings.sub_maps};
       const auto edge = static_cast<std::uint32_t>(map.resolution);
-      to.run(restructure_, arguments, edge, edge);
+      to.run(kernels_.restructure, arguments, edge, edge);
       next.address += static_cast<std::size_t>(edge) * edge * sizeof(RsmTexel);
     }
   });
@@ -172,8 +176,8 @@ void RsmGathererVulkan::record(vulkan::Recorder& recorder, const RsmViewOnDevice
                                bool keep_stages) {
   assert(check(settings) && view.width > 0 && view.height > 0);
   reserve_picture(view.width, view.height, settings, keep_stages);
-  RsmPassesOnDevice passes(recorder, kernels(mosaic_sub_images(settings)), texels_, picture_, view,
-                           settings, tracer);
+  RsmPassesOnDevice passes(recorder, kernels_.of(mosaic_sub_images(settings)), texels_, picture_,
+                           view, settings, tracer);
   run_rsm_passes(settings, keep_stages, passes);
 }
 
@@ -192,7 +196,7 @@ void RsmGathererVulkan::record_upsampling(vulkan::Recorder& recorder, const RsmV
                                        1.0f / static_cast<float>(settings.downscale),
                                        settings.plane_tolerance};
   recorder.begin_pass("rsm.upsample");
-  recorder.run(upsample_, arguments, static_cast<std::uint32_t>(frame.width),
+  recorder.run(kernels_.upsample, arguments, static_cast<std::uint32_t>(frame.width),
                static_cast<std::uint32_t>(frame.height));
   recorder.end_pass();
   recorder.barrier();

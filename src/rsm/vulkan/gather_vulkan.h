@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <span>
 
 #include "lambent/rsm.h"
@@ -60,7 +59,6 @@ class RsmGathererVulkan {
               bool keep_stages = false);
 
  private:
-  const RsmKernels& kernels(int sub_images);
   struct DiskSource;
   void set_disks(std::span<const DiskSource> sources, const RsmSettings& settings);
   void run(const RsmViewOnDevice& view, const RsmSettings& settings, const DeviceTracer* tracer,
@@ -68,8 +66,7 @@ class RsmGathererVulkan {
   void reserve_picture(int width, int height, const RsmSettings& settings, bool keep_stages);
 
   const vulkan::Device& device_;
-  std::map<int, RsmKernels> kernels_;
-  vulkan::Kernel restructure_, upsample_;
+  RsmGatherKernels& kernels_;
   RsmTexelsOnDevice texels_;
   vulkan::Buffer uploaded_maps_;
   RsmPictureOnDevice picture_;

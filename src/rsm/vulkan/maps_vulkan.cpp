@@ -6,6 +6,7 @@
 #include <span>
 
 #include "lambent/world.h"
+#include "raytracing/world_access.h"
 #include "rsm/maps/map.h"
 #include "rsm/to_records.h"
 #include "shaders/rsm_camera_texels_comp.h"
@@ -29,21 +30,22 @@ std::vector<ReflectiveShadowMap> download_maps(const vulkan::Device& device,
   return result;
 }
 
+RsmMapKernels::RsmMapKernels(const vulkan::Device& device)
+    : map_rays(device, shaders::rsm_map_rays_comp(), "rsm.map_rays"),
+      map_texels(device, shaders::rsm_map_texels_comp(), "rsm.map_texels"),
+      camera_texels(device, shaders::rsm_camera_texels_comp(), "rsm.camera_texels"),
+      view_points(device, shaders::rsm_view_points_comp(), "rsm.view_points"),
+      clusters(device, shaders::rsm_clusters_comp(), "rsm.clusters"),
+      weigh(device, shaders::rsm_weigh_comp(), "rsm.weigh") {}
+
 RsmMapperVulkan::RsmMapperVulkan(const vulkan::Device& device)
-    : device_(device),
-      map_rays_(device, shaders::rsm_map_rays_comp(), "rsm.map_rays"),
-      map_texels_(device, shaders::rsm_map_texels_comp(), "rsm.map_texels"),
-      camera_texels_(device, shaders::rsm_camera_texels_comp(), "rsm.camera_texels"),
-      view_points_(device, shaders::rsm_view_points_comp(), "rsm.view_points"),
-      clusters_(device, shaders::rsm_clusters_comp(), "rsm.clusters"),
-      weigh_(device, shaders::rsm_weigh_comp(), "rsm.weigh"),
-      shading_(device) {}
+    : device_(device), kernels_(device.kept<RsmMapKernels>()), shading_(device) {}
 
 void RsmMapperVulkan::trace(vulkan::Recorder& to, const DeviceWorld& world,
                             const MapProjection& projection, int resolution) {
   const auto edge = static_cast<std::uint32_t>(resolution);
   const MapRaysArguments arguments = {{rays_.address()}, projection, resolution, kRayMeetsAll};
-  to.run(map_rays_, arguments, edge, edge);
+  to.run(kernels_.map_rays, arguments, edge, edge);
   to.barrier();
   world.tracer().closest_hits(to, {{rays_.address()}, edge * edge}, {hits_.address()});
   to.barrier();
@@ -62,7 +64,7 @@ void RsmMapperVulkan::make_texels(vulkan::Recorder& to, const DeviceWorld& world
                                         static_cast<uint>(light),
                                         0};
   const auto edge = static_cast<std::uint32_t>(maps.resolution);
-  to.run(map_texels_, arguments, edge, edge);
+  to.run(kernels_.map_texels, arguments, edge, edge);
   to.barrier();
 }
 
@@ -80,14 +82,14 @@ void RsmMapperVulkan::make_camera_texels(vulkan::Recorder& to, const DeviceWorld
   const CameraTexelsArguments arguments = {
       world.scene().address(), {rays_.address()}, {hits_.address()}, shaded.points,   shaded.shaded,
       shaded.irradiance,       maps.of(0),        projection,        maps.resolution, 0};
-  to.run(camera_texels_, arguments, edge, edge);
+  to.run(kernels_.camera_texels, arguments, edge, edge);
   to.barrier();
 }
 
 void RsmMapperVulkan::render(const World& world, const Camera& camera, float aspect,
                              const RsmSettings& settings, RsmMapsOnDevice& maps) {
-  assert(check(settings) && world.on_device() != nullptr);
-  const DeviceWorld& on_device = *world.on_device();
+  assert(check(settings) && device_world_of(world) != nullptr);
+  const DeviceWorld& on_device = *device_world_of(world);
   const Scene& scene = world.scene();
   maps.resolution = settings.resolution;
   maps.projections.clear();
@@ -126,7 +128,7 @@ ViewPoints RsmMapperVulkan::find_view_points(const RsmViewOnDevice& view,
                                          view.height,
                                          settings.seed,
                                          0};
-  device_.run([&](vulkan::Recorder& to) { to.run(view_points_, arguments, 1); });
+  device_.run([&](vulkan::Recorder& to) { to.run(kernels_.view_points, arguments, 1); });
   std::vector<vec3> vectors(2 * kViewPoints);
   int count = 0;
   vulkan::read(device_, view_point_memory_, std::span(vectors));
@@ -145,13 +147,13 @@ std::vector<ClusterRecord> RsmMapperVulkan::cluster_blocks(const RsmMapsOnDevice
   device_.run([&](vulkan::Recorder& to) {
     const ClusterArguments arguments = {
         maps.of(map), {cluster_memory_.address()}, maps.resolution, blocks};
-    to.run(clusters_, arguments, static_cast<std::uint32_t>(blocks),
+    to.run(kernels_.clusters, arguments, static_cast<std::uint32_t>(blocks),
            static_cast<std::uint32_t>(blocks));
     to.barrier();
     if (!weigh) return;
     const WeighArguments weighing = {
         {view_point_memory_.address()}, {cluster_memory_.address()}, count, 0};
-    to.run(weigh_, weighing, static_cast<std::uint32_t>(count));
+    to.run(kernels_.weigh, weighing, static_cast<std::uint32_t>(count));
     to.barrier();
   });
   std::vector<ClusterRecord> records(count);

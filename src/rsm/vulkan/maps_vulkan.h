@@ -34,6 +34,12 @@ struct RsmMapsOnDevice {
 std::vector<ReflectiveShadowMap> download_maps(const vulkan::Device& device,
                                                const RsmMapsOnDevice& maps);
 
+/// Kept by the device (Device::kept).
+struct RsmMapKernels {
+  explicit RsmMapKernels(const vulkan::Device& device);
+  vulkan::Kernel map_rays, map_texels, camera_texels, view_points, clusters, weigh;
+};
+
 /// Makes maps and chooses what is gathered of them. Keeps memory for one map's rays (76 bytes a
 /// texel; for a camera's 168) and clusters (12 bytes a texel).
 class RsmMapperVulkan {
@@ -62,7 +68,7 @@ class RsmMapperVulkan {
                                             bool weigh);
 
   const vulkan::Device& device_;
-  vulkan::Kernel map_rays_, map_texels_, camera_texels_, view_points_, clusters_, weigh_;
+  const RsmMapKernels& kernels_;
   HitShading shading_;
   vulkan::Buffer rays_, hits_, points_, shaded_, irradiance_, first_index_;
   vulkan::Buffer view_point_memory_, view_point_count_, cluster_memory_;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <span>
 
 #include "lambent/rsm.h"
@@ -38,6 +40,22 @@ struct UploadedRsmView {
 struct RsmKernels {
   RsmKernels(const vulkan::Device& device, int sub_images);
   vulkan::Kernel gather, gather_mixed, gather_disk, visibility_rays, arrivals, blur, blur_relit;
+};
+
+/// Those that gathers need, kept by the device (Device::kept).
+class RsmGatherKernels {
+ public:
+  explicit RsmGatherKernels(const vulkan::Device& device);
+
+  /// Compiled at the first call for a number of sub-images.
+  const RsmKernels& of(int sub_images);
+
+  vulkan::Kernel restructure, upsample;
+
+ private:
+  const vulkan::Device& device_;
+  std::mutex compiling_;
+  std::map<int, RsmKernels> compiled_;
 };
 
 /// Texels that are gathered. RsmPattern::whole: those of sub-maps one after the other, `count` of

@@ -13,44 +13,38 @@ layout(push_constant, scalar) uniform Push {
   KeepUnchangedArguments args;
 };
 
+int own, in_field;  // the first texel of the probe's tile in the list and in the field
+
+vec3 fetch_before(int texel) { return args.light_before.at[own + texel].xyz; }
+vec3 fetch_now(int texel) { return args.light.at[in_field + texel].xyz; }
+#include "field/probes/tile_light.inl.h"
+
 void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= args.count) return;
   const int texels = kIrradianceTexels * kIrradianceTexels;
   int probe = args.list.at[k];
-  int first = probe * texels;
-  float squares = 0.0;
-  float before = 0.0;
-  float now = 0.0;
-  for (int t = 0; t < texels; ++t) {
-    vec3 held = args.light_before.at[k * texels + t].xyz;
-    vec3 holds = args.light.at[first + t].xyz;
-    float difference = luminance(holds - held);
-    squares += difference * difference;
-    before += luminance(held);
-    now += luminance(holds);
-  }
-  before /= float(texels);
-  now /= float(texels);
+  own = k * texels;
+  in_field = probe * texels;
+  LightChange change = light_change(texels);
 
   // The last estimate stays as well, so that several changes too small to be seen add up
-  bool changed =
-      mean_relative_square(squares, texels, before) >= kChangedFraction * kChangedFraction;
+  bool changed = mean_relative_square(change.squares, texels, change.before) >=
+                 kChangedFraction * kChangedFraction;
   args.changed.at[k] = changed ? 1u : 0u;
   args.probes.standing.at[probe].coarse = 0u;
   LikenessSums sums = LikenessSums(0.0, 0.0);
   for (int t = 0; t < texels; ++t) {
-    int own = k * texels + t;
-    vec4 held = args.light_before.at[own];
     if (!changed) {
-      args.light.at[first + t] = held;
+      args.light.at[in_field + t] = args.light_before.at[own + t];
       continue;
     }
-    sums = add_likeness(sums, args.light.at[first + t].xyz, now, held.xyz, before);
-    args.last_estimate.at[first + t] = args.solution.at[own] / args.history_ratio.at[own];
+    sums = add_likeness(sums, fetch_now(t), change.now, fetch_before(t), change.before);
+    args.last_estimate.at[in_field + t] =
+        args.solution.at[own + t] / args.history_ratio.at[own + t];
   }
   if (!changed) return;
-  float kept = likeness_of(sums, now, before);
+  float kept = likeness_of(sums, change.now, change.before);
   float samples = args.probes.standing.at[probe].samples;
   args.probes.standing.at[probe].samples = samples_after_edit(samples, kept);
 }

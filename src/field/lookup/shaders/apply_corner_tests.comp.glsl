@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push {
 };
 
 #include "field/lookup/shaders/lookup_points.glsl"
-#include "field/lookup/shaders/seen_corners.glsl"
+#include "field/lookup/shaders/visibility_rays.glsl"
 
 void main() {
   LookupPoint point = lookup_point();
@@ -26,8 +26,9 @@ void main() {
     }
     CornerWeights corners = args.lookups.at[point.lookup + l].corners;
     float total = sum_of_weights(corners);
-    if (args.points.exact != 0u) corners = seen_corners(corners, query_of(point));
+    if (args.points.exact != 0u) corners = visible_corners(corners, query_of(point));
+    hide_corners(corners, hidden);
     // Where no probe is visible, the weights by distances stay
-    if (hide_corners(corners, hidden, total)) args.lookups.at[point.lookup + l].corners = corners;
+    if (scale_weights(corners, total) != 0) args.lookups.at[point.lookup + l].corners = corners;
   }
 }

@@ -13,17 +13,12 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   int cell = int(gl_GlobalInvocationID.x);
   if (cell >= args.count) return;
-  uint cell_visibility[2] = uint[2](0xFFFFFFFFu, 0xFFFFFFFFu);
-  int ray = cell * kCellPairs;
-  for (int i = 0; i < kCellCorners; ++i) {
-    for (int k = i + 1; k < kCellCorners; ++k) {
-      if (args.occluded.at[ray++] == 0u) continue;
-      int bit = visibility_bit(i, k), opposite = visibility_bit(k, i);
-      cell_visibility[bit >> 5] &= ~(1u << (bit & 31));
-      cell_visibility[opposite >> 5] &= ~(1u << (opposite & 31));
-    }
+  uvec2 cell_visibility = all_visible();
+  for (int pair = 0; pair < kCellPairs; ++pair) {
+    if (args.occluded.at[cell * kCellPairs + pair] == 0u) continue;
+    cell_visibility = without_pair(cell_visibility, cell_pair(pair));
   }
   int lowest = args.cells.at[cell];
-  args.cell_visibility.at[2 * lowest] = cell_visibility[0];
-  args.cell_visibility.at[2 * lowest + 1] = cell_visibility[1];
+  args.cell_visibility.at[2 * lowest] = cell_visibility.x;
+  args.cell_visibility.at[2 * lowest + 1] = cell_visibility.y;
 }

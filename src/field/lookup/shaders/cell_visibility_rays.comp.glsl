@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
 #include "field/probes/shaders/store.glsl"
 #include "field/probes/shaders/volume_of.glsl"
 #include "field/lookup/visibility_math.h"
-#include "field/lookup/lookup.inl.h"
+#include "field/lookup/visibility.inl.h"
 
 void main() {
   int cell = int(gl_GlobalInvocationID.x);
@@ -23,10 +23,8 @@ void main() {
   vec3 places[kCellCorners];
   for (int k = 0; k < kCellCorners; ++k) places[k] = placed_probe(grid, coords + cell_corner(k));
 
-  int ray = cell * kCellPairs;
-  for (int i = 0; i < kCellCorners; ++i) {
-    for (int k = i + 1; k < kCellCorners; ++k) {
-      args.rays.at[ray++] = visibility_ray(places[i], places[k]);
-    }
+  for (int pair = 0; pair < kCellPairs; ++pair) {
+    ivec2 ends = cell_pair(pair);
+    args.rays.at[cell * kCellPairs + pair] = visibility_ray(places[ends.x], places[ends.y]);
   }
 }

@@ -12,25 +12,25 @@ layout(push_constant, scalar) uniform Push {
 
 #include "field/lookup/shaders/lookup_points.glsl"
 #include "field/lookup/shaders/allocate_rays.glsl"
-#include "field/lookup/shaders/seen_corners.glsl"
+#include "field/lookup/shaders/visibility_rays.glsl"
 
 /// The corners of a lookup to test with rays, as bits. Sets the weights of hidden corners to 0.
 uint corners_to_test(LookupPoint point, int lookup) {
   if (args.lookups.at[lookup].tile_corner == kNoLookup) return 0u;
   if (args.points.exact != 0u) {
-    return weighed_corners(seen_corners(args.lookups.at[lookup].corners, query_of(point)));
+    return weighed_corners(visible_corners(args.lookups.at[lookup].corners, query_of(point)));
   }
   int base = args.lookups.at[lookup].corners.base;
-  uint cell_visibility[2] =
-      uint[2](args.cell_visibility.at[2 * base], args.cell_visibility.at[2 * base + 1]);
-  if ((cell_visibility[0] & cell_visibility[1]) == 0xFFFFFFFFu) return 0u;
+  uvec2 cell_visibility =
+      uvec2(args.cell_visibility.at[2 * base], args.cell_visibility.at[2 * base + 1]);
+  if (cell_visibility == all_visible()) return 0u;
 
   CornerWeights corners = args.lookups.at[lookup].corners;
-  int from = visibility_bit(heaviest_corner(corners), 0);
   float total = sum_of_weights(corners);
-  VisibilityMask mask = visibility_mask(corners, cell_visibility[from >> 5] >> (from & 31), total);
+  VisibilityMask mask = visibility_mask(corners, cell_visibility, total);
   if (mask.hidden != 0u) {
-    hide_corners(corners, mask.hidden, total);
+    hide_corners(corners, mask.hidden);
+    scale_weights(corners, total);
     args.lookups.at[lookup].corners = corners;
   }
   return mask.tested;
@@ -51,9 +51,10 @@ void main() {
   for (int l = 0; l < kLookups; ++l) {
     uint corners = bitfieldExtract(tested, kCellCorners * l, kCellCorners);
     if (corners == 0u) continue;
-    CornerWeights weights = args.lookups.at[point.lookup + l].corners;
+    LookupGrid volume = grid_of(args.lookups.at[point.lookup + l].corners);
+    LookupCell cell = cell_of(volume, query);
     for (; corners != 0u; corners &= corners - 1u) {
-      args.rays.at[ray++] = corner_ray(weights, findLSB(corners), query);
+      args.rays.at[ray++] = corner_ray(volume.grid, cell, findLSB(corners));
     }
   }
 }

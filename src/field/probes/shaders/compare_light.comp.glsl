@@ -12,25 +12,18 @@ layout(push_constant, scalar) uniform Push {
   CompareLightArguments args;
 };
 
+int own, in_field;  // the first texel of the probe's tile in the list and in the field
+
+vec3 fetch_before(int texel) { return args.before.at[own + texel].xyz; }
+vec3 fetch_now(int texel) { return args.light.at[in_field + texel].xyz; }
+#include "field/probes/tile_light.inl.h"
+
 void main() {
   int k = int(gl_GlobalInvocationID.x);
   if (k >= args.count) return;
   const int texels = kIrradianceTexels * kIrradianceTexels;
-  int first = args.probes.at[k] * texels;
-  float squares = 0.0;
-  float before = 0.0;
-  float now = 0.0;
-  for (int t = 0; t < texels; ++t) {
-    vec3 held = args.before.at[k * texels + t].xyz;
-    vec3 holds = args.light.at[first + t].xyz;
-    float difference = luminance(holds - held);
-    squares += difference * difference;
-    before += luminance(held);
-    now += luminance(holds);
-  }
-  before /= float(texels);
-  now /= float(texels);
-  float mean = max(before, args.darkest);
-  float square = mean_relative_square(squares, texels, mean);
-  args.changes.at[k] = vec3(square, before, now);
+  own = k * texels;
+  in_field = args.probes.at[k] * texels;
+  LightChange change = light_change(texels);
+  args.changes.at[k] = vec3(change.squares, change.before, change.now);
 }

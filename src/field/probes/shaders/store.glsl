@@ -24,14 +24,12 @@ vec2 moments_at(int texel) {
               uintBitsToFloat(args.store.distance.at[2 * texel + 1]));
 }
 
-vec2 fetch_moments(ProbeGrid grid, int probe, vec3 direction) {
-  TileFetch fetch = tile_fetch(direction, kDistanceTexels);
+vec2 fetch_moments(int probe, vec3 direction) {
+  TileFetch fetch = moments_fetch(direction, kDistanceTexels);
   int width = kDistanceTexels + 2;
   int first = probe * (width * width) + fetch.corner.y * width + fetch.corner.x;
-  vec2 top = mix(moments_at(first), moments_at(first + 1), fetch.fraction.x);
-  vec2 bottom = mix(moments_at(first + width), moments_at(first + width + 1), fetch.fraction.x);
-  float unit = distance_unit(grid);
-  return mix(top, bottom, fetch.fraction.y) * vec2(unit, unit * unit);
+  return bilinear_moments(moments_at(first), moments_at(first + 1), moments_at(first + width),
+                          moments_at(first + width + 1), fetch.fraction);
 }
 
 vec3 irradiance_at(int texel) {

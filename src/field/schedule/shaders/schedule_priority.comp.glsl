@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
-#include "field/schedule/shaders/noise_around.glsl"
+#include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = kChunkProbes) in;
 layout(push_constant, scalar) uniform Push {
@@ -13,24 +13,30 @@ layout(push_constant, scalar) uniform Push {
 shared uint bins[kPriorityBins];
 shared float noises[kChunkProbes];  // of probes that have not converged, else 0
 
+bool fetch_live(int probe) { return args.probes.states.at[probe] != kProbeOff; }
+float fetch_noise(int probe) { return args.service.at[probe].known.noise; }
+#include "field/schedule/noise_around.inl.h"
+
 /// The priority bin of a probe. `noise` receives its noise, or 0 where it has converged.
 int bin_of(int probe, out float noise) {
   noise = 0.0;
-  ProbeService service = args.service.at[probe];
-  if (args.probes.states.at[probe] == kProbeOff) {
-    bool look = args.look != 0u && waits_too_long(service.served, args.update);
-    return look ? priority_bin(0.0, service.served, args.update) : kNoPartBin;
+  uint served = args.service.at[probe].served;
+  float reduction = 0.0;
+  if (fetch_live(probe)) {
+    float samples = args.probes.standing.at[probe].samples;
+    ProbeGrid grid = args.grids.at[volume_of(args.grids, probe)];
+    float held = probe_noise(fetch_noise(probe), noise_around(grid, probe));
+    reduction = error_reduction(held, samples, args.longest);
+    if (reduction > 0.0) {
+      noise = held;
+      reduction = scheduled_reduction(reduction, error_reduction_per_noise(samples),
+                                      args.state.at[0].mean_noise);
+    }
+  } else if (args.look == 0u || !waits_too_long(served, args.update)) {
+    return kNoPartBin;
   }
-  float samples = args.probes.standing.at[probe].samples;
-  float around = noise_around(args.grids, args.probes.states, args.service, probe);
-  float held = probe_noise(service.known.noise, around);
-  float reduction = error_reduction(held, samples, args.longest);
-  if (reduction > 0.0) {
-    noise = held;
-    float min_noise = kMinNoiseOfMean * args.state.at[0].mean_noise;
-    reduction = max(reduction, min_noise * error_reduction_per_noise(samples));
-  }
-  return priority_bin(reduction, service.served, args.update);
+  // An engine says nothing of the camera: all probes weigh the same
+  return priority_bin(probe_urgency(reduction, served, args.update, /*weight=*/1.0));
 }
 
 void main() {

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
-#include "field/probes/tile_light_math.h"
+#include "field/probes/shaders/tiles.glsl"
 
 layout(local_size_x = kGroupLanes) in;
 layout(push_constant, scalar) uniform Push {
@@ -20,11 +20,9 @@ void main() {
   int probe = args.list.at[k];
   ProbeService service = args.service.at[probe];
   vec3 change = args.changes.at[k];
-  float mean_light = args.state.at[0].mean_light;
-  float before = max(change.y, kDarkShare * mean_light);
-  float square =
-      change.x * max(change.y * change.y, kTiniestLight) / max(before * before, kTiniestLight);
-  float estimate_square = estimate_relative_square(square, change.y, blend_weight, mean_light);
+  float estimate_square = estimate_relative_square(
+      LightChange(change.x, change.y, change.z), kIrradianceTexels * kIrradianceTexels,
+      blend_weight, args.state.at[0].mean_light);
   service.known = learned_noise(service.known, estimate_square, 1.0, 1.0 / blend_weight - 1.0);
   service.served = args.update;
   args.service.at[probe] = service;

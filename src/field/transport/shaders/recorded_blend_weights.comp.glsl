@@ -3,6 +3,7 @@
 // probe. From now on, lookups find each probe where its rays started.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "field/schedule/schedule_math.h"
 #include "field/vulkan/recorded_arguments.h"
 
 layout(local_size_x = 64) in;
@@ -29,12 +30,12 @@ void main() {
     return;
   }
   if (args.history == kHistoryDiscarded) averaged = 0.0;
-  float samples = min(averaged, args.longest - 1.0) + 1.0;
-  args.blend_weights.at[k] = 1.0 / samples;
+  float blend_weight = history_blend_weight(averaged, 1.0, args.longest);
+  args.blend_weights.at[k] = blend_weight;
   // Positive floats are ordered as their bits are
   if (args.is_chosen != 0u) {
-    atomicMax(args.largest_blend_weight.at[0], floatBitsToUint(1.0 / samples));
+    atomicMax(args.largest_blend_weight.at[0], floatBitsToUint(blend_weight));
   }
-  args.probes.standing.at[probe].samples = samples;
+  args.probes.standing.at[probe].samples = min(averaged + 1.0, args.longest);
   args.probes.standing.at[probe].coarse = 1u;
 }

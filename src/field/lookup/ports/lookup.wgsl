@@ -2,28 +2,15 @@
 // The lookup of Lambent's irradiance field for WebGPU, to be put before a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
 // A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
-// reason.
+// reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
 // The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
 
 override irradiance_texels: i32 = 4;  // of a tile's edge, without gutter
 override distance_texels: i32 = 14;
 override irradiance_r11g11b10f: bool = false;  // otherwise rgb9e5
 
-// Constants of lookup.h and probe_grid.h
-const kNormalBias = 0.2;
-const kViewBias = 0.8;
-const kBias = 0.75 * 0.3;  // times the smallest probe spacing
-const kWrapCosine = 0.5;
-const kCrushThreshold = 0.2;
-const kMinVisibilityWeight = 1e-6;
-const kMinProbeDistance = 1e-6;  // [m]
-const kMaxDistanceDiagonals = 1.5;
-const kDistanceUnitBits = 6;
-const kOffsetStep = 0.45 / 511.0;  // of a cell
-// Exponent biases of floats, and of small floats relative to these; RGB9E5's bias and bits
-const kFloatBias = 127;
-const kSmallFloatBiasShift = 112u;
-const kRgb9e5BiasAndBits = 24;
+// Constants of src/, put here by the build
+@LAMBENT_CONSTANTS@
 
 alias Float3 = array<f32, 3>;  // 12 bytes, where a vec3f would take 16
 alias Int3 = array<i32, 3>;
@@ -88,7 +75,8 @@ fn moments_of(probe: i32, direction: vec3f, unit: f32) -> vec2f {
 }
 fn offset_of(probe: i32) -> vec3f {  // three signed numbers of 10 bits
   let word = field_offsets[probe];
-  return vec3f(vec3i(vec3u(word << 22u, word << 12u, word << 2u)) >> vec3u(22u)) * kOffsetStep;
+  let steps = vec3i(vec3u(word << 22u, word << 12u, word << 2u)) >> vec3u(22u);
+  return vec3f(steps) * (kMaxProbeOffset / kOffsetSteps);
 }
 
 fn probe_weight(cos_probe: f32, moments: vec2f, dist: f32) -> f32 {
@@ -110,7 +98,7 @@ fn volume_irradiance(grid: ProbeGrid, coords: vec3f, volume_weight: f32, positio
   let axes = axes_of(grid);
   let count = ivec3_of(grid.count);
   let biased_ws = position_ws + (kNormalBias * normal_ws + kViewBias * to_viewer_ws) *
-                                    (kBias * smallest(spacing));
+                                    (kBiasScale * kBias * smallest(spacing));
   let longest_bits = bitcast<u32>(kMaxDistanceDiagonals * length(spacing));
   let unit = power_of_two(i32(longest_bits >> 23u) - kFloatBias - kDistanceUnitBits);
   let cells = vec3f(count - vec3i(1));

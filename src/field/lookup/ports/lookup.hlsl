@@ -2,7 +2,7 @@
 // The lookup of Lambent's irradiance field for HLSL, to be included in a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
 // A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
-// reason.
+// reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
 // The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
 
 #ifndef LAMBENT_IRRADIANCE_TEXELS  // of a tile's edge, without gutter
@@ -15,21 +15,8 @@
 #define LAMBENT_IRRADIANCE_R11G11B10F 0
 #endif
 
-// Constants of lookup.h and probe_grid.h
-static const float kNormalBias = 0.2;
-static const float kViewBias = 0.8;
-static const float kBias = 0.75 * 0.3;  // times the smallest probe spacing
-static const float kWrapCosine = 0.5;
-static const float kCrushThreshold = 0.2;
-static const float kMinVisibilityWeight = 1e-6;
-static const float kMinProbeDistance = 1e-6;  // [m]
-static const float kMaxDistanceDiagonals = 1.5;
-static const int kDistanceUnitBits = 6;
-static const float kOffsetStep = 0.45 / 511.0;  // of a cell
-// Exponent biases of floats, and of small floats relative to these; RGB9E5's bias and bits
-static const int kFloatBias = 127;
-static const uint kSmallFloatBiasShift = 112;
-static const int kRgb9e5BiasAndBits = 24;
+// Constants of src/, put here by the build
+@LAMBENT_CONSTANTS@
 
 struct ProbeGrid {  // as in probe_grid.h, where each member is explained
   float origin_ws[3], spacing[3], axes[9];
@@ -102,7 +89,8 @@ float2 moments_of(int probe, float3 direction, float unit) {
 }
 float3 offset_of(int probe) {  // three signed numbers of 10 bits
   uint word = field_offsets[probe];
-  return float3(int3(word << 22, word << 12, word << 2) >> 22) * kOffsetStep;
+  int3 steps = int3(word << 22, word << 12, word << 2) >> 22;
+  return float3(steps) * (kMaxProbeOffset / kOffsetSteps);
 }
 
 float probe_weight(float cos_probe, float2 moments, float dist) {
@@ -123,7 +111,7 @@ float4 volume_irradiance(ProbeGrid grid, float3 coords, float volume_weight, flo
   float3x3 axes = rows_of(grid.axes);
   int3 count = ivec3_of(grid.count);
   float3 biased_ws = position_ws + (kNormalBias * normal_ws + kViewBias * to_viewer_ws) *
-                                       (kBias * smallest(spacing));
+                                       (kBiasScale * kBias * smallest(spacing));
   uint longest_bits = asuint(kMaxDistanceDiagonals * length(spacing));
   float unit = power_of_two(int(longest_bits >> 23) - kFloatBias - kDistanceUnitBits);
   float3 cells = float3(count - 1);

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What passes, files and tools find in a field besides its public interface.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "lambent/field.h"
+
+namespace lambent {
+
+class DeviceLookups;
+class ProbeStore;
+struct ProbeStatus;
+
+/// Opens a field to the functions below, and to those that save and load it.
+struct FieldAccess {
+  using State = IrradianceField::State;
+  static const State& state_of(const IrradianceField& field) { return *field.state_; }
+  static IrradianceField make(std::unique_ptr<State> state);
+};
+
+/// The probes' store, brought to the processor's memory where a device holds a newer one.
+const ProbeStore& store_of(const IrradianceField& field);
+
+/// The state and history of each probe.
+std::span<const ProbeStatus> statuses_of(const IrradianceField& field);
+
+/// Looks the field up in a device's memory. Null where the processor's memory holds the field.
+const DeviceLookups* device_lookups_of(const IrradianceField& field);
+
+}  // namespace lambent

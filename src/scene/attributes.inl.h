@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a mesh and its material say at a point of a triangle, in the common subset of C++ and GLSL:
+// interpolated attributes, textures, colour, coverage, emission. Included after texture.inl.h. The
+// includer provides, besides what that asks for, the types
+//   InstanceRef, MeshRef, MaterialRef    with members as in scene.h
+// and
+//   InstanceRef fetch_instance(SceneRef scene, uint instance)
+//   MeshRef fetch_mesh(SceneRef scene, uint mesh)
+//   MaterialRef fetch_material(SceneRef scene, uint material)
+//   uvec3 fetch_triangle(MeshRef mesh, uint triangle)    its vertices
+//   vec3 fetch_position(MeshRef mesh, uint vertex)
+//   vec4 fetch_color(MeshRef mesh, uint vertex)
+//   bool has_colors(MeshRef mesh)
+//   bool has_uvs(MeshRef mesh, TextureViewRef view)
+//   vec2 fetch_uv(MeshRef mesh, TextureViewRef view, uint vertex)
+//   bool is_unlit(MaterialRef material)
+//   bool may_emit(MaterialRef material)
+//   vec4 sample_texture(SceneRef scene, TextureViewRef view, vec2 uv)   full size, filtered
+
+/// A point of a triangle: its three vertices and their weights, which sum to 1.
+struct TrianglePoint {
+  uvec3 vertices;
+  vec3 weights;
+};
+
+LAMBENT_FN TrianglePoint triangle_point(MeshRef mesh, uint triangle, vec2 barycentrics) {
+  TrianglePoint point = {
+      fetch_triangle(mesh, triangle),
+      vec3(1.0f - barycentrics.x - barycentrics.y, barycentrics.x, barycentrics.y)};
+  return point;
+}
+
+LAMBENT_FN vec2 interpolate(vec2 a, vec2 b, vec2 c, vec3 weights) {
+  return a * weights.x + b * weights.y + c * weights.z;
+}
+LAMBENT_FN vec3 interpolate(vec3 a, vec3 b, vec3 c, vec3 weights) {
+  return a * weights.x + b * weights.y + c * weights.z;
+}
+LAMBENT_FN vec4 interpolate(vec4 a, vec4 b, vec4 c, vec3 weights) {
+  return a * weights.x + b * weights.y + c * weights.z;
+}
+
+/// Position in object space [m].
+LAMBENT_FN vec3 position_at(MeshRef mesh, TrianglePoint p) {
+  return interpolate(fetch_position(mesh, p.vertices.x), fetch_position(mesh, p.vertices.y),
+                     fetch_position(mesh, p.vertices.z), p.weights);
+}
+
+/// The mesh's colour at a point.
+LAMBENT_FN vec4 color_at(MeshRef mesh, TrianglePoint p) {
+  return interpolate(fetch_color(mesh, p.vertices.x), fetch_color(mesh, p.vertices.y),
+                     fetch_color(mesh, p.vertices.z), p.weights);
+}
+
+/// Texture coordinates of a triangle's corners; all 0 where the mesh has none.
+struct CornerUvs {
+  bool present;
+  vec2 a;
+  vec2 b;
+  vec2 c;
+};
+
+LAMBENT_FN CornerUvs corner_uvs(MeshRef mesh, TextureViewRef view, TrianglePoint p) {
+  CornerUvs uvs = {has_uvs(mesh, view), vec2(0.0f), vec2(0.0f), vec2(0.0f)};
+  if (!uvs.present) return uvs;
+  uvs.a = fetch_uv(mesh, view, p.vertices.x);
+  uvs.b = fetch_uv(mesh, view, p.vertices.y);
+  uvs.c = fetch_uv(mesh, view, p.vertices.z);
+  return uvs;
+}
+
+/// The MIP level at which a cone covers about one texel. `cone_share` is the cone's cross section
+/// over the triangle's area, here and below; 0: full resolution.
+LAMBENT_FN int mip_level(SceneRef scene, TextureViewRef view, CornerUvs uvs, float cone_share) {
+  TextureLevelRef base = fetch_level(scene, view, 0);
+  return mip_level(uvs.b - uvs.a, uvs.c - uvs.a, view.uv_scale, base.width, base.height,
+                   cone_share);
+}
+
+/// A texture of a mesh at a point; white where the view is empty.
+LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePoint p,
+                           float cone_share) {
+  if (view.texture < 0) return vec4(1.0f);
+  CornerUvs uvs = corner_uvs(mesh, view, p);
+  vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
+  if (!uvs.present || cone_share <= 0.0f) return sample_texture(scene, view, uv);
+  return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
+}
+
+/// Whether a footprint covers so much of a texture that what it shows of it is all but its mean.
+LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePoint p,
+                                 float cone_share) {
+  CornerUvs uvs = corner_uvs(mesh, view, p);
+  if (!uvs.present || cone_share <= 0.0f) return false;
+  return shows_mean_alone(mip_level(scene, view, uvs, cone_share), level_count(scene, view) - 1);
+}
+
+/// Linear base colour: factor, texture and vertex colour.
+LAMBENT_FN vec3 base_color_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePoint p,
+                              float cone_share) {
+  vec3 color = vec3(material.base_color);
+  if (material.base_color_texture.texture >= 0) {
+    color *= vec3(texture_at(scene, mesh, material.base_color_texture, p, cone_share));
+  }
+  if (has_colors(mesh)) color *= vec3(color_at(mesh, p));
+  return color;
+}
+
+/// Emitted radiance [W/(m^2 sr)]; an unlit surface emits its base colour.
+LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePoint p,
+                            float cone_share) {
+  if (!may_emit(material)) return vec3(0.0f);
+  if (is_unlit(material)) return base_color_at(scene, mesh, material, p, cone_share);
+  vec3 emission = material.emission;
+  if (material.emission_texture.texture >= 0) {
+    emission *= vec3(texture_at(scene, mesh, material.emission_texture, p, cone_share));
+  }
+  return emission;
+}
+
+/// Coverage, 0 to 1: what decides kAlphaMask and kAlphaBlend. Decisions hang on it, so no device's
+/// coarse filter has a part in it.
+LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePoint p) {
+  float alpha = material.base_color.w;
+  if (material.base_color_texture.texture >= 0) {
+    CornerUvs uvs = corner_uvs(mesh, material.base_color_texture, p);
+    vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
+    alpha *= filtered_texel(scene, material.base_color_texture, uv).w;
+  }
+  if (has_colors(mesh)) alpha *= color_at(mesh, p).w;
+  return alpha;
+}
+
+/// Whether a triangle stops the ray that meets it there.
+LAMBENT_FN bool stops_ray_at(SceneRef scene, uint instance, uint triangle, vec2 barycentrics,
+                             float distance) {
+  MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, instance).mesh);
+  MaterialRef material = fetch_material(scene, mesh.material);
+  float alpha = coverage_at(scene, mesh, material, triangle_point(mesh, triangle, barycentrics));
+  return stops_ray(uint(material.alpha_mode), material.alpha_cutoff, alpha, barycentrics, distance,
+                   triangle);
+}
