@@ -7,16 +7,19 @@
 #if __has_include(<vulkan/vulkan_core.h>)
 #include <vulkan/vulkan_core.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "lambent/error.h"
 #include "lambent/field.h"
 #include "lambent/pass_time.h"
 #include "lambent/vulkan_device.h"
+#include "lambent/world.h"
 
 namespace lambent::vulkan {
 
@@ -43,11 +46,26 @@ struct RecordedFieldSettings {
 
 /// What an update does besides tracing the next batch of probes.
 struct UpdatePlan {
-  /// Factor to the weight of all that probes have averaged so far, 0 to 1: 1 where nothing changed,
-  /// about 0.1 where lights or large objects changed, 0 where everything did.
+  /// Factor to the weight of all that probes have averaged so far, 0 to 1. 1: what changed is told
+  /// by `changes`, or nothing did. 0: the place is another one.
   float history = 1.0f;
-  /// Lets relocation of all probes begin again: for when static geometry was rebuilt.
+  /// Lets relocation of all probes begin again at once.
   bool place_again = false;
+  /// What differs from the scene in which the last update's rays were traced; empty: nothing. All
+  /// rays are traced again whatever differs, so that it is only read whether each of moved,
+  /// rebuilt, lights, materials, emission and environment tells of something. Must stay valid
+  /// during the call.
+  ///
+  /// Where all probes are traced at once and bounces are not counted, the change is followed
+  /// exactly: the update traces every probe's last rays again (PlannedUpdate::retraces), solves for
+  /// the light of all bounces, and changes just those probes whose light differs visibly. The more
+  /// the distribution of their light over directions differs, the less their history counts; the
+  /// others keep all of it, and their bits. Otherwise all averages begin again, as in a new field.
+  /// Eight updates after static geometry was `rebuilt` last, relocation begins again.
+  ///
+  /// An update that traces rays again adds no new ones to the averages: a field that is told of
+  /// changes in every update follows each, but does not become less noisy.
+  std::span<const WorldChanges> changes = {};
   /// Where the camera is [m]: cascades (FieldSettings::cascades) follow it. None, or numbers that
   /// are not finite: they stay.
   std::optional<glm::vec3> viewer_ws = std::nullopt;
@@ -60,6 +78,9 @@ struct PlannedUpdate {
   std::uint32_t rays = 0;     ///< Number of all rays; an upper bound where the device decides.
   bool moves_probes = false;  ///< record_maintain may move some.
   bool on_device = false;     ///< The device decides which probes; see ray_launch().
+  /// Probes trace their last rays again, to follow UpdatePlan::changes. What an engine shades with
+  /// random numbers must come out as before where nothing changed: seed them by the ray.
+  bool retraces = false;
 };
 
 /// The buffers in which shaders look the field up. They stay the same for the field's whole life.
@@ -153,6 +174,9 @@ class RecordedField {
   /// [ms], in their order, by the names of UpdateStatistics::passes; none where the device has no
   /// timestamps, and of parts that were not recorded.
   const std::vector<PassTime>& pass_times() const;
+  /// Memory that the field's buffers take on the device and in what the host shares with it
+  /// [bytes], the same for its whole life; pipelines are not counted.
+  std::size_t bytes() const;
   LookupBuffers lookup_buffers() const;
   /// One word a probe: 0, or 1 where it stands in solid matter. Such probes light nothing, and are
   /// traced but every eighth turn; where the device decides, once in 128 updates or a few more.

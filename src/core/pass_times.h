@@ -27,8 +27,11 @@ class PassTimer {
   /// The list of passes must outlive it.
   explicit PassTimer(std::vector<PassTime>& passes) : passes_(passes) {}
 
-  /// Counts the time since the last call, or since the start, for a pass.
-  void finish(std::string_view name) { add_pass_time(passes_, name, watch_.lap()); }
+  /// Counts the time since the last call, or since the start, for a pass, but for `counted` of it
+  /// [ms], which has been counted for others.
+  void finish(std::string_view name, double counted = 0.0) {
+    add_pass_time(passes_, name, std::max(watch_.lap() - counted, 0.0));
+  }
   /// Counts the time since the last call for no pass.
   void skip() { watch_.lap(); }
 

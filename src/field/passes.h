@@ -45,6 +45,11 @@ class FieldPasses {
   virtual void trace(int batch) = 0;
   /// Makes surfels of a batch's hits, with the direct light on them.
   virtual void shade(int batch) = 0;
+  /// Keeps what must be known of the probes from before edits. Their rays are about to be traced
+  /// again.
+  virtual void keep_history() = 0;
+  /// Moves the stored distances by as much as those that the rays see changed.
+  virtual void move_distances() = 0;
   /// Blends the distances that all rays saw into the store.
   virtual void blend_distances() = 0;
   /// Finds which probes of the cells around the update's probes see each other.
@@ -69,6 +74,9 @@ class FieldPasses {
 
 /// Runs all passes of an update whose probes the host has placed and chosen.
 void update_probes(FieldPasses& passes);
+/// Traces the last rays of probes again, after edits, and brings their distances and lookups up to
+/// date. The host solves for the light.
+void retrace_probes(FieldPasses& passes);
 
 // An engine records an update in four parts, in this order, with commands of its own in between.
 
@@ -78,6 +86,8 @@ void choose_rays(FieldPasses& passes);
 void find_hits(FieldPasses& passes);
 /// Runs all passes from shaded hits to stored light.
 void follow_hits(FieldPasses& passes);
+/// Does that for rays that were traced again after edits.
+void follow_retraced_hits(FieldPasses& passes);
 /// Runs the placement.
 void maintain_probes(FieldPasses& passes);
 

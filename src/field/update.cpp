@@ -32,6 +32,13 @@ void find_surfels(FieldPasses& passes) {
   }
 }
 
+/// Runs all passes from lookups to stored light.
+void solve_light(FieldPasses& passes) {
+  run(passes, field_pass::kSolve, [&] { passes.solve(); });
+  run(passes, field_pass::kVariability, [&] { passes.variability(); });
+  run(passes, field_pass::kStore, [&] { passes.store(); });
+}
+
 /// Runs all passes from surfels to stored light.
 void light_probes(FieldPasses& passes) {
   run(passes, field_pass::kBlendDistances, [&] { passes.blend_distances(); });
@@ -39,9 +46,13 @@ void light_probes(FieldPasses& passes) {
     run(passes, field_pass::kVisibility, [&] { passes.visibility(); });
   }
   run(passes, field_pass::kLookups, [&] { passes.lookups(); });
-  run(passes, field_pass::kSolve, [&] { passes.solve(); });
-  run(passes, field_pass::kVariability, [&] { passes.variability(); });
-  run(passes, field_pass::kStore, [&] { passes.store(); });
+  solve_light(passes);
+}
+
+/// Brings distances and lookups up to date with surfels that were traced again.
+void move_probes(FieldPasses& passes) {
+  run(passes, field_pass::kBlendDistances, [&] { passes.move_distances(); });
+  run(passes, field_pass::kLookups, [&] { passes.lookups(); });
 }
 
 }  // namespace
@@ -49,6 +60,12 @@ void light_probes(FieldPasses& passes) {
 void update_probes(FieldPasses& passes) {
   find_surfels(passes);
   light_probes(passes);
+}
+
+void retrace_probes(FieldPasses& passes) {
+  run(passes, field_pass::kEdits, [&] { passes.keep_history(); });
+  find_surfels(passes);
+  move_probes(passes);
 }
 
 void choose_rays(FieldPasses& passes) {
@@ -63,6 +80,13 @@ void find_hits(FieldPasses& passes) {
 void follow_hits(FieldPasses& passes) {
   run(passes, field_pass::kShade, [&] { passes.shade(0); });
   light_probes(passes);
+}
+
+void follow_retraced_hits(FieldPasses& passes) {
+  run(passes, field_pass::kEdits, [&] { passes.keep_history(); });
+  run(passes, field_pass::kShade, [&] { passes.shade(0); });
+  move_probes(passes);
+  solve_light(passes);
 }
 
 void maintain_probes(FieldPasses& passes) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -25,6 +27,13 @@ template <class T>
 void reserve(const vulkan::Device& device, std::size_t count, const std::string& name,
              vulkan::Buffer& buffer) {
   buffer.reserve(device, count * sizeof(T), name);
+}
+
+/// The bytes of some buffers in all.
+inline std::size_t bytes_of(std::initializer_list<const vulkan::Buffer*> buffers) {
+  std::size_t bytes = 0;
+  for (const vulkan::Buffer* buffer : buffers) bytes += buffer->bytes();
+  return bytes;
 }
 
 inline int round_up(int value, int multiple) {

@@ -23,6 +23,8 @@ struct LookArguments {
   std::uint32_t count;
 };
 
+constexpr int kFrames = 5;
+
 void barrier(VkCommandBuffer commands, VkPipelineStageFlags to, VkAccessFlags access) {
   const VkMemoryBarrier written = {VK_STRUCTURE_TYPE_MEMORY_BARRIER, nullptr,
                                    VK_ACCESS_SHADER_WRITE_BIT, access};
@@ -45,10 +47,12 @@ int run(const std::string& shader_folder) {
   const auto device = lambent::vulkan::adopt_device(lent);
   if (!device) return std::fprintf(stderr, "%s\n", device.error().message().c_str()), 1;
 
-  // A field for the room's bounds
-  const Room room = make_room();
+  // A field of two cascades around the viewer, the finer one a little larger than the room
+  Room room = make_room();
   lambent::FieldSettings settings;
-  settings.probe_count = glm::ivec3(5);
+  settings.cascades = 2;
+  settings.probe_count = glm::ivec3(8);
+  settings.probe_spacing = 0.4f;
   lambent::vulkan::RecordedFieldSettings recorded;
   recorded.frames_in_flight = Engine::kFramesInFlight;
   auto field = lambent::vulkan::RecordedField::make(*device, settings, room.bounds, recorded);
@@ -64,9 +68,20 @@ int run(const std::string& shader_folder) {
   const EngineBuffer found = engine.buffer(count * sizeof(glm::vec3));
 
   // A frame: the field's update, and the engine's shaders that look it up
-  for (int frame = 0; frame < 4; ++frame) {
+  glm::vec3 viewer_ws(0.0f);
+  for (int frame = 0; frame < kFrames; ++frame) {
     const VkCommandBuffer commands = engine.begin_frame();
-    const lambent::vulkan::PlannedUpdate update = field->plan().value();
+    lambent::vulkan::UpdatePlan plan;
+    viewer_ws.x = 0.1f * static_cast<float>(frame);
+    plan.viewer_ws = viewer_ws;
+    lambent::WorldChanges dimmed;
+    dimmed.lights.resize(1);
+    if (frame == kFrames - 1) {
+      // The lamp is dimmed: told of it, the field follows in this very frame
+      room.lamp_intensity *= 0.25f;
+      plan.changes = {&dimmed, 1};
+    }
+    const lambent::vulkan::PlannedUpdate update = field->plan(plan).value();
     field->record_rays(commands);
     field->record_trace(commands, structure);
     const ShadeArguments shading = {field->rays().address,
@@ -92,7 +107,8 @@ int run(const std::string& shader_folder) {
                 irradiance[i].z);
   }
   for (const std::string& message : engine.messages) std::fprintf(stderr, "%s\n", message.c_str());
-  return engine.messages.empty() && is_as_expected(room, {irradiance, count}) ? 0 : 1;
+  const bool expected = is_as_expected(room, settings, viewer_ws, {irradiance, count});
+  return engine.messages.empty() && expected ? 0 : 1;
 }
 
 }  // namespace

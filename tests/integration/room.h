@@ -2,6 +2,7 @@
 // The room that the example lights, and what Lambent itself says of its light.
 #pragma once
 
+#include <lambent/field.h>
 #include <lambent/scene.h>
 
 #include <glm/glm.hpp>
@@ -28,5 +29,6 @@ struct Room {
 Room make_room();
 
 /// Whether this is the light at the points, as Lambent's field on the processor finds it in the
-/// same room. Says by how much it is not.
-bool is_as_expected(const Room& room, std::span<const glm::vec3> irradiance);
+/// same room, with the same settings and viewer. Says by how much it is not.
+bool is_as_expected(const Room& room, const lambent::FieldSettings& settings,
+                    const glm::vec3& viewer_ws, std::span<const glm::vec3> irradiance);

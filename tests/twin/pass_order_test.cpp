@@ -60,6 +60,15 @@ TEST_F(PassOrder, OfARecordedUpdateIsThatOfTheProcessors) {
   std::erase(expected, "trace");
   EXPECT_EQ(names_of(field.pass_times()), expected);
 
+  // Rays that are traced again after edits go the same way; what they leave is compared, not
+  // blended
+  WorldChanges edits;
+  edits.emission = true;
+  update(field, {.changes = std::span(&edits, 1)});
+  field.plan().value();
+  expected.insert(expected.begin() + 1, "edits");
+  EXPECT_EQ(names_of(field.pass_times()), expected);
+
   // Of parts that are not recorded nothing is told
   field.plan();
   EXPECT_TRUE(field.pass_times().empty());

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 #include "field/lookup/field_record.h"
@@ -68,9 +69,14 @@ class RecordedFieldTest : public OnDevice {
   }
 
   /// An update, shaded by the host as the processor's field would.
-  static void update(RecordedField& field, const vulkan::UpdatePlan& plan = {}) {
-    const std::uint32_t number = field.updates();
+  static void update(RecordedField& field, const vulkan::UpdatePlan& plan = {},
+                     const World& world = cornell().world) {
+    // Rays that are traced again are shaded with the random numbers of the update that drew them
+    static std::map<const RecordedField*, std::uint32_t> drawn_in;
+    std::uint32_t number = field.updates();
     const vulkan::PlannedUpdate planned = field.plan(plan).value();
+    if (planned.retraces) number = drawn_in.at(&field);
+    drawn_in[&field] = number;
     device().run([&](vulkan::Recorder& to) { field.record_rays(to.commands()); });
     const auto records = download<RayRecord>(field.rays());
     const RaySet set(field.settings(), static_cast<int>(planned.rays_per_probe), number);
@@ -87,11 +93,11 @@ class RecordedFieldTest : public OnDevice {
     }
     std::vector<Hit> hits(rays.size());
     std::vector<ShadedHit> shaded(rays.size());
-    tracer_of(cornell().world).closest_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     ShadeHitsScratch scratch;
     const std::size_t each = planned.rays_per_probe;
     for (std::size_t k = 0; k < planned.probes; ++k) {
-      shade_hits(cornell().world, {&rays[k * each], each}, {&hits[k * each], each}, shading,
+      shade_hits(world, {&rays[k * each], each}, {&hits[k * each], each}, shading,
                  first_ray_index(static_cast<int>(k)), scratch, {&shaded[k * each], each});
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {

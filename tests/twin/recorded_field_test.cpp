@@ -85,6 +85,27 @@ TEST_F(RecordedFieldTest, ForgetsWhatItIsToldTo) {
   EXPECT_LE(difference(look_up(field, queries), look_up(fresh, queries)), 0.001);
 }
 
+TEST_F(RecordedFieldTest, TellsItsMemory) {
+  FieldSettings settings = recorded_settings();
+  const RecordedField field = make(settings, {});
+  std::size_t known = 0;
+  const vulkan::LookupBuffers buffers = field.lookup_buffers();
+  for (const vulkan::BufferRange& range :
+       {field.rays(), field.hits(), field.results(), field.states(), buffers.grids, buffers.offsets,
+        buffers.irradiance, buffers.distance, buffers.record}) {
+    known += range.bytes;
+  }
+  EXPECT_GT(field.bytes(), known);
+  // What is in proportion to rays is most of it
+  settings.rays_per_probe *= 2;
+  const double ratio = static_cast<double>(make(settings, {}).bytes()) / field.bytes();
+  EXPECT_GT(ratio, 1.5);
+  EXPECT_LT(ratio, 2.0);
+  settings.rays_per_probe /= 2;
+  const std::size_t some = make(settings, {.probes_per_update = 8}).bytes();
+  EXPECT_LT(some, field.bytes());
+}
+
 TEST_F(RecordedFieldTest, RefusesWhatItCannotDo) {
   const auto refused = [](const FieldSettings& settings, const RecordedFieldSettings& recorded) {
     return !RecordedField::make(shared_device(), settings, cornell().bounds(), recorded);

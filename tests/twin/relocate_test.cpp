@@ -145,7 +145,7 @@ class Relocated {
     same = same && (standing.samples == 0.0f) == has_moved;
     moved_ += has_moved ? 1 : 0;
     in_matter_ += blocked != 0 ? 1 : 0;
-    standing = {1.0f, store_.offset_words()[k], relocation, 0u};
+    standing = {1.0f, store_.offset_words()[k], relocation, 0u, 1u};
     return same;
   }
 

@@ -24,6 +24,7 @@
 
 #include "core/pass_times.h"
 #include "field/edits/history_ratio.h"
+#include "field/edits/history_ratio_math.h"
 #include "field/edits/invalidation.h"
 #include "field/field_state.h"
 #include "field/passes.h"
@@ -32,10 +33,6 @@
 
 namespace lambent {
 namespace {
-
-// A probe whose light an edit changes by less than this fraction keeps its old light and its
-// history. It is half of the smallest visible difference.
-constexpr float kChangedFraction = 0.005f;
 
 // Testing a probe's surfels against edits costs about as much as tracing this many rays, even where
 // nothing has to be traced.
@@ -88,7 +85,7 @@ void reduce_history(const PendingEdits& pending, const WorkingIrradiance& light,
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
     // The more the distribution of the light changed, the fewer samples the average is worth
     const float kept = likeness(found, held);
-    statuses[probe].samples = max(statuses[probe].samples * kept * kept, 1.0f);
+    statuses[probe].samples = samples_after_edit(statuses[probe].samples, kept);
     scheduler.mark_changed(probe);
   }
 }
@@ -121,6 +118,7 @@ void IrradianceField::State::apply_edits_to_slice(const World& world,
                                                   std::span<const int> probes,
                                                   std::span<const int> all,
                                                   UpdateStatistics& statistics) {
+  PassTimer watch(statistics.passes);
   const std::vector<double> direct_before = backend->direct_light(probes);
   const bool shapes_differ = std::any_of(changes.begin(), changes.end(),
                                          [](const WorldChanges& c) { return !c.moved.empty(); });
@@ -129,6 +127,11 @@ void IrradianceField::State::apply_edits_to_slice(const World& world,
   statistics.probe_rays += result.probe_rays;
   statistics.shadow_rays += result.shadow_rays;
   statistics.probes_invalidated += static_cast<int>(probes.size());
+  double counted = 0.0;
+  for (const PassTime& pass : result.passes) {
+    add_pass_time(statistics.passes, pass.name, pass.ms);
+    counted += pass.ms;
+  }
 
   const std::vector<double> direct_after = backend->direct_light(probes);
   const double before = std::accumulate(direct_before.begin(), direct_before.end(), 0.0);
@@ -141,6 +144,7 @@ void IrradianceField::State::apply_edits_to_slice(const World& world,
       data.light[static_cast<std::size_t>(probe) * texels + t] *= brighter;
     }
   }
+  watch.finish(field_pass::kEdits, counted);
 }
 
 void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
@@ -168,8 +172,9 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   for (const int probe : probes) oldest = std::min(oldest, statuses[probe].revision);
   const WorkingIrradiance before = light_of(data.light, probes, data.tile_texels());
   const WorkingIrradiance history_ratio = history_ratio_of(probes, data);
-  apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, statistics);
   watch.finish(field_pass::kEdits);
+  apply_edits_to_slice(world, *world.changes_since(oldest), probes, all, statistics);
+  watch.skip();
 
   // No surfel that matters reads sleeping probes, so that one iteration solves for their light
   SolveSettings once = solve_settings(settings);
@@ -289,7 +294,7 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
     }
     watch.finish(field_pass::kSolve);
     apply_edits_to_slice(world, changes, slice.probes, stale.traced, statistics);
-    watch.finish(field_pass::kEdits);
+    watch.skip();
     stale.waiting.erase(stale.waiting.begin(),
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
     updated.insert(updated.end(), slice.probes.begin(), slice.probes.end());

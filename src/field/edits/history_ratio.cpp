@@ -5,28 +5,10 @@
 
 #include <algorithm>
 
+#include "field/edits/history_ratio_math.h"
 #include "field/probes/tile_light.h"
 
 namespace lambent {
-namespace {
-
-// The estimate of one update's rays is corrected by at most this factor. Where it is further off,
-// the rays met too little light for a correction to make sense.
-constexpr float kMaxHistoryRatio = 2.0f;
-
-/// The factor that turns the last estimate into what the probe holds, clamped to the bounds above.
-vec4 history_ratio_between(const vec4& last_irradiance_estimate, const vec4& held) {
-  vec4 history_ratio(1.0f);
-  for (int c = 0; c < 3; ++c) {
-    if (last_irradiance_estimate[c] > kTiniestLight)
-      history_ratio[c] =
-          clamp(held[c] / last_irradiance_estimate[c], 1.0f / kMaxHistoryRatio, kMaxHistoryRatio);
-  }
-  return history_ratio;
-}
-
-}  // namespace
-
 /// Computes by which factor averaging corrects each texel of the probes' last estimates.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data) {
   const int texels = data.tile_texels();

@@ -27,6 +27,7 @@ struct InvalidationResult {
   std::uint64_t shadow_rays = 0;  ///< Shadow and visibility rays traced.
   std::vector<int>
       moved;  ///< Probes whose rays now have other distances, in the order of `probes`.
+  std::vector<PassTime> passes;  ///< What a device took for each pass; none on the processor.
 };
 
 /// Brings the surfels and stored distances of `probes`, which have been traced, up to date with the

@@ -37,18 +37,14 @@ inline float relative_square(TileLight before, TileLight now) {
   return mean_relative_square(change.squares, static_cast<int>(now.size()), change.before);
 }
 
-/// The similarity of two tiles' distributions of light over directions, 0 to 1, regardless of
-/// brightness: the common part of both over their union.
+/// The similarity of two tiles' distributions of light over directions. See likeness_of().
 inline float likeness(TileLight a, TileLight b) {
   const float mean_a = mean_luminance(a), mean_b = mean_luminance(b);
-  if (mean_a <= kTiniestLight || mean_b <= kTiniestLight) return 0.0f;
-  float common = 0.0f, all = 0.0f;
+  LikenessSums sums{};
   for (std::size_t t = 0; t < a.size(); ++t) {
-    const glm::vec3 x = glm::vec3(a[t]) / mean_a, y = glm::vec3(b[t]) / mean_b;
-    common += luminance(glm::min(x, y));
-    all += luminance(glm::max(x, y));
+    sums = add_likeness(sums, glm::vec3(a[t]), mean_a, glm::vec3(b[t]), mean_b);
   }
-  return glm::max(common, 0.0f) / all;
+  return likeness_of(sums, mean_a, mean_b);
 }
 
 }  // namespace lambent

@@ -277,8 +277,11 @@ struct StoreIrradianceArguments {
   UintArray words;
   IntArray probes;
   Vec4Array light;
+  UintArray changed;  ///< Of the list: probes with 0 keep what is stored.
   int count;
   uint dither_seed;
+  uint has_changed;  ///< 0: there is no `changed`, and all are stored.
+  uint unused;
 };
 
 /// Arguments of compare_light. `before` has the texels of the list, `changes` an entry per probe of

@@ -24,12 +24,16 @@ void FieldResources::record_seen_surfels(vulkan::Recorder& to, const DeviceProbe
   record_see_surfels(to, list, {seen_.address()}, {blocked_.address()});
 }
 
-void FieldResources::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
+void FieldResources::reserve_distances_before(const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
   const int stride = round_up(list.most_rays, kLaneGroupSize);
   reserve_seen(list);
   reserve<float>(device_, count * stride, "distances seen before", seen_before_);
   reserve<uint>(device_, count, "probes in solid matter before", blocked_before_);
+}
+
+void FieldResources::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
+  reserve_distances_before(list);
   record_see_surfels(to, list, {seen_before_.address()}, {blocked_before_.address()});
 }
 

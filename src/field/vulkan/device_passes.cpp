@@ -235,10 +235,16 @@ void FieldResources::record_receive(vulkan::Recorder& to, const DeviceProbes& li
 }
 
 void FieldResources::record_store_light(vulkan::Recorder& to, const DeviceProbes& list,
-                                        uint dither_seed) const {
+                                        uint dither_seed, UintArray changed) const {
   const UintArray words = {irradiance_.address()};
-  const StoreIrradianceArguments arguments = {
-      words, list.index_array(), {light_.address()}, list.count(), dither_seed};
+  const StoreIrradianceArguments arguments = {words,
+                                              list.index_array(),
+                                              {light_.address()},
+                                              changed,
+                                              list.count(),
+                                              dither_seed,
+                                              changed.address != 0 ? 1u : 0u,
+                                              0u};
   run_over(to, kernels_.store_irradiance, arguments, list, kOverTexels);
   to.barrier();
   const GuttersArguments gutters = {words, list.index_array(), list.count(),

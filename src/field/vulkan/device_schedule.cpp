@@ -61,6 +61,11 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
       Buffer(device, sizeof(ProbeBlock) * list_.block_count, Memory::device, "their blocks");
 }
 
+std::size_t DeviceSchedule::bytes() const {
+  return bytes_of({&list_.indices, &list_.ray_sets, &list_.blocks, &state_, &service_, &bins_,
+                   &chunk_records_, &sizes_, &changes_});
+}
+
 void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& probes,
                                    std::uint32_t update, bool look) const {
   const int all = field_.probes();

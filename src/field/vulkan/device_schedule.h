@@ -34,6 +34,7 @@ class DeviceSchedule {
     list_.sets = sets;
     return list_;
   }
+  std::size_t bytes() const;
   /// Holds a ScheduleState.
   const vulkan::Buffer& state() const { return state_; }
   /// Hold the ProbeService and the priority bin of each probe.

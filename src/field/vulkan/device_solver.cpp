@@ -35,6 +35,11 @@ void DeviceSolver::reserve(const DeviceProbes& list) {
   field_.reserve_transport(list);
 }
 
+std::size_t DeviceSolver::bytes() const {
+  return bytes_of({&state_, &sums_, &history_, &solution_, &image_, &residual_, &previous_image_,
+                   &residual_changes_, &image_changes_});
+}
+
 SolveArrays DeviceSolver::arrays(const DeviceProbes& list,
                                  const vulkan::Buffer& blend_weights) const {
   return {list.index_array(),         {blend_weights.address()},   {field_.light().address()},

@@ -34,6 +34,7 @@ class DeviceSolver {
   void record_bounces(vulkan::Recorder& to, const DeviceProbes& list,
                       const vulkan::Buffer& blend_weights, int bounces);
 
+  std::size_t bytes() const;
   /// The outcome, once the solve has run. Reads it back.
   DeviceSolve result() const;
   /// The solution for the list's probes before blending, and the light that they held before the

@@ -33,19 +33,31 @@ void RecordedField::State::EngineRays::scroll(Recorder& to) {
   to.barrier();
 }
 
+/// Records the matrices of the update's ray sets.
+void RecordedField::State::EngineRays::record_weights(Recorder& to) const {
+  const UpdateMemory& m = s_.memory();
+  const int rays = s_.settings.rays_per_probe;
+  for (std::size_t set = 0; set < s_.batch.drawn_in.size(); ++set) {
+    const RaySetRecord& record = m.sets.as<RaySetRecord>()[set];
+    s_.field.record_weights(to, record.directions, rays, record.irradiance_weights,
+                            record.distance_weights);
+  }
+}
+
 void RecordedField::State::EngineRays::schedule(Recorder& to) {
-  const RecordedRaysArguments arguments = {{s_.field.grids().address()},
-                                           s_.probe_states(),
-                                           s_.list().index_array(),
-                                           {s_.memory().directions.address()},
-                                           {s_.rays.address()},
-                                           s_.chosen(offsetof(ListState, probes)),
-                                           s_.batch.count,
-                                           s_.settings.rays_per_probe,
-                                           s_.ray_mask,
-                                           s_.batch.all ? 1u : 0u,
-                                           s_.batch.on_device ? 1u : 0u,
-                                           s_.placing_updates};
+  const DeviceProbes& list = s_.list();
+  const RecordedRaysArguments arguments = {
+      {s_.field.grids().address()},
+      s_.probe_states(),
+      {list.index_array(), {list.ray_sets.address()}, list.sets},
+      {s_.rays.address()},
+      s_.chosen(offsetof(ListState, probes)),
+      s_.batch.count,
+      s_.settings.rays_per_probe,
+      s_.ray_mask,
+      s_.batch.all ? 1u : 0u,
+      s_.batch.on_device ? 1u : 0u,
+      s_.placing_updates};
   if (s_.batch.history < 1.0f || s_.batch.place_again) {
     const FadeSamplesArguments fade = {{s_.standing.address()},
                                        s_.field.probes(),
@@ -59,6 +71,7 @@ void RecordedField::State::EngineRays::schedule(Recorder& to) {
     s_.schedule->record_choose(to, s_.probe_states(), s_.batch.update, s_.batch.all);
   }
   to.run(s_.kernels.rays, arguments, s_.settings.rays_per_probe, s_.batch.count);
+  record_weights(to);
 }
 
 void RecordedField::State::EngineRays::trace(Recorder& to, int) {
@@ -82,10 +95,13 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
   to.trace(s_.tracer.closest, arguments, count);
 }
 
-/// Turns the engine's results into surfels and computes the blend weights and the ray weights.
+/// Turns the engine's results into surfels and computes the blend weights.
 void RecordedField::State::EngineRays::shade(Recorder& to, int) {
-  const UpdateMemory& m = s_.memory();
   const DeviceProbes& list = s_.list();
+  const ProbeBatch& batch = s_.batch;
+  const uint history = batch.retraces           ? kHistoryRetraced
+                       : batch.discards_history ? kHistoryDiscarded
+                                                : kHistoryGrows;
   const RecordedBlendWeightsArguments blend_weight = {
       s_.probe_states(),
       {s_.field.offsets().address()},
@@ -97,7 +113,7 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
       s_.batch.on_device ? 1u : 0u,
       longest_average(s_.settings),
       s_.batch.all ? 1u : 0u,
-      s_.batch.discards_history ? 1u : 0u,
+      history,
       s_.placing_updates};
   const RecordedSurfelsArguments surfel = {list.index_array(),       {s_.rays.address()},
                                            {s_.results.address()},   s_.field.surfels(),
@@ -105,9 +121,9 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
                                            s_.field.surfel_stride(), s_.settings.max_albedo};
   s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, list, kOverLanes);
   s_.field.run_over(to, s_.kernels.surfels, surfel, list, kOverRays);
-  s_.field.record_weights(to, {m.directions.address()}, s_.settings.rays_per_probe,
-                          {s_.irradiance_weights.address()}, {s_.distance_weights.address()});
-  s_.field.record_seen_surfels(to, list);
+  to.barrier();
+  // Of rays that are traced again, the distances before and after are compared
+  if (!batch.retraces) s_.field.record_seen_surfels(to, list);
 }
 
 void RecordedField::State::EngineRays::visibility(Recorder&) {

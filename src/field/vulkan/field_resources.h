@@ -74,6 +74,8 @@ class FieldResources {
   int volumes() const { return volumes_; }
   int tile_texels() const { return settings_.irradiance_texels * settings_.irradiance_texels; }
   int lookups_per_surfel() const { return lookups_; }
+  /// Bytes of all that it holds but cell visibility.
+  std::size_t bytes() const;
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
 
   // The store's arrays and buffers.
@@ -163,8 +165,13 @@ class FieldResources {
   /// Reserves memory for the distances of a list's rays. Must be called before the functions above.
   void reserve_seen(const DeviceProbes& list);
   /// Record that the stored distances of a list's probes move by as much as those of their surfels
-  /// change between the two calls, as in invalidate_surfels(). The first one also reserves memory.
+  /// change between the two calls, as in invalidate_surfels(). The first one also reserves memory,
+  /// where that has not been done before.
   void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
+  void reserve_distances_before(const DeviceProbes& list);
+  /// One word per probe of the list: 1 where it stood inside geometry before, and, where the caller
+  /// says so, kNoDistancesBefore (edits/edit_arguments.h).
+  UintArray blocked_before() const { return {blocked_before_.address()}; }
   void record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed);
   /// Records CellVisibility::update() of a field with visibility by rays. `cells` come from
   /// cells_around().
@@ -187,8 +194,10 @@ class FieldResources {
   /// Reserves memory for both. Must be called before they are recorded.
   void reserve_transport(const DeviceProbes& list);
 
-  /// Records ProbeStore::store_irradiance() of the field's light.
-  void record_store_light(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed) const;
+  /// Records ProbeStore::store_irradiance() of the field's light. Where there is an array
+  /// `changed`, of those probes of the list only that it has a 1 for.
+  void record_store_light(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed,
+                          UintArray changed = {}) const;
   /// Records ImportanceScatter of importance.h for a list of those probes that scatter. `sent` must
   /// be 0.
   void record_scatter_importance(vulkan::Recorder& to, const DeviceProbes& list,

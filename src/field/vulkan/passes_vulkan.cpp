@@ -3,16 +3,33 @@
 
 namespace lambent {
 
+void FieldPassesVulkan::keep_history() {
+  if (update_.history != nullptr) {
+    update_.history->record_before(to_, update_.list);
+  } else {
+    update_.field.record_distances_before(to_, update_.list);
+  }
+}
+
+void FieldPassesVulkan::move_distances() {
+  update_.field.record_move_distances(to_, update_.list, update_.dither_seed);
+}
+
 void FieldPassesVulkan::blend_distances() {
   update_.field.record_blend_distances(to_, update_.list, {update_.blend_weights.address()},
                                        update_.dither_seed);
 }
 
 void FieldPassesVulkan::lookups() {
-  update_.field.record_lookups(to_, update_.list, update_.source.tracer());
+  const DeviceProbes& readers = update_.readers != nullptr ? *update_.readers : update_.list;
+  update_.field.record_lookups(to_, readers, update_.source.tracer());
 }
 
 void FieldPassesVulkan::solve() {
+  if (update_.history != nullptr) {
+    update_.history->record_solve(to_, update_.list, update_.blend_weights);
+    return;
+  }
   DeviceSolver& solver = update_.solver;
   if (settings().max_bounces >= 0) {
     solver.record_bounces(to_, update_.list, update_.blend_weights, settings().max_bounces);
@@ -24,12 +41,17 @@ void FieldPassesVulkan::solve() {
 }
 
 void FieldPassesVulkan::variability() {
+  if (update_.history != nullptr) {
+    update_.history->record_keep(to_, update_.list);
+    return;
+  }
   update_.noise.record(to_, update_.list, {update_.blend_weights.address()},
                        {update_.solver.history().address()});
 }
 
 void FieldPassesVulkan::store() {
-  update_.field.record_store_light(to_, update_.list, update_.dither_seed);
+  const UintArray changed = update_.history != nullptr ? update_.history->changed() : UintArray{};
+  update_.field.record_store_light(to_, update_.list, update_.dither_seed, changed);
 }
 
 }  // namespace lambent

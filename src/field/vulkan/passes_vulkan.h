@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "field/edits/device_history.h"
 #include "field/passes.h"
 #include "field/vulkan/device_schedule.h"
 #include "field/vulkan/device_solver.h"
@@ -52,6 +53,12 @@ struct UpdateVulkan {
   const vulkan::Buffer& blend_weights;  ///< One per probe of the list.
   float largest_blend_weight = 1.0f;
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
+  /// Keeps the history of the list's probes, whose last rays are traced again after edits, where
+  /// the device solves for their light. Else null.
+  DeviceHistory* history = nullptr;
+  /// The probes whose surfels may read one of the list. Null: their lookups stay, or they are the
+  /// list itself.
+  const DeviceProbes* readers = nullptr;
 };
 
 class FieldPassesVulkan final : public FieldPasses {
@@ -65,6 +72,8 @@ class FieldPassesVulkan final : public FieldPasses {
   void schedule() override { update_.source.schedule(to_); }
   void trace(int batch) override { update_.source.trace(to_, batch); }
   void shade(int batch) override { update_.source.shade(to_, batch); }
+  void keep_history() override;
+  void move_distances() override;
   void blend_distances() override;
   void visibility() override { update_.source.visibility(to_); }
   void lookups() override;

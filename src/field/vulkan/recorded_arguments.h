@@ -21,6 +21,7 @@ struct ProbeStanding {
   uint offset;    ///< Offset that applies from its next rays on (encode_probe_offset).
   RelocationState relocation;
   uint placed;  ///< Number of updates that took part in its placement so far.
+  uint coarse;  ///< 1: it was traced with new rays since the last edit.
 };
 LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
 
@@ -36,13 +37,17 @@ LAMBENT_FN bool probe_rests(uint state, uint placed, uint placing_updates, uint 
   return state == kProbeOff && placed >= placing_updates && all == 0u;
 }
 
+/// Whether a probe's light and distances average something that an edit may keep.
+LAMBENT_FN bool has_history(uint state, float samples) {
+  return state == kProbeOn && samples > 0.0f;
+}
+
 /// Arguments of recorded_rays, which makes count x rays_per_probe rays. Rays of probes that are
 /// left out, and rays beyond the probes that the device chose, get a mask of 0.
 struct RecordedRaysArguments {
   GridArray grids;
   ProbeStates probes;
-  IntArray list;
-  Vec3Array directions;
+  ProbeList list;
   RayArray rays;
   UintArray chosen;
   int count;
@@ -71,6 +76,13 @@ struct FadeSamplesArguments {
   uint unused;
 };
 
+// What becomes of the earlier samples of an update's probes: new ones are added to them; they do
+// not count any more; or the probes' last rays have been traced again after an edit, which adds no
+// samples.
+const uint kHistoryGrows = 0u;
+const uint kHistoryDiscarded = 1u;
+const uint kHistoryRetraced = 2u;
+
 /// Arguments of recorded_blend_weights, which counts an update's samples. `blend_weights` has one
 /// number per probe of the list, 0 for probes that are left out.
 struct RecordedBlendWeightsArguments {
@@ -81,10 +93,10 @@ struct RecordedBlendWeightsArguments {
   UintArray chosen;                ///< One word: the list's length where the device decided.
   UintArray largest_blend_weight;  ///< One word: receives the bits of the largest blend weight.
   int count;
-  uint is_chosen;         ///< 1: the device decided.
-  float longest;          ///< The most updates that an average remembers.
-  uint all;               ///< 1: probes that are off are traced, too.
-  uint discards_history;  ///< 1: earlier samples do not count.
+  uint is_chosen;  ///< 1: the device decided.
+  float longest;   ///< The most updates that an average remembers.
+  uint all;        ///< 1: probes that are off are traced, too.
+  uint history;    ///< kHistoryGrows, kHistoryDiscarded or kHistoryRetraced.
   uint placing_updates;
 };
 

@@ -86,17 +86,27 @@ Expected<PlannedUpdate> RecordedField::plan(const UpdatePlan& update) {
   if (s.settings.cascades > 0) memory.write(scrolling);
   s.grids = std::move(scrolling.grids);
   return PlannedUpdate{static_cast<std::uint32_t>(s.batch.count),
-                       static_cast<std::uint32_t>(s.settings.rays_per_probe), s.ray_count(),
-                       s.batch.places, s.batch.on_device};
+                       static_cast<std::uint32_t>(s.settings.rays_per_probe),
+                       s.ray_count(),
+                       s.batch.places,
+                       s.batch.on_device,
+                       s.batch.retraces};
 }
 
 void RecordedField::State::record_part(EngineRays& source, VkCommandBuffer commands,
                                        void (*part)(FieldPasses&)) {
   Recorder to(*device, commands, memory().next_timer());
   to.barrier();
-  FieldPassesVulkan passes(
-      to, {field, solver, source, source, list(), blend_weights, batch.largest_blend_weight,
-           store_dither_seed(batch.update, settings.seed)});
+  UpdateVulkan update{field,
+                      solver,
+                      source,
+                      source,
+                      list(),
+                      blend_weights,
+                      batch.largest_blend_weight,
+                      store_dither_seed(batch.update, settings.seed)};
+  if (batch.retraces) update.history = history.get();
+  FieldPassesVulkan passes(to, update);
   part(passes);
   to.barrier();
 }
@@ -115,7 +125,8 @@ void RecordedField::record_trace(VkCommandBuffer commands,
 
 void RecordedField::record_update(VkCommandBuffer commands) {
   State::EngineRays source(*state_);
-  state_->record_part(source, commands, follow_hits);
+  const bool retraces = state_->batch.retraces;
+  state_->record_part(source, commands, retraces ? follow_retraced_hits : follow_hits);
 }
 
 void RecordedField::record_maintain(VkCommandBuffer commands) const {
@@ -144,6 +155,9 @@ BufferRange RecordedField::states() const {
 }
 const std::vector<PassTime>& RecordedField::pass_times() const {
   return state_->times;
+}
+std::size_t RecordedField::bytes() const {
+  return state_->bytes();
 }
 LookupBuffers RecordedField::lookup_buffers() const {
   const FieldResources& field = state_->field;

@@ -2,6 +2,8 @@
 #include "field/vulkan/recorded_plan.h"
 
 #include <algorithm>
+#include <cassert>
+#include <set>
 
 #include "field/schedule/schedule.h"
 #include "field/vulkan/device_arguments.h"
@@ -21,6 +23,18 @@ constexpr int kLookRounds = 8;
 // Under a budget, one in this many updates also traces probes inside geometry that have waited for
 // kMaxProbeAge.
 constexpr std::uint32_t kLookUpdates = 16;
+
+// Probes of coarser cascades than this are updated no less often, so that the last rays of all
+// probes stem from few updates.
+constexpr int kMaxPeriodLevel = 5;
+
+// Ray sets that are kept besides those of the last 2^level updates: recycled probes draw new ones
+// in updates that follow edits, too.
+constexpr int kRecycledSets = 8;
+
+// Probes are placed again this many updates after static geometry was rebuilt last. An object that
+// moves in every frame without being called dynamic must not make probes jump about.
+constexpr std::uint32_t kRestUpdates = 8;
 
 // Counts of a probe's updates end here: above kMaxPlacingUpdates of recorded_field.cpp.
 constexpr int kOften = 255;
@@ -44,7 +58,13 @@ BatchPlan::BatchPlan(const FieldSettings& settings, const RecordedFieldSettings&
       counts_bounces_(settings.max_bounces >= 0),
       placing_updates_(settings.relocation ? recorded.placing_updates : 0),
       longest_(longest_average(settings)) {
-  for (const std::uint8_t level : levels) known_.push_back({level});
+  const bool all_at_once = recorded.rays_per_update == 0 && recorded.probes_per_update == 0;
+  follows_edits_ = all_at_once && !counts_bounces_;
+  const int coarsest = std::min(settings.cascades - 1, kMaxPeriodLevel);
+  most_sets_ = follows_edits_ && settings.cascades > 0 ? (1 << coarsest) + kRecycledSets : 1;
+  for (const std::uint8_t level : levels) {
+    known_.push_back({static_cast<std::uint8_t>(std::min<int>(level, kMaxPeriodLevel))});
+  }
 }
 
 bool BatchPlan::warming_up() const {
@@ -69,12 +89,70 @@ void BatchPlan::begin_placement() {
   for (Known& known : known_) known.traced = 0;
 }
 
-ProbeBatch BatchPlan::next_of_device(const UpdatePlan& update) {
+/// Lets all averages start again, as at the start.
+void BatchPlan::begin_anew() {
+  placing_since_ -= round_;
+  round_ = next_ = 0;
+  for (Known& known : known_) {
+    known.least_samples = 0.0f;
+    known.traced = 0;
+  }
+}
+
+/// Whether the last rays of all probes, and new ones of those that have none, fit into an update.
+bool BatchPlan::can_retrace() const {
+  if (!follows_edits_ || updates_ == 0) return false;
+  std::set<std::uint32_t> drawn_in;
+  for (const Known& known : known_) drawn_in.insert(known.drawn_in);
+  return static_cast<int>(drawn_in.size()) <= most_sets_;
+}
+
+/// Lets probes be placed again once rebuilt geometry keeps still.
+void BatchPlan::note_rebuilt(const UpdatePlan& update) {
+  for (const WorldChanges& change : update.changes) {
+    if (change.rebuilt.empty()) continue;
+    rebuilt_ = true;
+    rebuilt_in_ = updates_;
+  }
+}
+
+/// Plans an update after edits, in which all probes trace their last rays again. Probes that have
+/// none draw new ones.
+ProbeBatch BatchPlan::retrace() {
+  ProbeBatch batch;
+  batch.update = updates_++;
+  batch.retraces = true;
+  batch.all = true;
+  recycled_.clear();
+  for (int probe = 0; probe < probes(); ++probe) {
+    Known& known = known_[probe];
+    if (known.drawn_in == 0) known.drawn_in = batch.update + 1;
+    batch.places = batch.places || known.traced < placing_updates_;
+    known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kOften));
+    known.least_samples = std::min(known.least_samples, 1.0f);
+    batch.probes.push_back(probe);
+  }
+  // Probes of one ray set are consecutive
+  std::stable_sort(batch.probes.begin(), batch.probes.end(),
+                   [&](int a, int b) { return known_[a].drawn_in < known_[b].drawn_in; });
+  for (const int probe : batch.probes) {
+    const std::uint32_t drawn_in = known_[probe].drawn_in - 1;
+    if (batch.drawn_in.empty() || batch.drawn_in.back() != drawn_in) {
+      batch.drawn_in.push_back(drawn_in);
+    }
+    batch.ray_sets.push_back(static_cast<int>(batch.drawn_in.size()) - 1);
+  }
+  assert(static_cast<int>(batch.drawn_in.size()) <= most_sets_);
+  batch.count = static_cast<int>(batch.probes.size());
+  return batch;
+}
+
+ProbeBatch BatchPlan::next_of_device() {
   ProbeBatch batch;
   batch.count = most_;
   batch.update = updates_;
-  batch.history = update.history;
   batch.on_device = true;
+  batch.drawn_in = {updates_};
   batch.all = updates_ % kLookUpdates == 0;
   batch.places = recycles_ && placing_updates_ > 0;
   ++updates_;
@@ -124,35 +202,61 @@ void BatchPlan::count_samples(ProbeBatch& batch) {
     known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kOften));
     known.least_samples = may_move ? 0.0f : std::min(known.least_samples + 1.0f, longest_);
     known.chosen = false;
+    known.drawn_in = batch.update + 1;
   }
+  batch.drawn_in = {batch.update};
+  batch.ray_sets.assign(batch.probes.size(), 0);
   batch.largest_blend_weight = history_blend_weight(least, 1.0f, longest_);
 }
 
 ProbeBatch BatchPlan::next(const UpdatePlan& update, std::span<const int> recycled) {
-  if (update.place_again) begin_placement();
+  const bool edited = std::any_of(update.changes.begin(), update.changes.end(),
+                                  [](const WorldChanges& change) { return change.any(); });
+  note_rebuilt(update);
+  const bool at_rest = rebuilt_ && updates_ - rebuilt_in_ >= kRestUpdates;
+  const bool place_again = update.place_again || at_rest;
+  if (place_again) begin_placement();
+  if (at_rest) rebuilt_ = false;
   recycles_ = recycles_ || !recycled.empty();
+  if (follows_edits_) {
+    for (const int probe : recycled) known_[probe].drawn_in = 0;
+  }
+  const bool retraces = edited && can_retrace();
+  // Without the last rays of all probes, nobody knows how much of their averages an edit leaves
+  const bool anew = edited && !retraces;
+  if (anew) begin_anew();
   ProbeBatch batch;
   if (budget_ && rounds_are_over()) {
-    batch = next_of_device(update);
+    batch = next_of_device();
   } else {
     for (const int probe : recycled) {
       known_[probe].traced = 0;
       known_[probe].least_samples = 0.0f;
     }
-    recycled_.insert(recycled_.end(), recycled.begin(), recycled.end());
-    if (update.history < 1.0f) {
-      for (Known& known : known_) known.least_samples *= update.history;
-    }
-    batch.update = updates_++;
-    batch.history = update.history;
-    choose(batch);
-    count_samples(batch);
-    if (next_ == probes()) {
-      next_ = 0;
-      ++round_;
+    for (Known& known : known_) known.least_samples *= update.history;
+    if (retraces) {
+      batch = retrace();
+    } else {
+      recycled_.insert(recycled_.end(), recycled.begin(), recycled.end());
+      batch = next_in_round();
+      batch.discards_history = batch.discards_history || anew;
     }
   }
-  batch.place_again = update.place_again;
+  batch.history = update.history;
+  batch.place_again = place_again;
+  return batch;
+}
+
+/// Plans the next update of a round.
+ProbeBatch BatchPlan::next_in_round() {
+  ProbeBatch batch;
+  batch.update = updates_++;
+  choose(batch);
+  count_samples(batch);
+  if (next_ == probes()) {
+    next_ = 0;
+    ++round_;
+  }
   return batch;
 }
 

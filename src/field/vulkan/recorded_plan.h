@@ -21,11 +21,15 @@ inline constexpr int kMaxBatchProbes = 65535;
 
 /// The probes of one update, and what is done with them.
 struct ProbeBatch {
-  std::vector<int> probes;            ///< Empty where the device chooses.
-  int count = 0;                      ///< Their number; an upper bound where the device chooses.
-  std::uint32_t update = 0;           ///< Number of the update, counted from 0.
-  float history = 1.0f;               ///< Factor to the samples of all probes, 0 to 1.
-  bool discards_history = false;      ///< The batch's probes start their averages again.
+  std::vector<int> probes;        ///< Empty where the device chooses.
+  int count = 0;                  ///< Their number; an upper bound where the device chooses.
+  std::uint32_t update = 0;       ///< Number of the update, counted from 0.
+  float history = 1.0f;           ///< Factor to the samples of all probes, 0 to 1.
+  bool discards_history = false;  ///< The batch's probes start their averages again.
+  bool retraces = false;          ///< After edits, probes trace their last rays again.
+  /// The updates whose ray directions the probes trace, and for each probe which of these.
+  std::vector<std::uint32_t> drawn_in;
+  std::vector<int> ray_sets;
   bool on_device = false;             ///< The device chooses the probes.
   bool all = true;                    ///< Probes that are off are traced, too.
   bool places = false;                ///< Some of the probes may still be placed.
@@ -45,15 +49,19 @@ class BatchPlan {
   /// Plans an update before which the `recycled` probes have lost all that was known of them.
   ProbeBatch next(const UpdatePlan& update, std::span<const int> recycled = {});
   std::uint32_t updates() const { return updates_; }
-  /// The most probes of a batch.
+  /// The most probes and ray sets of a batch.
   int most_probes() const { return most_; }
+  int most_ray_sets() const { return most_sets_; }
+  /// Whether edits are followed exactly: all probes' last rays can be traced again at once.
+  bool follows_edits() const { return follows_edits_; }
 
  private:
   /// What the host knows of a probe.
   struct Known {
     std::uint8_t level = 0;
-    std::uint8_t traced = 0;  ///< How often, since it was placed anew; stays at kOften.
-    bool chosen = false;      ///< It is in the batch that is being planned.
+    std::uint8_t traced = 0;     ///< How often, since it was placed anew; stays at kOften.
+    bool chosen = false;         ///< It is in the batch that is being planned.
+    std::uint32_t drawn_in = 0;  ///< Number of the update that drew its last rays, from 1; 0: none.
     /// A lower bound on the updates that it has averaged: as if it moved whenever it may move.
     float least_samples = 0.0f;
   };
@@ -63,13 +71,19 @@ class BatchPlan {
   bool rounds_are_over() const;
   bool takes_part(int probe) const;
   void begin_placement();
+  void begin_anew();
+  bool can_retrace() const;
+  void note_rebuilt(const UpdatePlan& update);
+  ProbeBatch retrace();
   void choose(ProbeBatch& batch);
   void count_samples(ProbeBatch& batch);
-  ProbeBatch next_of_device(const UpdatePlan& update);
+  ProbeBatch next_in_round();
+  ProbeBatch next_of_device();
 
   std::vector<Known> known_;
   std::vector<int> recycled_;  // probes that are traced before all others
-  int most_;
+  int most_, most_sets_;
+  bool follows_edits_;
   bool budget_;          // the settings limit the rays of an update
   bool counts_bounces_;  // each update carries light through all probes
   int placing_updates_;
@@ -79,6 +93,8 @@ class BatchPlan {
   int round_ = 0;          // counted from 0
   int placing_since_ = 0;  // the first round that takes part in placement with all probes
   bool recycles_ = false;  // some probes have been recycled
+  bool rebuilt_ = false;   // static geometry was rebuilt, near which probes are to be placed again
+  std::uint32_t rebuilt_in_ = 0;  // the last update in which that happened
 };
 
 }  // namespace lambent::vulkan

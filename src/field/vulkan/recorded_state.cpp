@@ -122,22 +122,31 @@ LookupSet::~LookupSet() {
   device_.fn().vkDestroyDescriptorSetLayout(device_.handle(), layout_, nullptr);
 }
 
-UpdateMemory::UpdateMemory(const FieldResources& field, int most_probes, int rays,
+UpdateMemory::UpdateMemory(const FieldResources& field, const BatchPlan& plan, int rays,
                            bool follows_viewer, FloatArray irradiance_weights,
                            FloatArray distance_weights) {
   const Device& device = field.device();
-  const auto probes = static_cast<std::size_t>(most_probes);
+  const auto probes = static_cast<std::size_t>(plan.most_probes());
+  const auto most_sets = static_cast<std::size_t>(plan.most_ray_sets());
   list.indices = Buffer(device, probes * sizeof(int), Memory::upload, "probes");
-  // All probes use ray set 0, which is what fresh memory holds
   list.ray_sets = Buffer(device, probes * sizeof(int), Memory::upload, "their ray sets");
-  list.blocks = Buffer(device, groups_of(most_probes, kBlockProbes) * sizeof(ProbeBlock),
-                       Memory::upload, "blocks of probes");
+  // The last block of a ray set may have fewer probes
+  list.blocks =
+      Buffer(device, (groups_of(plan.most_probes(), kBlockProbes) + most_sets) * sizeof(ProbeBlock),
+             Memory::upload, "blocks of probes");
   list.most_rays = rays;
-  directions = Buffer(device, rays * sizeof(vec3), Memory::upload, "directions of rays");
-  set = Buffer(device, sizeof(RaySetRecord), Memory::upload, "ray set");
-  set.as<RaySetRecord>()[0] = {
-      {directions.address()}, irradiance_weights, distance_weights, rays, 0u};
-  list.sets = {set.address()};
+  directions =
+      Buffer(device, most_sets * rays * sizeof(vec3), Memory::upload, "directions of rays");
+  sets = Buffer(device, most_sets * sizeof(RaySetRecord), Memory::upload, "ray sets");
+  for (std::size_t set = 0; set < most_sets; ++set) {
+    sets.as<RaySetRecord>()[set] = {
+        directions_of(static_cast<int>(set), rays),
+        {irradiance_weights.address + set * field.irradiance_weight_bytes(rays)},
+        {distance_weights.address + set * field.distance_weight_bytes(rays)},
+        rays,
+        0u};
+  }
+  list.sets = {sets.address()};
   if (follows_viewer) {
     grids = Buffer(device, field.grids().bytes(), Memory::upload, "scrolled grids");
     recycled = Buffer(device, field.probes() * sizeof(int), Memory::upload, "recycled probes");
@@ -159,16 +168,26 @@ std::vector<PassTime> UpdateMemory::take_times() {
 }
 
 void UpdateMemory::write(const ProbeBatch& batch, const FieldSettings& settings) {
-  const std::vector<vec3> drawn =
-      probe_ray_directions(settings.rays_per_probe, batch.update, settings.seed);
-  std::copy(drawn.begin(), drawn.end(), directions.as<vec3>().begin());
-  set.as<RaySetRecord>()[0].update = batch.update;
+  for (std::size_t set = 0; set < batch.drawn_in.size(); ++set) {
+    const std::vector<vec3> drawn =
+        probe_ray_directions(settings.rays_per_probe, batch.drawn_in[set], settings.seed);
+    std::copy(drawn.begin(), drawn.end(),
+              directions.as<vec3>().begin() + static_cast<std::ptrdiff_t>(set * drawn.size()));
+    sets.as<RaySetRecord>()[set].update = batch.drawn_in[set];
+  }
   list.probes = batch.probes;
   std::copy(list.probes.begin(), list.probes.end(), list.indices.as<int>().begin());
-  list.block_count = static_cast<int>(groups_of(list.count(), kBlockProbes));
-  for (int b = 0; b < list.block_count; ++b) {
-    const int first = b * kBlockProbes;
-    list.blocks.as<ProbeBlock>()[b] = {first, std::min(kBlockProbes, list.count() - first), 0};
+  std::copy(batch.ray_sets.begin(), batch.ray_sets.end(), list.ray_sets.as<int>().begin());
+  const std::span<ProbeBlock> blocks = list.blocks.as<ProbeBlock>();
+  list.block_count = 0;
+  for (int k = 0; k < list.count(); ++k) {
+    ProbeBlock* last = list.block_count > 0 ? &blocks[list.block_count - 1] : nullptr;
+    const int set = batch.ray_sets[k];
+    if (last == nullptr || last->ray_set != set || last->count == kBlockProbes) {
+      last = &blocks[list.block_count++];
+      *last = {k, 0, set};
+    }
+    ++last->count;
   }
 }
 
@@ -202,10 +221,11 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
   hits = device_buffer<HitRecord>(*device, ray_room, "hits of probes' rays");
   results = device_buffer<RayResult>(*device, ray_room, "results of probes' rays");
   blend_weights = device_buffer<float>(*device, probes, "blend weights");
-  irradiance_weights = Buffer(*device, field.irradiance_weight_bytes(of.rays_per_probe),
-                              Memory::device, "weights of rays");
-  distance_weights = Buffer(*device, field.distance_weight_bytes(of.rays_per_probe), Memory::device,
-                            "weights of rays");
+  const auto most_sets = static_cast<std::size_t>(plan.most_ray_sets());
+  irradiance_weights = device_buffer<std::byte>(
+      *device, most_sets * field.irradiance_weight_bytes(of.rays_per_probe), "weights of rays");
+  distance_weights = device_buffer<std::byte>(
+      *device, most_sets * field.distance_weight_bytes(of.rays_per_probe), "weights of rays");
   const FieldRecord lookup = {field.store(), shape.volumes(), 0};
   record = upload(*device, std::span(&lookup, 1), "field");
   device->run([&](Recorder& to) {
@@ -216,15 +236,33 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
   field.reserve_surfels(of.rays_per_probe);
   field.reserve_seen(largest);
   solver.reserve(largest);
+  if (plan.follows_edits()) {
+    history = std::make_unique<DeviceHistory>(field, solver, probe_states(), largest);
+  }
   if (recorded.rays_per_update > 0) {
     schedule =
         std::make_unique<DeviceSchedule>(field, roles, plan.most_probes(), of.rays_per_probe);
   }
   for (int i = 0; i < recorded.frames_in_flight; ++i) {
-    ring.emplace_back(field, plan.most_probes(), of.rays_per_probe, of.cascades > 0,
+    ring.emplace_back(field, plan, of.rays_per_probe, of.cascades > 0,
                       FloatArray{irradiance_weights.address()},
                       FloatArray{distance_weights.address()});
   }
+}
+
+std::size_t UpdateMemory::bytes() const {
+  return bytes_of(
+      {&list.indices, &list.ray_sets, &list.blocks, &directions, &sets, &grids, &recycled});
+}
+
+std::size_t RecordedField::State::bytes() const {
+  std::size_t bytes = field.bytes() + solver.bytes() +
+                      bytes_of({&standing, &states, &record, &rays, &hits, &results, &blend_weights,
+                                &irradiance_weights, &distance_weights});
+  if (schedule) bytes += schedule->bytes();
+  if (history) bytes += history->bytes();
+  for (const UpdateMemory& memory : ring) bytes += memory.bytes();
+  return bytes;
 }
 
 ScrolledVolumes RecordedField::State::scroll(const std::optional<vec3>& viewer_ws) const {

@@ -54,7 +54,7 @@ class LookupSet {
 
 /// Memory that the host writes for an update and the device reads until the update has run.
 struct UpdateMemory {
-  UpdateMemory(const FieldResources& field, int most_probes, int rays, bool follows_viewer,
+  UpdateMemory(const FieldResources& field, const BatchPlan& plan, int rays, bool follows_viewer,
                FloatArray irradiance_weights, FloatArray distance_weights);
   /// Writes the probes and ray directions of a batch.
   void write(const ProbeBatch& batch, const FieldSettings& settings);
@@ -65,10 +65,16 @@ struct UpdateMemory {
   /// Returns what times the next part of the update, or null where all parts have been recorded.
   Timestamps* next_timer() { return parts < timers.size() ? timers[parts++].get() : nullptr; }
 
+  std::size_t bytes() const;
+  /// The directions of a ray set of the batch.
+  Vec3Array directions_of(int set, int rays) const {
+    return {directions.address() + static_cast<std::size_t>(set) * rays * sizeof(vec3)};
+  }
+
   DeviceProbes list;
   std::vector<std::unique_ptr<Timestamps>> timers;  ///< One per part of an update.
   std::size_t parts = 0;                            ///< The number of parts recorded so far.
-  Buffer directions, set;
+  Buffer directions, sets;
   Buffer grids, recycled;  ///< Empty where no volume follows the viewer.
   int recycled_count = 0;
 };
@@ -94,6 +100,7 @@ struct RecordedField::State {
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
+  std::size_t bytes() const;
   /// Records a part of an update into an engine's command buffer, between barriers.
   void record_part(EngineRays& source, VkCommandBuffer commands, void (*part)(FieldPasses&));
 
@@ -110,10 +117,11 @@ struct RecordedField::State {
   const EngineTracer& tracer;
   LookupSet lookup_set;
   std::unique_ptr<DeviceSchedule> schedule;  // null: the host plans all batches
+  std::unique_ptr<DeviceHistory> history;    // null: averages start again after edits
   ProbeBatch batch;
   Buffer standing, states;  // one entry per probe of the field
   Buffer record;            // the FieldRecord for engines' lookups
-  // One entry per probe or ray of an update, and the ray set's matrices
+  // One entry per probe or ray of an update, and the matrices of its ray sets
   Buffer rays, hits, results, blend_weights, irradiance_weights, distance_weights;
   std::vector<UpdateMemory> ring;
   std::vector<PassTime> times;  // of the last update that has finished
@@ -140,6 +148,8 @@ class RecordedField::State::EngineRays final : public RaySourceVulkan, public Va
               Vec4Array before) override;
 
  private:
+  void record_weights(Recorder& to) const;
+
   State& s_;
 };
 

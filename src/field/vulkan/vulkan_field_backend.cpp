@@ -30,6 +30,13 @@ std::uint32_t timed_passes(const WorldRaysVulkan& rays) {
   return kTimedPasses + kBatchPasses * static_cast<std::uint32_t>(rays.batches());
 }
 
+std::vector<PassTime> pass_times(const vulkan::Timestamps& timestamps) {
+  std::vector<PassTime> times;
+  for (const vulkan::DevicePassTime& pass : timestamps.read())
+    times.push_back({pass.name, pass.ms});
+  return times;
+}
+
 /// Brings the changes of light to where the host reads them, which schedules.
 class ChangesForHost final : public VariabilityVulkan {
  public:
@@ -46,6 +53,14 @@ class ChangesForHost final : public VariabilityVulkan {
 
  private:
   const FieldResources& field_;
+};
+
+/// Of passes that change no light.
+class Unchanged final : public VariabilityVulkan {
+ public:
+  void record(Recorder&, const DeviceProbes&, FloatArray, Vec4Array) override {
+    assert(!"no light was solved for");
+  }
 };
 
 }  // namespace
@@ -157,9 +172,7 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
     rays.record_counts(to);
   });
   light_is_newer_ = store_is_newer_ = true;
-  for (const vulkan::DevicePassTime& pass : timestamps.read()) {
-    result.passes.push_back({pass.name, pass.ms});
-  }
+  result.passes = pass_times(timestamps);
   result.probe_rays = rays.probe_rays();
   result.shadow_rays = rays.other_rays();
   const DeviceSolve solved = solver_.result();
@@ -180,18 +193,20 @@ InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<con
   const DeviceProbes list = field_.list(traced), everyone = field_.list(traced_among(among));
   WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(world), list, {},
                        /*sees=*/false);
-  device_->run([&](Recorder& to) {
-    field_.record_distances_before(to, list);
-    for (int batch = 0; batch < rays.batches(); ++batch) {
-      rays.trace(to, batch);
-      rays.shade(to, batch);
-    }
-    field_.record_move_distances(to, list, dither_seed);
-    field_.record_lookups(to, everyone, rays.tracer());
+  Unchanged unchanged;
+  const Buffer no_weights;
+  UpdateVulkan update{field_, solver_, rays, unchanged, list, no_weights};
+  update.dither_seed = dither_seed;
+  update.readers = &everyone;
+  vulkan::Timestamps timestamps(*device_, timed_passes(rays));
+  device_->run([&](Recorder& untimed) {
+    Recorder to(*device_, untimed.commands(), &timestamps);
+    FieldPassesVulkan passes(to, update);
+    retrace_probes(passes);
     rays.record_counts(to);
   });
   store_is_newer_ = true;
-  return {rays.probe_rays(), rays.other_rays(), {}};
+  return {rays.probe_rays(), rays.other_rays(), {}, pass_times(timestamps)};
 }
 
 SolveResult VulkanFieldBackend::solve(std::span<const int> probes,

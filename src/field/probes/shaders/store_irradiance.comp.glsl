@@ -15,6 +15,7 @@ void main() {
   int t = int(gl_GlobalInvocationID.x);
   int k = int(gl_GlobalInvocationID.y);
   if (k >= args.count || t >= kIrradianceTexels * kIrradianceTexels) return;
+  if (args.has_changed != 0u && args.changed.at[k] == 0u) return;
   int probe = args.probes.at[k];
   vec3 light = args.light.at[probe * kIrradianceTexels * kIrradianceTexels + t].xyz;
   int width = kIrradianceTexels + 2;

@@ -20,7 +20,16 @@ void main() {
     args.blend_weights.at[k] = 0.0;
     return;
   }
-  float averaged = args.discards_history != 0u ? 0.0 : args.probes.standing.at[probe].samples;
+  args.offsets.at[probe] = args.probes.standing.at[probe].offset;
+  float averaged = args.probes.standing.at[probe].samples;
+  if (args.history == kHistoryRetraced) {
+    // The history ratio keeps what was averaged
+    bool known = has_history(args.probes.states.at[probe], averaged);
+    args.probes.standing.at[probe].samples = known ? averaged : 1.0;
+    args.blend_weights.at[k] = 1.0;
+    return;
+  }
+  if (args.history == kHistoryDiscarded) averaged = 0.0;
   float blend_weight = history_blend_weight(averaged, 1.0, args.longest);
   args.blend_weights.at[k] = blend_weight;
   // Positive floats are ordered as their bits are
@@ -28,5 +37,5 @@ void main() {
     atomicMax(args.largest_blend_weight.at[0], floatBitsToUint(blend_weight));
   }
   args.probes.standing.at[probe].samples = min(averaged + 1.0, args.longest);
-  args.offsets.at[probe] = args.probes.standing.at[probe].offset;
+  args.probes.standing.at[probe].coarse = 1u;
 }

@@ -19,11 +19,12 @@ void main() {
     args.rays.at[k * args.rays_per_probe + ray].mask = 0u;
     return;
   }
-  int probe = args.list.at[k];
+  int probe = args.list.probes.at[k];
   ProbeGrid grid = args.grids.at[volume_of(args.grids, probe)];
   vec3 offset = decode_probe_offset(args.probes.standing.at[probe].offset);
   vec3 origin = placed_position(grid, probe_coords(grid, probe), offset);
-  RayRecord record = probe_ray_record(origin, args.directions.at[ray]);
+  Vec3Array directions = args.list.sets.at[args.list.ray_sets.at[k]].directions;
+  RayRecord record = probe_ray_record(origin, directions.at[ray]);
   bool rests = probe_rests(args.probes.states.at[probe], args.probes.standing.at[probe].placed,
                            args.placing_updates, args.all);
   record.mask = rests ? 0u : args.mask;

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arguments of the kernels that apply edits to a recorded field. Arrays "of the list" have the
+// texels of the probes that are traced again, in the order of the list.
+#ifndef LAMBENT_FIELD_EDITS_EDIT_ARGUMENTS_H
+#define LAMBENT_FIELD_EDITS_EDIT_ARGUMENTS_H
+
+#include "field/vulkan/device_arguments.h"
+#include "field/vulkan/recorded_arguments.h"
+
+LAMBENT_BEGIN
+
+/// UintArray blocked_before of move_distances: the probe has no history, and takes its new
+/// distances as they are.
+const uint kNoDistancesBefore = 2u;
+
+/// Arguments of gather_tiles, which copies tiles of a list out of the arrays of all probes.
+struct GatherTilesArguments {
+  IntArray probes;
+  Vec4Array light;          ///< Of all probes.
+  Vec4Array last_estimate;  ///< Of all probes.
+  Vec4Array light_before;   ///< Of the list.
+  Vec4Array estimate;       ///< Of the list.
+  int count;
+  int unused;
+};
+
+/// Arguments of history_ratio, which computes the history ratios of a list. `estimate` holds what
+/// the last rays estimate from the light that all probes hold now; it counts for probes that were
+/// traced since the last edit only.
+struct HistoryRatioArguments {
+  ProbeStates probes;
+  IntArray list;
+  Vec4Array last_estimate;  ///< Of all probes.
+  Vec4Array light_before;
+  Vec4Array estimate;
+  Vec4Array history_ratio;
+  UintArray blocked_before;
+  int count;
+  int unused;
+};
+
+// The steps of scale_light.
+const uint kSumDirectLight = 0u;  ///< One workgroup finds by how much direct light became brighter.
+const uint kScaleLight = 1u;      ///< Scales the list's light by that, one lane per texel.
+
+// The lanes of scale_light's workgroups.
+const int kSumDirectLanes = 256;
+
+/// Arguments of scale_light, which gives a solve after an edit a good start.
+struct ScaleLightArguments {
+  IntArray list;
+  Vec4Array light;          ///< Of all probes.
+  Vec4Array direct_before;  ///< Direct light that the list's probes received before the edit, ...
+  Vec4Array direct_after;   ///< ... and after it.
+  FloatArray brighter;      ///< One word.
+  int count;
+  uint step;
+};
+
+/// Arguments of keep_unchanged, which gives those probes of a list their old light back that an
+/// edit did not change visibly, and lets the history of the others count less.
+struct KeepUnchangedArguments {
+  ProbeStates probes;
+  IntArray list;
+  Vec4Array light;          ///< Of all probes.
+  Vec4Array last_estimate;  ///< Of all probes.
+  Vec4Array light_before;
+  Vec4Array solution;
+  Vec4Array history_ratio;
+  UintArray changed;  ///< One word per probe of the list: 1 where its light changed, else 0.
+  int count;
+  int unused;
+};
+
+LAMBENT_END
+#endif

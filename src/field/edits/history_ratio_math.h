@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// By how much averaging over updates corrects what the last rays of a probe estimate alone, and
+// which changes by edits are visible. See apply_scene_edits.cpp.
+#ifndef LAMBENT_FIELD_EDITS_HISTORY_RATIO_MATH_H
+#define LAMBENT_FIELD_EDITS_HISTORY_RATIO_MATH_H
+
+#include "field/probes/tile_light_math.h"
+
+LAMBENT_BEGIN
+
+// The estimate of one update's rays is corrected by at most this factor. Where it is further off,
+// the rays met too little light for a correction to make sense.
+const float kMaxHistoryRatio = 2.0f;
+
+// A probe whose light an edit changes by less than this fraction keeps its old light and its
+// history. It is half of the smallest visible difference.
+const float kChangedFraction = 0.005f;
+
+/// The factor that turns the last estimate of a texel into what the probe holds, within
+/// kMaxHistoryRatio.
+LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) {
+  vec4 history_ratio = vec4(1.0f);
+  for (int c = 0; c < 3; ++c) {
+    if (last_irradiance_estimate[c] > kTiniestLight) {
+      history_ratio[c] =
+          clamp(held[c] / last_irradiance_estimate[c], 1.0f / kMaxHistoryRatio, kMaxHistoryRatio);
+    }
+  }
+  return history_ratio;
+}
+
+/// The number of samples that an average is still worth after an edit changed its light. `likeness`
+/// is that of the light's distribution after the edit to the one before.
+LAMBENT_FN float samples_after_edit(float samples, float likeness) {
+  return max(samples * likeness * likeness, 1.0f);
+}
+
+LAMBENT_END
+#endif
