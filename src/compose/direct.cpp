@@ -11,11 +11,10 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 1024;
 
-/// A shadow ray's stake: what the pixel gains if it arrives.
+/// What a pixel gains if a shadow ray arrives.
 struct PendingLight {
   std::size_t pixel;
-  vec3 diffuse;
-  vec3 specular;
+  ReflectedPair light;
 };
 
 }  // namespace
@@ -38,25 +37,22 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
       const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[i]);
       RandomStream random = make_random_stream(static_cast<uint>(first_pixel + i),
                                                static_cast<uint>(sample), settings.seed);
-      for_each_light(world, {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws},
-                     settings.emissive_samples, random, [&](const LightCandidate& candidate) {
-                       if (dot(surface.geometric_normal_ws, candidate.to_light) <= 0.0f) return;
-                       const vec3 to_light = to_local(frame, candidate.to_light);
-                       const ReflectedPair share =
-                           evaluate_reflectance(surface.reflectance, to_viewer, to_light);
-                       if (share.diffuse == vec3(0.0f) && share.specular == vec3(0.0f)) return;
-                       pending.push_back({i, share.diffuse * candidate.perpendicular_irradiance,
-                                          share.specular * candidate.perpendicular_irradiance});
-                       shadows.push_back(
-                           shadow_ray(surface.position_ws, surface.geometric_normal_ws, candidate));
-                     });
+      const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
+      for_each_light(
+          world, point, settings.emissive_samples, random, [&](const LightCandidate& candidate) {
+            const ReflectedPair pair =
+                unoccluded_reflection(surface.reflectance, frame, to_viewer, point, candidate);
+            if (pair.diffuse + pair.specular == vec3(0.0f)) return;
+            pending.push_back({i, pair});
+            shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, candidate));
+          });
     }
     std::vector<std::uint8_t> occluded(shadows.size());
     tracer_of(world).occlusions(shadows, occluded);
     for (std::size_t k = 0; k < pending.size(); ++k) {
       if (occluded[k] != 0) continue;
-      light.diffuse[pending[k].pixel] += pending[k].diffuse;
-      light.specular[pending[k].pixel] += pending[k].specular;
+      light.diffuse[pending[k].pixel] += pending[k].light.diffuse;
+      light.specular[pending[k].pixel] += pending[k].light.specular;
     }
     rays += shadows.size();
   });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of a frame on the processor.
-#include <algorithm>
 #include <optional>
 
 #include "compose/frame_passes.h"
@@ -68,13 +67,11 @@ void look_up(const World& world, const IrradianceField& field, const GBuffer& gb
 /// Takes what another source brings out of the field's light, and adds that source's own.
 void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<vec3>& added,
                    std::vector<vec3>& irradiance) {
-  irradiance.resize(std::max({irradiance.size(), subtracted_field.size(), added.size()}),
-                    vec3(0.0f));
+  irradiance.resize(added.size(), vec3(0.0f));
   parallel_chunks(irradiance.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!added.empty()) irradiance[i] += added[i];
-      if (!subtracted_field.empty()) irradiance[i] -= subtracted_field[i];
-      irradiance[i] = max(irradiance[i], vec3(0.0f));
+      irradiance[i] = replaced_light(irradiance[i], added[i],
+                                     subtracted_field.empty() ? vec3(0.0f) : subtracted_field[i]);
     }
   });
 }

@@ -9,12 +9,63 @@
 #include <string>
 #include <vector>
 
-#include "compose/frame_kernels.h"
 #include "compose/frame_passes.h"
+#include "compose/frame_records.h"
+#include "compose/pixel_math.h"
 #include "raytracing/vulkan/device_world.h"
+#include "raytracing/vulkan/hit_shading.h"
+#include "rsm/vulkan/gather_vulkan.h"
+#include "shaders/camera_rays_comp.h"
+#include "shaders/compose_comp.h"
+#include "shaders/gather_rays_comp.h"
+#include "shaders/gather_sum_comp.h"
+#include "shaders/pixel_queries_comp.h"
+#include "shaders/ray_queries_comp.h"
+#include "shaders/replace_light_comp.h"
+#include "shaders/view_geometry_comp.h"
+#include "vulkan/buffer.h"
+#include "vulkan/kernel.h"
 #include "vulkan/recorder.h"
 
 namespace lambent {
+
+/// Kernels of frames, kept by the device (Device::kept).
+struct FrameKernels {
+  explicit FrameKernels(const vulkan::Device& on) : device(on) {}
+
+  const vulkan::Device& device;
+  std::mutex in_use;  ///< Frames on a device take turns.
+  vulkan::Kernel camera_rays{device, shaders::camera_rays_comp(), "camera rays"};
+  vulkan::Kernel pixel_queries{device, shaders::pixel_queries_comp(), "pixel queries"};
+  vulkan::Kernel gather_rays{device, shaders::gather_rays_comp(), "gather rays"};
+  vulkan::Kernel ray_queries{device, shaders::ray_queries_comp(), "ray queries"};
+  vulkan::Kernel gather_sum{device, shaders::gather_sum_comp(), "gather sum"};
+  vulkan::Kernel replace_light{device, shaders::replace_light_comp(), "replace light"};
+  vulkan::Kernel view_geometry{device, shaders::view_geometry_comp(), "view geometry"};
+  vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
+};
+
+/// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
+struct FrameMemory {
+  explicit FrameMemory(const vulkan::Device& device)
+      : pixel_shading(device), gather_shading(device), mapper(device), rsm(device) {}
+
+  HitShading pixel_shading, gather_shading;
+  RsmMapperVulkan mapper;
+  RsmGathererVulkan rsm;
+  RsmMapsOnDevice maps;
+
+  // Of a band's pixels
+  vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;
+  vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
+  // Of the rays that gather some pixels' light
+  vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
+      gathered_direct, gathered_field;
+  // Positions, normals and depths of a band's pixels, and of the small picture that maps light
+  vulkan::Buffer band_geometry[3], small_geometry[3];
+  // Of the whole picture
+  vulkan::Buffer layers;
+};
 
 class FramePassesVulkan final : public FramePasses {
  public:

@@ -83,7 +83,7 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
     std::vector<FieldQuery> queries(rays.size());
     std::vector<vec3> from_field(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      queries[i] = {shaded[i].position_ws, shaded[i].normal_ws, -rays[i].direction};
+      queries[i] = {shaded[i].point.position_ws, shaded[i].point.normal_ws, -rays[i].direction};
     }
     field.irradiance(queries, from_field, &world);
 
@@ -94,11 +94,8 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
       const std::size_t pixel = pixels[i / rays_per_pixel];
       const vec3 geometric_normal_ws = gbuffer.surfaces[pixel].geometric_normal_ws;
       if (dot(geometric_normal_ws, rays[i].direction) <= 0.0f) continue;
-      const ShadedHit& hit = shaded[i];
-      const vec3 radiance = hit.albedo_over_pi * (hit.direct_irradiance +
-                                                  (hit.receives_gi ? from_field[i] : vec3(0.0f))) +
-                            hit.sky_radiance;
-      irradiance[pixel] += weight * radiance;
+      irradiance[pixel] +=
+          weight * gathered_radiance(shaded[i].surface, shaded[i].direct_irradiance, from_field[i]);
     }
   });
   return traced;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where samples of a pixel lie, the rays that gather its light, and what its surface makes of
-// light.
+// Where samples of a pixel lie, the rays that gather its light, what its surface makes of light,
+// and the layers that it shows.
 #ifndef LAMBENT_COMPOSE_PIXEL_MATH_H
 #define LAMBENT_COMPOSE_PIXEL_MATH_H
 
+#include "raytracing/shaded_hit.h"
 #include "shared/brdf.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
@@ -46,6 +47,20 @@ LAMBENT_FN vec3 reflected_indirect(Reflectance reflectance, vec3 irradiance) {
 LAMBENT_FN vec3 reflected_glossy(Reflectance reflectance, float n_dot_v, vec3 mirror_irradiance) {
   if (reflectance.f90 <= 0.0f) return vec3(0.0f);
   return specular_albedo(reflectance, n_dot_v) * mirror_irradiance * kInvPi;
+}
+
+/// Radiance that a gathering ray brings back but for what its hit emits, which is direct light.
+/// `direct` and `field` are the irradiance of the hit from lights and from the field.
+LAMBENT_FN vec3 gathered_radiance(ShadedHitRecord hit, vec3 direct, vec3 field) {
+  bool receives_gi = (hit.flags & kSurfaceReceivesGi) != 0u;
+  bool sky = (hit.flags & kSurfaceMissed) != 0u;
+  return hit.albedo_over_pi * (direct + (receives_gi ? field : vec3(0.0f))) +
+         (sky ? hit.radiance : vec3(0.0f));
+}
+
+/// The field's light at a pixel once another source has taken the place of a part of it.
+LAMBENT_FN vec3 replaced_light(vec3 irradiance, vec3 added, vec3 subtracted_field) {
+  return max(irradiance + added - subtracted_field, vec3(0.0f));
 }
 
 LAMBENT_END

@@ -3,13 +3,12 @@
 // emissive triangles.
 #pragma once
 
-#include <cmath>
-
 #include "lambent/world.h"
 #include "raytracing/emitter_sampling.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
+#include "shared/brdf.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -28,12 +27,34 @@ struct LitPoint {
   glm::vec3 geometric_normal_ws;
 };
 
-/// A point drawn from the emissive triangles by power; `u` are three uniform numbers.
-EmitterPoint sample_emitter_by_power(const World& world, const glm::vec3& position_ws,
-                                     const glm::vec3& u);
+/// What a point's candidates are drawn from.
+struct LightDraws {
+  const World& world;
+  int emissive_samples;  ///< Points of emissive triangles, >= 1.
+};
 
-/// The emissive triangle that a ray about the normal, drawn by the cosine, meets first, if any.
-EmitterPoint sample_emitter_by_cosine(const World& world, const LitPoint& point, const vec2& u);
+// What direct_light.inl.h asks for.
+using LitPointRef = const LitPoint&;
+using DrawsRef = const LightDraws&;
+
+inline uint light_count(const LightDraws& draws) {
+  return static_cast<uint>(draws.world.scene().lights.size());
+}
+inline LightRecord fetch_light(const LightDraws& draws, uint light) {
+  return light_record(draws.world.scene().lights[light]);
+}
+inline uint emitter_samples(const LightDraws& draws) {
+  return emissive_of(draws.world).empty() ? 0u : static_cast<uint>(draws.emissive_samples);
+}
+inline EmissiveSample fetch_emissive_sample(const LightDraws& draws, const vec3& u) {
+  return emissive_of(draws.world).sample(u);
+}
+/// Traces a ray off the point's surface, and finds the emissive triangle that it meets first, if
+/// any.
+EmitterPoint find_emitter(const LightDraws& draws, const LitPoint& point, uint sample_index,
+                          const vec3& direction);
+
+#include "raytracing/direct_light.inl.h"
 
 /// Calls visit(LightCandidate) for every directional, point and spot light that reaches the point
 /// unoccluded, and for `emissive_samples` points of emissive triangles, whose expected sum is what
@@ -41,20 +62,11 @@ EmitterPoint sample_emitter_by_cosine(const World& world, const LitPoint& point,
 template <class Visit>
 void for_each_light(const World& world, const LitPoint& point, int emissive_samples,
                     RandomStream& random, Visit visit) {
-  for (const Light& light : world.scene().lights) {
-    const PunctualSample sample = sample_punctual(light, point.position_ws);
-    if (sample.irradiance == glm::vec3(0.0f)) continue;
-    visit(LightCandidate{sample.to_light, sample.distance, sample.irradiance});
-  }
-  if (emissive_of(world).empty()) return;
-  const float share = 1.0f / static_cast<float>(emissive_samples);
-  for (int i = 0; i < emissive_samples; ++i) {
-    const EmitterDraw draw = draw_emitter(random, i, share);
-    const EmitterPoint emitter =
-        draw.by_cosine != 0 ? sample_emitter_by_cosine(world, point, vec2(draw.u.y, draw.u.z))
-                            : sample_emitter_by_power(world, point.position_ws, draw.u);
-    if (emitter.radiance == glm::vec3(0.0f)) continue;
-    visit(emitter_candidate(emitter, point.normal_ws, share));
+  const LightDraws draws{world, emissive_samples};
+  const uint slots = slot_count(draws);
+  for (uint slot = 0; slot < slots; ++slot) {
+    const LightCandidate light = candidate_of_slot(draws, point, slot, random);
+    if (light.perpendicular_irradiance != vec3(0.0f)) visit(light);
   }
 }
 

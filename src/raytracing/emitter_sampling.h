@@ -17,6 +17,12 @@ struct LightCandidate {
   vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
 };
 
+/// A candidate that brings nothing.
+LAMBENT_FN LightCandidate no_candidate() {
+  LightCandidate none = {vec3(0.0f), 0.0f, vec3(0.0f)};
+  return none;
+}
+
 /// Length of the ray that asks whether a candidate reaches a point [m].
 LAMBENT_FN float shadow_ray_length(float distance) {
   return distance * (1.0f - kShadowRayShortening);
@@ -86,11 +92,14 @@ LAMBENT_FN EmitterPoint emitter_drawn(EmissiveSample drawn, vec3 position_ws) {
 }
 
 /// A point that a ray drawn by the cosine met.
-LAMBENT_FN EmitterPoint emitter_met(vec3 direction, float distance, vec3 radiance, vec3 normal_ws,
-                                    float pdf_area) {
-  EmitterPoint emitter = {
-      direction, distance, radiance,
-      solid_angle_pdf(pdf_area, distance * distance, abs(dot(normal_ws, direction)))};
+LAMBENT_FN EmitterPoint emitter_met(EmissiveSample met, vec3 direction, float distance) {
+  EmitterPoint emitter = no_emitter();
+  if (met.pdf_area <= 0.0f) return emitter;
+  emitter.to_light = direction;
+  emitter.distance = distance;
+  emitter.radiance = met.radiance;
+  emitter.pdf_power =
+      solid_angle_pdf(met.pdf_area, distance * distance, abs(dot(met.normal_ws, direction)));
   return emitter;
 }
 

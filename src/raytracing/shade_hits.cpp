@@ -17,10 +17,9 @@ void queue_direct_light(const World& world, const DirectLightQuery& query, std::
   RandomStream random =
       make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
   for_each_light(world, point, settings.emissive_samples, random, [&](const LightCandidate& light) {
-    const float cosine = glm::dot(point.normal_ws, light.to_light);
-    const float side = glm::dot(point.geometric_normal_ws, light.to_light);
-    if (cosine <= 0.0f || side <= 0.0f) return;
-    scratch.pending.push_back({place, light.perpendicular_irradiance * cosine});
+    const glm::vec3 irradiance = unoccluded_irradiance(point, light);
+    if (irradiance == glm::vec3(0.0f)) return;
+    scratch.pending.push_back({place, irradiance});
     scratch.shadow_rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));
   });
 }
@@ -58,35 +57,23 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
 
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ShadedHit& result = shaded[i];
-    result = {};
-    result.normal_ws = result.geometric_normal_ws = -rays[i].direction;
-    result.position_ws = rays[i].origin;
+    const glm::vec3& direction = rays[i].direction;
+    result = {{rays[i].origin, -direction, -direction}, {}, glm::vec3(0.0f)};
     if (hits[i].missed()) {
-      result.sky_radiance = sky_radiance(scene.environment, rays[i].direction);
+      result.surface = shaded_sky(sky_radiance(scene.environment, direction));
       continue;
     }
 
     // Record the surface
     const Surface surface =
         surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
-    result.position_ws = surface.position_ws;
-    result.normal_ws = surface.normal_ws;
-    result.geometric_normal_ws = surface.geometric_normal_ws;
-    if (!surface.front_face && !surface.double_sided && !settings.back_faces_count) {
-      result.counts = false;
-      continue;
-    }
-    result.emission = surface.emission;
-    result.receives_gi = surface.receives_gi;
-    const float n_dot_v = -glm::dot(surface.normal_ws, rays[i].direction);
-    const glm::vec3 albedo =
-        glm::min(effective_albedo(surface.reflectance, n_dot_v), glm::vec3(settings.max_albedo));
-    result.albedo_over_pi = albedo * kInvPi;
+    result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
+    result.surface = shaded_surface(surface, direction, settings.max_albedo,
+                                    settings.back_faces_count ? 1u : 0u);
 
     // Ask for the light that may reach it
-    if (albedo == glm::vec3(0.0f)) continue;
-    scratch.queries.push_back(
-        {{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws}, first_index + i});
+    if (result.surface.albedo_over_pi == glm::vec3(0.0f)) continue;
+    scratch.queries.push_back({result.point, first_index + i});
     scratch.hits.push_back(i);
   }
 

@@ -8,20 +8,16 @@
 
 #include "raytracing/direct_light.h"
 #include "raytracing/raytracer.h"
+#include "raytracing/shaded_hit.h"
 
 namespace lambent {
 
-/// A point that a ray met, lit directly. Where the ray left the scene: no surface, and the sky.
+/// A point that a ray met, lit directly. Where the ray left the scene, the point is the ray's
+/// origin with normals against its direction.
 struct ShadedHit {
-  glm::vec3 position_ws{0.0f};
-  glm::vec3 normal_ws{0.0f};            ///< Unit, towards the ray's origin.
-  glm::vec3 geometric_normal_ws{0.0f};  ///< Of the triangle, likewise.
-  glm::vec3 albedo_over_pi{0.0f};  ///< Diffuse and specular together [1/sr]; 0: reflects nothing.
-  glm::vec3 direct_irradiance{0.0f};  ///< From lights and emissive surfaces [W/m^2].
-  glm::vec3 sky_radiance{0.0f};       ///< Of a ray that left the scene [W/(m^2 sr)], else 0.
-  glm::vec3 emission{0.0f};           ///< Radiance of the surface itself [W/(m^2 sr)].
-  bool receives_gi = true;            ///< Indirect light reaches the surface.
-  bool counts = true;                 ///< false: the back of a single-sided surface.
+  LitPoint point;
+  ShadedHitRecord surface;
+  glm::vec3 direct_irradiance;  ///< From lights and emissive surfaces [W/m^2].
 };
 
 /// How hits are shaded.

@@ -11,7 +11,7 @@
 //   bool receives_gi(InstanceRef instance)
 
 /// Tangent with handedness, in object space, that a texture is laid out by.
-LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePoint p, vec3 edge1,
+LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p, vec3 edge1,
                            vec3 edge2) {
   if (has_tangents(mesh)) {
     return interpolate(fetch_tangent(mesh, p.vertices.x), fetch_tangent(mesh, p.vertices.y),
@@ -24,7 +24,7 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePoint p, v
 
 /// The normal that the material's map says, in object space.
 LAMBENT_FN vec3 mapped_normal_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                 TrianglePoint p, float cone_share, vec3 normal, vec4 tangent) {
+                                 TrianglePointRef p, float cone_share, vec3 normal, vec4 tangent) {
   vec3 t = orthogonal_tangent(normal, vec3(tangent));
   if (t == vec3(0.0f)) return normal;
   return mapped_normal(normal, t, tangent.w,
@@ -33,7 +33,7 @@ LAMBENT_FN vec3 mapped_normal_at(SceneRef scene, MeshRef mesh, MaterialRef mater
 }
 
 LAMBENT_FN Reflectance reflectance_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                      TrianglePoint p, float cone_share) {
+                                      TrianglePointRef p, float cone_share) {
   if (is_unlit(material)) return lambert_reflectance(vec3(0.0f));
   vec3 base = clamp(base_color_at(scene, mesh, material, p, cone_share), 0.0f, 1.0f);
   float metallic = material.metallic;

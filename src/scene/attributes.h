@@ -16,6 +16,8 @@ static_assert(kAlphaOpaque == static_cast<uint>(AlphaMode::opaque) &&
 using InstanceRef = const Instance&;
 using MeshRef = const Mesh&;
 using MaterialRef = const Material&;
+struct TrianglePoint;
+using TrianglePointRef = const TrianglePoint&;
 
 inline InstanceRef fetch_instance(const Scene& scene, uint instance) {
   return scene.instances[instance];

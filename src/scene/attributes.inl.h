@@ -3,6 +3,7 @@
 // interpolated attributes, textures, colour, coverage, emission. Included after texture.inl.h. The
 // includer provides, besides what that asks for, the types
 //   InstanceRef, MeshRef, MaterialRef    with members as in scene.h
+//   TrianglePointRef                     a TrianglePoint, below
 // and
 //   InstanceRef fetch_instance(SceneRef scene, uint instance)
 //   MeshRef fetch_mesh(SceneRef scene, uint mesh)
@@ -41,13 +42,13 @@ LAMBENT_FN vec4 interpolate(vec4 a, vec4 b, vec4 c, vec3 weights) {
 }
 
 /// Position in object space [m].
-LAMBENT_FN vec3 position_at(MeshRef mesh, TrianglePoint p) {
+LAMBENT_FN vec3 position_at(MeshRef mesh, TrianglePointRef p) {
   return interpolate(fetch_position(mesh, p.vertices.x), fetch_position(mesh, p.vertices.y),
                      fetch_position(mesh, p.vertices.z), p.weights);
 }
 
 /// The mesh's colour at a point.
-LAMBENT_FN vec4 color_at(MeshRef mesh, TrianglePoint p) {
+LAMBENT_FN vec4 color_at(MeshRef mesh, TrianglePointRef p) {
   return interpolate(fetch_color(mesh, p.vertices.x), fetch_color(mesh, p.vertices.y),
                      fetch_color(mesh, p.vertices.z), p.weights);
 }
@@ -60,7 +61,7 @@ struct CornerUvs {
   vec2 c;
 };
 
-LAMBENT_FN CornerUvs corner_uvs(MeshRef mesh, TextureViewRef view, TrianglePoint p) {
+LAMBENT_FN CornerUvs corner_uvs(MeshRef mesh, TextureViewRef view, TrianglePointRef p) {
   CornerUvs uvs = {has_uvs(mesh, view), vec2(0.0f), vec2(0.0f), vec2(0.0f)};
   if (!uvs.present) return uvs;
   uvs.a = fetch_uv(mesh, view, p.vertices.x);
@@ -78,7 +79,7 @@ LAMBENT_FN int mip_level(SceneRef scene, TextureViewRef view, CornerUvs uvs, flo
 }
 
 /// A texture of a mesh at a point; white where the view is empty.
-LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePoint p,
+LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePointRef p,
                            float cone_share) {
   if (view.texture < 0) return vec4(1.0f);
   CornerUvs uvs = corner_uvs(mesh, view, p);
@@ -88,16 +89,16 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
 }
 
 /// Whether a footprint covers so much of a texture that what it shows of it is all but its mean.
-LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePoint p,
-                                 float cone_share) {
+LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view,
+                                 TrianglePointRef p, float cone_share) {
   CornerUvs uvs = corner_uvs(mesh, view, p);
   if (!uvs.present || cone_share <= 0.0f) return false;
   return shows_mean_alone(mip_level(scene, view, uvs, cone_share), level_count(scene, view) - 1);
 }
 
 /// Linear base colour: factor, texture and vertex colour.
-LAMBENT_FN vec3 base_color_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePoint p,
-                              float cone_share) {
+LAMBENT_FN vec3 base_color_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                              TrianglePointRef p, float cone_share) {
   vec3 color = vec3(material.base_color);
   if (material.base_color_texture.texture >= 0) {
     color *= vec3(texture_at(scene, mesh, material.base_color_texture, p, cone_share));
@@ -107,7 +108,7 @@ LAMBENT_FN vec3 base_color_at(SceneRef scene, MeshRef mesh, MaterialRef material
 }
 
 /// Emitted radiance [W/(m^2 sr)]; an unlit surface emits its base colour.
-LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePoint p,
+LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
                             float cone_share) {
   if (!may_emit(material)) return vec3(0.0f);
   if (is_unlit(material)) return base_color_at(scene, mesh, material, p, cone_share);
@@ -120,7 +121,8 @@ LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
 
 /// Coverage, 0 to 1: what decides kAlphaMask and kAlphaBlend. Decisions hang on it, so no device's
 /// coarse filter has a part in it.
-LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePoint p) {
+LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                             TrianglePointRef p) {
   float alpha = material.base_color.w;
   if (material.base_color_texture.texture >= 0) {
     CornerUvs uvs = corner_uvs(mesh, material.base_color_texture, p);

@@ -7,6 +7,14 @@
 
 LAMBENT_BEGIN
 
+/// An emissive triangle.
+struct EmitterRecord {
+  uint instance;
+  uint triangle;
+  float area;         ///< World space [m^2].
+  float probability;  ///< Of being drawn.
+};
+
 /// A point drawn from the emissive triangles.
 struct EmissiveSample {
   vec3 position_ws;

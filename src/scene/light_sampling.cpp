@@ -17,11 +17,23 @@ std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
   return (static_cast<std::uint64_t>(instance) << 32) | triangle;
 }
 
-glm::vec3 world_edge_product(const Mesh& mesh, const Instance& instance, std::uint32_t triangle) {
-  const glm::uvec3 v = mesh.triangles[triangle];
-  return edge_product(instance.world_from_object, mesh.positions[v.y] - mesh.positions[v.x],
-                      mesh.positions[v.z] - mesh.positions[v.x]);
+// What emissive_sample.inl.h asks for.
+using EmittersRef = const EmissiveTriangles&;
+
+uint emitter_count(const EmissiveTriangles& emitters) {
+  return static_cast<uint>(emitters.size());
 }
+EmitterRecord fetch_emitter(const EmissiveTriangles& emitters, uint emitter) {
+  return emitters.entries()[emitter];
+}
+float fetch_cumulative(const EmissiveTriangles& emitters, uint emitter) {
+  return emitters.cumulative()[emitter];
+}
+float fetch_pdf_area(const EmissiveTriangles& emitters, uint instance, uint triangle) {
+  return emitters.pdf_area(instance, triangle);
+}
+
+#include "scene/emissive_sample.inl.h"
 
 // The brightest vertex colour of a triangle: an unlit surface emits in proportion to it.
 float vertex_color_bound(const Mesh& mesh, const Material& material, const glm::uvec3& v) {
@@ -70,7 +82,7 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
     if (!may_emit(material)) continue;
     Bounds bounds;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const float area = 0.5f * glm::length(world_edge_product(mesh, instance, t));
+      const float area = 0.5f * glm::length(world_edge_product(instance, mesh, mesh.triangles[t]));
       const float radiance = maps[mesh.material].mean_luminance(mesh, t) *
                              vertex_color_bound(mesh, material, mesh.triangles[t]);
       // Written so that a NaN, too, is left out
@@ -100,34 +112,18 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
 }
 
 EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
-  if (entries_.empty()) return no_emissive_sample();
-  const auto above = std::upper_bound(cumulative_.begin(), cumulative_.end(), u.x);
-  const std::size_t index = std::min<std::size_t>(above - cumulative_.begin(), entries_.size() - 1);
-  const Entry& entry = entries_[index];
-  const Instance& instance = scene_->instances[entry.instance];
-  const Mesh& mesh = scene_->meshes[instance.mesh];
-  const Material& material = scene_->materials[mesh.material];
-  const TrianglePoint point =
-      triangle_point(mesh, entry.triangle, sample_uniform_triangle(glm::vec2(u.y, u.z)));
+  return sample_emissive(*scene_, *this, u);
+}
 
-  EmissiveSample sample = no_emissive_sample();
-  sample.position_ws =
-      glm::vec3(instance.world_from_object * glm::vec4(position_at(mesh, point), 1.0f));
-  sample.normal_ws = world_edge_product(mesh, instance, entry.triangle) / (2.0f * entry.area);
-  sample.radiance = emission_at(*scene_, mesh, material, point, 0.0f);
-  if (material.alpha_mode != AlphaMode::opaque) {
-    const float alpha = coverage_at(*scene_, mesh, material, point);
-    sample.radiance *=
-        stopping_probability(static_cast<uint>(material.alpha_mode), material.alpha_cutoff, alpha);
-  }
-  sample.pdf_area = entry.probability / entry.area;
-  return sample;
+EmissiveSample EmissiveTriangles::at(std::uint32_t instance, std::uint32_t triangle,
+                                     const glm::vec2& barycentrics) const {
+  return emissive_point(*scene_, *this, instance, triangle, barycentrics);
 }
 
 float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle) const {
   const auto found = index_of_.find(triangle_key(instance, triangle));
   if (found == index_of_.end()) return 0.0f;
-  const Entry& entry = entries_[found->second];
+  const EmitterRecord& entry = entries_[found->second];
   return entry.probability / entry.area;
 }
 

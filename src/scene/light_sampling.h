@@ -30,17 +30,16 @@ class EmissiveTriangles {
   /// A point for three uniform numbers: the first picks the triangle, the others the point on it.
   EmissiveSample sample(const glm::vec3& u) const;
 
+  /// A given point of a triangle, as if it were drawn; of density 0 where it does not emit.
+  EmissiveSample at(std::uint32_t instance, std::uint32_t triangle,
+                    const glm::vec2& barycentrics) const;
+
   /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not
   /// emit.
   float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
 
-  struct Entry {
-    std::uint32_t instance, triangle;
-    float area;         ///< [m^2], world space.
-    float probability;  ///< Of being drawn.
-  };
   /// The triangles, by instance and triangle.
-  const std::vector<Entry>& entries() const { return entries_; }
+  const std::vector<EmitterRecord>& entries() const { return entries_; }
   /// Upper end of each entry's interval of [0, 1).
   const std::vector<float>& cumulative() const { return cumulative_; }
 
@@ -52,7 +51,7 @@ class EmissiveTriangles {
 
  private:
   const Scene* scene_;
-  std::vector<Entry> entries_;
+  std::vector<EmitterRecord> entries_;
   std::vector<Bounds> bounds_;
   std::vector<float> cumulative_;
   std::unordered_map<std::uint64_t, std::uint32_t> index_of_;

@@ -78,7 +78,7 @@ std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
   }
   const vec2 u = next_uniform2(random);
   const EmitterPoint emitter =
-      sample_emitter_by_power(world, from, {u.x, u.y, next_uniform(random)});
+      emitter_drawn(emissive_of(world).sample({u.x, u.y, next_uniform(random)}), from);
   if (emitter.radiance == glm::vec3(0.0f)) return std::nullopt;
   return Ray{from, 0.0f, emitter.to_light, shadow_ray_length(emitter.distance)};
 }

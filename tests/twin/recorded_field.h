@@ -38,10 +38,13 @@ inline FieldSettings recorded_settings() {
 }
 
 inline RayResult ray_result(const Ray& ray, const Hit& hit, const ShadedHit& shaded) {
-  if (hit.missed()) return ray_left(shaded.sky_radiance);
-  if (!shaded.counts) return ray_met_back_face(hit.distance, shaded.geometric_normal_ws);
-  return ray_met_surface(length(shaded.position_ws - ray.origin), shaded.normal_ws,
-                         shaded.geometric_normal_ws, shaded.albedo_over_pi * kPi,
+  const LitPoint& point = shaded.point;
+  if (hit.missed()) return ray_left(shaded.surface.radiance);
+  if ((shaded.surface.flags & kSurfaceDiscounted) != 0) {
+    return ray_met_back_face(hit.distance, point.geometric_normal_ws);
+  }
+  return ray_met_surface(length(point.position_ws - ray.origin), point.normal_ws,
+                         point.geometric_normal_ws, shaded.surface.albedo_over_pi * kPi,
                          shaded.direct_irradiance, vec3(0.0f));
 }
 

@@ -40,10 +40,11 @@ struct Crowd {
   /// As the kernel's, by the processor.
   int bin_of(int probe, bool look) const {
     const ProbeService& own = service[probe];
+    const float weight = level_weight(roles[store.volume_of(probe)].level);
     const bool off = states[probe] == kProbeOff;
     if (off) {
       const bool looked_at = look && waits_too_long(own.served, kUpdate + 1);
-      return looked_at ? priority_bin(probe_urgency(0.0f, own.served, kUpdate + 1, 1.0f))
+      return looked_at ? priority_bin(probe_urgency(0.0f, own.served, kUpdate + 1, weight))
                        : kNoPartBin;
     }
     const ProbeGrid& grid = store.grid_of(probe);
@@ -60,11 +61,12 @@ struct Crowd {
     float reduction = error_reduction(noise, samples, longest_average(settings));
     if (reduction > 0.0f)
       reduction = scheduled_reduction(reduction, error_reduction_per_noise(samples), kMeanNoise);
-    return priority_bin(probe_urgency(reduction, own.served, kUpdate + 1, 1.0f));
+    return priority_bin(probe_urgency(reduction, own.served, kUpdate + 1, weight));
   }
 
   FieldSettings settings;
   ProbeStore store;
+  std::vector<VolumeRole> roles = {{.follows_viewer = false, .level = 2}};  // of the one volume
   std::vector<ProbeStanding> standing;
   std::vector<uint> states;
   std::vector<ProbeService> service;
@@ -87,7 +89,7 @@ class DeviceScheduleTest : public test::OnDevice {
   };
   static Chosen choose(const Crowd& crowd, int most, bool look) {
     const FieldResources field(device(), crowd.settings, crowd.store);
-    DeviceSchedule schedule(field, most, crowd.settings.rays_per_probe);
+    DeviceSchedule schedule(field, crowd.roles, most, crowd.settings.rays_per_probe);
     const Buffer standing = vulkan::upload(device(), crowd.standing, "standing");
     const Buffer states = vulkan::upload(device(), crowd.states, "states");
     vulkan::write<ProbeService>(device(), crowd.service, schedule.service());
@@ -171,7 +173,7 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
   const Crowd crowd(settings);
   const FieldResources field(device(), settings, crowd.store);
   const std::size_t texels = field.tile_texels();
-  DeviceSchedule schedule(field, 696, settings.rays_per_probe);
+  DeviceSchedule schedule(field, crowd.roles, 696, settings.rays_per_probe);
   DeviceProbes list;
   for (int probe = 1; probe < crowd.store.probes(); probe += 3) list.probes.push_back(probe);
   list.indices = vulkan::upload(device(), list.probes, "probes");

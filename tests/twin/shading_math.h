@@ -130,7 +130,7 @@ LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOU
                             random_vec3(random, 0.0f, 5.0f), next_uniform(random)};
   n.drawn = emitter_drawn(sampled, point);
   vec3 direction = sample_cosine_about(normal, vec2(n.draw.u.y, n.draw.u.z));
-  n.met = emitter_met(direction, 2.0f, sampled.radiance, sampled.normal_ws, sampled.pdf_area);
+  n.met = emitter_met(sampled, direction, 2.0f);
   n.candidate = emitter_candidate(n.met, normal, 0.5f);
   n.shadow_length = shadow_ray_length(n.drawn.distance);
   vec3 towards = random_direction(random);

@@ -107,14 +107,15 @@ void expect_same_shading(const vulkan::Device& device, const World& world, const
   std::size_t lit = 0;
   for (std::size_t i = 0; i < host.size(); ++i) {
     const ShadedHitRecord& device_hit = found.shaded[i];
+    const LitPoint& point = host[i].point;
     ASSERT_EQ((device_hit.flags & kSurfaceMissed) != 0, batch.hits[i].missed()) << i;
-    ASSERT_EQ((device_hit.flags & kSurfaceDiscounted) == 0, host[i].counts) << i;
-    ASSERT_EQ((device_hit.flags & kSurfaceReceivesGi) != 0, host[i].receives_gi) << i;
-    position.compare(host[i].position_ws, found.points[i].position_ws, i);
-    normal.compare(host[i].normal_ws, found.points[i].normal_ws, i);
-    geometric.compare(host[i].geometric_normal_ws, found.points[i].geometric_normal_ws, i);
-    albedo.compare(host[i].albedo_over_pi, device_hit.albedo_over_pi, i);
-    radiance.compare(host[i].emission + host[i].sky_radiance, device_hit.radiance, i);
+    ASSERT_EQ(device_hit.flags, host[i].surface.flags) << i;
+    ASSERT_EQ(device_hit.material, host[i].surface.material) << i;
+    position.compare(point.position_ws, found.points[i].position_ws, i);
+    normal.compare(point.normal_ws, found.points[i].normal_ws, i);
+    geometric.compare(point.geometric_normal_ws, found.points[i].geometric_normal_ws, i);
+    albedo.compare(host[i].surface.albedo_over_pi, device_hit.albedo_over_pi, i);
+    radiance.compare(host[i].surface.radiance, device_hit.radiance, i);
     light.compare(host[i].direct_irradiance, found.irradiance[i], i);
     if (host[i].direct_irradiance != glm::vec3(0.0f)) ++lit;
   }

@@ -24,6 +24,7 @@ class Log final : public FieldPasses {
 
   const FieldSettings& settings() const override { return settings_; }
   int batches() const override { return batches_; }
+  void scroll() override { done.emplace_back("scroll"); }
   void schedule() override { done.emplace_back("schedule"); }
   void trace(int batch) override { done.push_back("trace" + std::to_string(batch)); }
   void shade(int batch) override { done.push_back("shade" + std::to_string(batch)); }
@@ -33,6 +34,7 @@ class Log final : public FieldPasses {
   void solve() override { done.emplace_back("solve"); }
   void variability() override { done.emplace_back("variability"); }
   void store() override { done.emplace_back("store"); }
+  void scroll() override { done.emplace_back("scroll"); }
   void placement() override { done.emplace_back("placement"); }
   void begin(const char* name) override {
     EXPECT_EQ(named.size(), done.size()) << "a pass begins within another";

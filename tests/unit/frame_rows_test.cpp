@@ -57,7 +57,7 @@ class FrameRows : public ::testing::Test {
     EXPECT_EQ(rays, whole.rays);
   }
 
-  test::Stage stage{"cornell"};
+  test::Stage stage{"cornell-spot"};
   IrradianceField field;
   IndirectSources sources;
   FrameSettings frame;

@@ -67,7 +67,7 @@ class RendererTest : public ::testing::Test {
     return frame.error().place;
   }
 
-  test::Stage stage{"cornell"};
+  test::Stage stage{"cornell-spot"};
 };
 
 TEST_F(RendererTest, RefusesSettingsOutOfRangeByName) {

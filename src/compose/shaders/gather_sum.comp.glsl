@@ -4,6 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"
+#include "compose/pixel_math.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -22,11 +23,7 @@ void main() {
     RayRecord ray = args.rays.at[at];
     // A bent normal's hemisphere reaches below the surface, where no light comes from
     if (ray.mask == 0u || dot(geometric_normal_ws, ray.direction_ws) <= 0.0f) continue;
-    ShadedHitRecord hit = args.shaded.at[at];
-    vec3 lit = args.direct.at[at];
-    if ((hit.flags & kSurfaceReceivesGi) != 0u) lit += args.field.at[at];
-    vec3 sky = (hit.flags & kSurfaceMissed) != 0u ? hit.radiance : vec3(0.0f);
-    sum += weight * (hit.albedo_over_pi * lit + sky);
+    sum += weight * gathered_radiance(args.shaded.at[at], args.direct.at[at], args.field.at[at]);
   }
   args.irradiance.at[i] = sum;
 }

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"
+#include "compose/pixel_math.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -12,7 +13,6 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  vec3 light = args.irradiance.at[i] + args.added.at[i];
-  if (args.subtracts != 0u) light -= args.subtracted_field.at[i];
-  args.irradiance.at[i] = max(light, vec3(0.0f));
+  vec3 subtracted = args.subtracts != 0u ? args.subtracted_field.at[i] : vec3(0.0f);
+  args.irradiance.at[i] = replaced_light(args.irradiance.at[i], args.added.at[i], subtracted);
 }

@@ -136,7 +136,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     ShadedHit shaded;
     shadow_rays += shade_hits(world_, {&ray, 1}, {&hit, 1}, shading, first_ray_index(probe) + i,
                               scratch_, {&shaded, 1});
-    const Surfel found = make_surfel(world_.scene(), hit, shaded);
+    const Surfel found = make_surfel(shaded);
     retraced_[i] = 1;
     ++probe_rays;
     if (found == surfel) continue;
@@ -186,20 +186,16 @@ bool all_zero(std::span<const vec2> moments) {
   return std::all_of(moments.begin(), moments.end(), [](const vec2& m) { return m == vec2(0.0f); });
 }
 
-/// Moves a probe's stored moments by as much as the moments of its rays changed. The stored moments
-/// average the rays of many updates; moving them keeps what the edit did not change.
+/// Moves a probe's stored moments by as much as the moments of its rays changed.
 void move_moments(int probe, std::span<const vec2> before, std::span<const vec2> after,
                   uint dither_seed, ProbeStore& store) {
   const int edge = store.distance_texels();
-  std::vector<vec2> moments(after.begin(), after.end());
-  // The history of a probe that came out of geometry, or went into it, is not worth keeping
-  if (!all_zero(before) && !all_zero(after)) {
-    for (std::size_t t = 0; t < moments.size(); ++t) {
-      const ivec2 texel(static_cast<int>(t) % edge, static_cast<int>(t) / edge);
-      const vec2 held = store.moments_texel(probe, texel + 1);
-      moments[t] = moved_moments(held, before[t], after[t]);
-      if (before[t] == after[t]) moments[t] = held;
-    }
+  const bool has_history = !all_zero(before) && !all_zero(after);
+  std::vector<vec2> moments(after.size());
+  for (std::size_t t = 0; t < moments.size(); ++t) {
+    const ivec2 texel(static_cast<int>(t) % edge, static_cast<int>(t) / edge);
+    const vec2 held = store.moments_texel(probe, texel + 1);
+    moments[t] = moved_moments(held, before[t], after[t], has_history);
   }
   store.blend_moments(probe, moments, 1.0f, dither_seed);
 }

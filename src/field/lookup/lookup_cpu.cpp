@@ -38,17 +38,12 @@ struct Tables {
   int distance_texels;
 };
 
-/// decode_small_float for a half, without a branch.
-LAMBENT_FORCE_INLINE float decode_half(uint bits) {
-  const float value = uintBitsToFloat((bits << 13u) + (kSmallFloatBiasShift << 23u));
-  return bits == 0u ? 0.0f : value;
-}
-
 template <DistanceFormat format>
 LAMBENT_FORCE_INLINE vec2 decode_moments(const uint* words, int texel) {
   if constexpr (format == DistanceFormat::rg16f) {
     const uint word = words[texel];
-    return {decode_half(word & 0x7FFFu), decode_half((word >> 16u) & 0x7FFFu)};
+    return {decode_small_float(word & 0x7FFFu, 10),
+            decode_small_float((word >> 16u) & 0x7FFFu, 10)};
   } else {
     const uint* pair = words + 2 * static_cast<std::ptrdiff_t>(texel);
     return {uintBitsToFloat(pair[0]), uintBitsToFloat(pair[1])};
@@ -59,7 +54,7 @@ LAMBENT_FORCE_INLINE vec2 decode_moments(const uint* words, int texel) {
 /// moments are read.
 struct CornerFetch {
   int base;
-  int run_over;         // cell_wrap
+  int wraps;            // cell_wrap()
   int texel[kCorners];  // index of the first of the four texels in the store
   float fraction_x[kCorners], fraction_y[kCorners];
   float dist[kCorners];  // from the probe to the biased point [distance_unit]
@@ -77,8 +72,8 @@ LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& quer
   const int base = probe_index(t.volume.grid, cell.cell.base);
   const int width = t.distance_texels + 2;
   fetch.base = base;
-  fetch.run_over = cell_wrap(t.volume.grid, cell.cell.base);
-  const CornerOffsets& offsets = t.offsets[fetch.run_over];
+  fetch.wraps = cell_wrap(t.volume.grid, cell.cell.base);
+  const CornerOffsets& offsets = t.offsets[fetch.wraps];
 
   for (int k = 0; k < kCorners; ++k) {
     const vec3 offset = decode_probe_offset(t.offset_words[base + offsets.probe[k]]);
@@ -117,7 +112,7 @@ template <DistanceFormat format>
 LAMBENT_FORCE_INLINE void finish_corners(const Tables& t, const CornerFetch& fetch,
                                          CornerWeights& __restrict result) {
   result.base = fetch.base;
-  result.table = t.first_table + static_cast<std::uint32_t>(fetch.run_over);
+  result.table = t.first_table + static_cast<std::uint32_t>(fetch.wraps);
   for (int k = 0; k < kCorners; ++k) {
     result.weight[k] = corner_weight(fetch.wrap[k], fetch.trilinear[k], fetch.dist[k],
                                      moments_of<format>(t, fetch, k));
@@ -162,9 +157,8 @@ LAMBENT_FORCE_INLINE void decode_irradiance(const uint* word, float& r, float& g
     g = static_cast<float>(static_cast<int>((*word >> 9u) & 511u)) * scale;
     b = static_cast<float>(static_cast<int>((*word >> 18u) & 511u)) * scale;
   } else if constexpr (format == IrradianceFormat::r11g11b10f) {
-    r = linear_from_perceptual(decode_small_float(*word & 0x7FFu, 6));
-    g = linear_from_perceptual(decode_small_float((*word >> 11u) & 0x7FFu, 6));
-    b = linear_from_perceptual(decode_small_float(*word >> 22u, 5));
+    const vec3 value = decode_r11g11b10f(*word);
+    r = value.x, g = value.y, b = value.z;
   } else {
     r = uintBitsToFloat(word[0]);
     g = uintBitsToFloat(word[1]);

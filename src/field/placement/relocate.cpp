@@ -94,14 +94,11 @@ class Relocation {
 
   /// Takes one step, by the hits of the fixed rays from where the probe stands.
   void step(std::span<const FixedRayHit> fixed_hits, ProbeStore& store) {
-    const ProbeGrid& grid = store.grid_of(probe_);
-    // Work along the axes of the grid, relative to the probe's place on it
-    const vec3 offset = store.probe_offset(probe_), position = offset * grid.spacing;
-    const vec3 better = better_position(fixed_hits, position, vec3(0.0f), grid.spacing);
-    const float cost = placement_cost(position, better, kSurfaceMargin * smallest_spacing(grid),
-                                      inside_geometry(fixed_hits) ? 1u : 0u);
-    const vec3 there = better == position ? offset : better / grid.spacing;
-    store.set_probe_offset(probe_, relocation_step(relocation_, offset, there, cost));
+    const vec3 next =
+        Surroundings(fixed_hits)
+            .relocate(relocation_, store.probe_offset(probe_), store.grid_of(probe_).spacing,
+                      inside_geometry(fixed_hits) ? 1u : 0u);
+    store.set_probe_offset(probe_, next);
   }
 
  private:

@@ -65,3 +65,14 @@ LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geo
   }
   return position;
 }
+
+/// Takes one step of a probe's relocation from its `offset` [cells]. Returns the next offset.
+LAMBENT_FN vec3 relocate(LAMBENT_INOUT(RelocationState) relocation, vec3 offset, vec3 spacing,
+                         uint inside_geometry) {
+  // Work along the axes of the grid, relative to the probe's place on it
+  vec3 position = offset * spacing;
+  vec3 better = better_place(position, vec3(0.0f), spacing, inside_geometry);
+  float margin = kSurfaceMargin * min(spacing.x, min(spacing.y, spacing.z));
+  float cost = placement_cost(position, better, margin, inside_geometry);
+  return relocation_step(relocation, offset, better == position ? offset : better / spacing, cost);
+}

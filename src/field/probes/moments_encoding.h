@@ -25,9 +25,14 @@ LAMBENT_FN uint blended_halves(uint word, vec2 now, float blend_weight, float sc
   return encode_small_float(moments.x, 10, u) | (encode_small_float(moments.y, 10, v) << 16u);
 }
 
-/// Stored moments, moved by as much as the moments of a probe's rays changed. Where the result is
-/// not possible for any distances, because of rounding or noise, the rays' moments replace it.
-LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after) {
+/// Stored moments, moved by as much as the moments of a probe's rays changed. Stored moments
+/// average the rays of many updates; moving them keeps what did not change. Where the result is not
+/// possible for any distances, because of rounding or noise, the rays' moments replace it, and
+/// where `has_history` is false: what a probe saw before it came out of geometry, or went into it,
+/// is not worth keeping.
+LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after, bool has_history) {
+  if (!has_history) return after;
+  if (before == after) return held;
   vec2 moved = held + after - before;
   return moved.x > 0.0f && moved.y >= moved.x * moved.x ? moved : after;
 }

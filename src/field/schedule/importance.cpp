@@ -29,17 +29,18 @@ void add_weights(const ProbeStore& store, const CornerWeights& corners, float im
 /// to the light that they reflect towards it.
 void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float importance,
                         std::vector<float>& sum) {
-  const float share = scatter_fraction(static_cast<int>(trace.surfels.size()));
+  const auto surfels = static_cast<int>(trace.surfels.size());
   for (std::size_t i = 0; i < trace.surfels.size(); i += kSurfelsPerScatter) {
     const Surfel& surfel = trace.surfels[i];
     if (!surfel.reflects() || surfel.kind != SurfelKind::surface) continue;
-    const float albedo = scatter_albedo(surfel.albedo_over_pi);
-    add_weights(store, trace.lookups[i].corners, importance * share * albedo, sum);
+    add_weights(store, trace.lookups[i].corners,
+                scattered_importance(importance, surfels, surfel.albedo_over_pi), sum);
   }
   for (const FurtherLookup& further : trace.further) {
     if (further.ray % kSurfelsPerScatter != 0) continue;
-    const float albedo = scatter_albedo(trace.surfels[further.ray].albedo_over_pi);
-    add_weights(store, further.lookup.corners, importance * share * albedo, sum);
+    const vec3 albedo_over_pi = trace.surfels[further.ray].albedo_over_pi;
+    add_weights(store, further.lookup.corners,
+                scattered_importance(importance, surfels, albedo_over_pi), sum);
   }
 }
 

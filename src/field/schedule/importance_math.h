@@ -11,14 +11,11 @@ LAMBENT_BEGIN
 // Only one in this many of a probe's surfels scatters importance, for those around it as well.
 const uint kSurfelsPerScatter = 4u;
 
-/// The fraction of a probe's importance that each scattering surfel receives.
-LAMBENT_FN float scatter_fraction(int surfels) {
-  return float(kSurfelsPerScatter) / float(surfels);
-}
-
-/// The albedo with which a surfel scatters importance.
-LAMBENT_FN float scatter_albedo(vec3 albedo_over_pi) {
-  return kPi * luminance(albedo_over_pi);
+/// What each scattering surfel passes on of a probe's importance, where the probe has this many
+/// surfels.
+LAMBENT_FN float scattered_importance(float received, int surfels, vec3 albedo_over_pi) {
+  float fraction = float(kSurfelsPerScatter) / float(surfels);
+  return received * fraction * (kPi * luminance(albedo_over_pi));
 }
 
 LAMBENT_END

@@ -88,6 +88,7 @@ LAMBENT_DEVICE_ARRAY(ListSizeArray, ListSize, 4)
 /// Arguments of schedule_priority, which sorts all probes into bins and counts them per chunk.
 struct SchedulePriorityArguments {
   GridArray grids;
+  IntArray levels;  ///< The cascade level of each volume.
   ProbeStates probes;
   ServiceArray service;
   ScheduleStateArray state;

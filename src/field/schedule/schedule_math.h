@@ -132,6 +132,12 @@ LAMBENT_FN bool waits_too_long(uint served, uint update) {
   return served != kNotLive && (served == 0u || update - served >= kMaxProbeAge);
 }
 
+/// The weight of probes by the level of their cascade: those of level L are traced 2^L times as
+/// seldom.
+LAMBENT_FN float level_weight(int level) {
+  return power_of_two(-level);
+}
+
 // The urgency of a probe is below 1 while its age is below kMaxProbeAge, between 1 and 2 above that
 // age, and at least 2 where it has never been traced.
 const float kOldUrgency = 1.0f;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Choice of the most urgent probes, without looking at those that are not urgent.
 #include <algorithm>
-#include <cmath>
 
 #include "core/parallel.h"
 #include "field/schedule/schedule.h"
@@ -228,7 +227,7 @@ float ProbeScheduler::view_weight(const ProbeStore& store, int probe,
                                   const std::optional<glm::vec3>& viewer_ws,
                                   std::span<const float> importance) const {
   const int volume = store.volume_of(probe);
-  const float weight = std::ldexp(1.0f, -roles_[volume].level);
+  const float weight = level_weight(roles_[volume].level);
   if (!importance.empty()) return weight * std::max(importance[probe], kUnseenWeight);
   if (!viewer_ws) return weight;
   const float away = length(store.probe_position_ws(probe) - *viewer_ws);

@@ -11,6 +11,7 @@
 #include "field/probes/tile.h"
 #include "field/transport/anderson_math.h"
 #include "field/transport/blend_math.h"
+#include "field/transport/surfel_math.h"
 
 namespace lambent {
 namespace {
@@ -62,20 +63,6 @@ double finish(const TransportOperator& transport, std::span<const float> blend_w
   return whole > 0.0 ? norm(difference) / whole : 0.0;
 }
 
-/// Gathers the radiance along a probe's rays without light from the field: that of the sky and, if
-/// `reflected`, of direct light on surfels. The fourth channel is 1 for rays that count, else 0.
-void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
-  for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
-    const Surfel& surfel = trace.surfels[i];
-    const vec3 reflectance = surfel.kind == SurfelKind::sky ? vec3(1.0f)
-                             : reflected                    ? surfel.albedo_over_pi
-                                                            : vec3(0.0f);
-    const vec3 sent = reflectance * surfel.light;
-    for (int c = 0; c < 3; ++c) radiance[4 * i + c] = sent[c];
-    radiance[4 * i + 3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
-  }
-}
-
 /// Everything that the radiance along a probe's rays depends on.
 struct GatherInput {
   const ProbeTrace& trace;
@@ -85,51 +72,57 @@ struct GatherInput {
   int texels;  // of a tile
 };
 
-/// Adds the irradiance that a lookup reads from the field.
-LAMBENT_FORCE_INLINE void read_field(const GatherInput& in, const SurfelLookup& lookup,
-                                     float sum[4]) {
-  const std::array<std::uint16_t, 4>& taps = in.taps[lookup.tile_corner];
-  const CornerOffsets& offsets = in.corner_table[lookup.corners.table];
-  const float fx = lookup.fraction_x, fy = lookup.fraction_y;
-  const float tap_weights[4] = {(1.0f - fx) * (1.0f - fy), fx * (1.0f - fy), (1.0f - fx) * fy,
-                                fx * fy};
-  const vec4* base = in.field + static_cast<std::ptrdiff_t>(lookup.corners.base) * in.texels;
-  for (int corner = 0; corner < kCellCorners; ++corner) {
-    const vec4* tile = base + static_cast<std::ptrdiff_t>(offsets.probe[corner]) * in.texels;
-    const float weight = lookup.corners.weight[corner];
-    for (int tap = 0; tap < 4; ++tap) {
-      const float tap_weight = weight * tap_weights[tap];
-      const float* texel = &tile[taps[tap]].x;
-      for (int c = 0; c < 4; ++c) sum[c] += tap_weight * texel[c];
-    }
+// What gather.inl.h asks for.
+using FieldRef = const GatherInput&;
+using SurfelLookupRef = const SurfelLookup&;
+using CornerOffsetsRef = const CornerOffsets&;
+using TapsRef = const std::array<std::uint16_t, 4>&;
+using TileRef = const vec4*;
+
+LAMBENT_FORCE_INLINE CornerOffsetsRef fetch_offsets(const GatherInput& in, uint table) {
+  return in.corner_table[table];
+}
+LAMBENT_FORCE_INLINE TapsRef fetch_taps(const GatherInput& in, uint tile_corner) {
+  return in.taps[tile_corner];
+}
+LAMBENT_FORCE_INLINE TileRef fetch_tile(const GatherInput& in, int probe) {
+  return in.field + static_cast<std::ptrdiff_t>(probe) * in.texels;
+}
+LAMBENT_FORCE_INLINE const vec4& fetch_texel(const GatherInput& /*in*/, TileRef tile, int texel) {
+  return tile[texel];
+}
+
+#include "field/transport/gather.inl.h"
+
+LAMBENT_FORCE_INLINE void store(const vec4& value, float* out) {
+  for (int c = 0; c < 4; ++c) out[c] = value[c];
+}
+
+/// Gathers the radiance along a probe's rays without light from the field: that of the sky and, if
+/// `reflected`, of direct light on surfels. Four floats per ray, here and below.
+void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
+  for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
+    const Surfel& surfel = trace.surfels[i];
+    store(sent_radiance(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, surfel.light,
+                        reflected),
+          radiance + 4 * i);
   }
 }
 
-/// Gathers the radiance along a probe's rays. Four floats per ray; the fourth is 1 for rays that
-/// count, else 0.
-LAMBENT_SIMD_CLONES void gather_radiance(const GatherInput& in, float* radiance) {
+/// Gathers the radiance along a probe's rays.
+LAMBENT_SIMD_CLONES __attribute__((flatten)) void gather_radiance(const GatherInput& in,
+                                                                  float* radiance) {
   for (std::size_t i = 0; i < in.trace.surfels.size(); ++i) {
     const Surfel& surfel = in.trace.surfels[i];
-    float* out = radiance + 4 * i;
-    out[3] = surfel.kind == SurfelKind::back_face ? 0.0f : 1.0f;
-
-    // Surfels that reflect nothing are the sky, or black
-    if (!surfel.reflects()) {
-      const bool sky = surfel.kind == SurfelKind::sky;
-      for (int c = 0; c < 3; ++c) out[c] = sky ? surfel.light[c] : 0.0f;
-      continue;
-    }
-
-    // Look the field up at the surfel, and compute the radiance that it reflects
-    float sum[4] = {};
-    read_field(in, in.trace.lookups[i], sum);
-    for (int c = 0; c < 3; ++c) out[c] = surfel.albedo_over_pi[c] * (surfel.light[c] + sum[c]);
+    vec3 arrives = surfel.light;
+    if (surfel.reflects()) arrives += vec3(read_field(in, in.trace.lookups[i]));
+    store(sent_radiance(static_cast<uint>(surfel.kind), surfel.albedo_over_pi, arrives, true),
+          radiance + 4 * i);
   }
   for (const FurtherLookup& further : in.trace.further) {
-    float sum[4] = {};
-    read_field(in, further.lookup, sum);
-    const vec3 albedo_over_pi = in.trace.surfels[further.ray].albedo_over_pi;
-    for (int c = 0; c < 3; ++c) radiance[4 * further.ray + c] += albedo_over_pi[c] * sum[c];
+    const vec3 sum = vec3(read_field(in, further.lookup));
+    const vec3 sent = in.trace.surfels[further.ray].albedo_over_pi * sum;
+    for (int c = 0; c < 3; ++c) radiance[4 * further.ray + c] += sent[c];
   }
 }
 

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "core/parallel.h"
+#include "field/transport/surfel_math.h"
 #include "shared/packing.h"
 
 namespace lambent {
@@ -29,23 +30,18 @@ std::size_t ProbeTrace::bytes() const {
          further.size() * sizeof(FurtherLookup);
 }
 
-Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded) {
-  Surfel surfel{};
-  surfel.position_ws = shaded.position_ws;
-  surfel.normal_ws = encode_unit_vector(shaded.normal_ws);
-  surfel.geometric_normal_ws = encode_unit_vector(shaded.geometric_normal_ws);
-  if (hit.missed()) {
-    surfel.kind = SurfelKind::sky;
-    surfel.light = shaded.sky_radiance;
-    return surfel;
-  }
-  surfel.kind = shaded.counts ? SurfelKind::surface : SurfelKind::back_face;
-  surfel.material =
-      static_cast<std::uint32_t>(scene.meshes[scene.instances[hit.instance].mesh].material);
-  surfel.albedo_over_pi = shaded.albedo_over_pi;
-  surfel.receives_gi = shaded.receives_gi;
-  surfel.light = shaded.direct_irradiance;
-  return surfel;
+Surfel make_surfel(const ShadedHit& hit) {
+  const SurfelRecord surfel =
+      surfel_record(hit.point.position_ws, hit.point.normal_ws, hit.point.geometric_normal_ws,
+                    hit.surface, hit.direct_irradiance);
+  return {surfel.position_ws,
+          surfel.material,
+          surfel.albedo_over_pi,
+          surfel.normal_ws,
+          surfel.light,
+          surfel.geometric_normal_ws,
+          static_cast<SurfelKind>(surfel.kind),
+          surfel.receives_gi != 0};
 }
 
 Ray probe_ray(const vec3& origin_ws, const vec3& direction) {
@@ -103,8 +99,7 @@ std::uint64_t shade_surfels(const World& world, const ProbeStore& store, const T
       ProbeTrace& trace = traces[probe];
       trace.rays = group.rays;
       trace.surfels.resize(rays);
-      for (std::size_t i = 0; i < rays; ++i)
-        trace.surfels[i] = make_surfel(world.scene(), hits[i], shaded[i]);
+      for (std::size_t i = 0; i < rays; ++i) trace.surfels[i] = make_surfel(shaded[i]);
     }
   });
   return shadow_rays;

@@ -83,8 +83,8 @@ ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& ra
 /// The ray of a probe along a direction.
 Ray probe_ray(const vec3& origin_ws, const vec3& direction);
 
-/// Makes the surfel of a ray from its hit.
-Surfel make_surfel(const Scene& scene, const Hit& hit, const ShadedHit& shaded);
+/// Makes the surfel of a ray from its shaded hit.
+Surfel make_surfel(const ShadedHit& hit);
 
 /// The index of a probe's first ray among the rays of all probes, for its random numbers.
 std::size_t first_ray_index(int probe);

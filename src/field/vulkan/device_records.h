@@ -4,6 +4,7 @@
 #define LAMBENT_FIELD_VULKAN_DEVICE_RECORDS_H
 
 #include "field/lookup/lookup_records.h"
+#include "field/transport/surfel_math.h"
 #include "raytracing/ray_records.h"
 
 LAMBENT_BEGIN
@@ -14,23 +15,6 @@ const uint kR11g11b10f = 1u;
 const uint kIrradianceFloat32 = 2u;
 const uint kRg16f = 0u;
 const uint kRg32f = 1u;
-
-// What a surfel's ray hit. The numbers are those of SurfelKind.
-const uint kSurfelSurface = 0u;
-const uint kSurfelSky = 1u;
-const uint kSurfelBackFace = 2u;
-
-/// A surfel, like struct Surfel.
-struct SurfelRecord {
-  vec3 position_ws;
-  uint material;
-  vec3 albedo_over_pi;
-  uint normal_ws;
-  vec3 light;
-  uint geometric_normal_ws;
-  uint kind;
-  uint receives_gi;
-};
 
 /// SurfelLookup::tile_corner of a lookup that reads nothing.
 const uint kNoLookup = 0xFFFFFFFFu;

@@ -17,7 +17,8 @@ namespace lambent {
 
 using vulkan::Buffer, vulkan::Memory;
 
-DeviceSchedule::DeviceSchedule(const FieldResources& field, int most_probes, int rays)
+DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const VolumeRole> roles,
+                               int most_probes, int rays)
     : field_(field), chunks_(static_cast<int>(groups_of(field.probes(), kChunkProbes))) {
   assert(most_probes > 0 && most_probes % kBlockProbes == 0 && most_probes <= field.probes());
   const vulkan::Device& device = field.device();
@@ -32,6 +33,9 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, int most_probes, int
   update_variability_ = make(shaders::update_variability_comp(), "update_variability");
   means_ = make(shaders::schedule_means_comp(), "schedule_means");
 
+  std::vector<int> levels;
+  for (const VolumeRole& role : roles) levels.push_back(role.level);
+  levels_ = vulkan::upload(device, levels, "levels of volumes");
   ScheduleState state{};
   state.live = static_cast<uint>(field.probes());
   state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
@@ -68,6 +72,7 @@ void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& prob
   const ScheduleStateArray state = {state_.address()};
   const ChunkArray chunks = {chunk_records_.address()};
   const SchedulePriorityArguments priority = {{field_.grids().address()},
+                                              {levels_.address()},
                                               probes,
                                               {service_.address()},
                                               state,

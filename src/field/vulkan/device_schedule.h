@@ -3,6 +3,9 @@
 // is read back.
 #pragma once
 
+#include <span>
+
+#include "field/probes/volumes.h"
 #include "field/schedule/schedule_arguments.h"
 #include "field/vulkan/field_resources.h"
 
@@ -11,8 +14,9 @@ namespace lambent {
 class DeviceSchedule {
  public:
   /// Schedules at most `most_probes` per update, a multiple of kBlockProbes, with `rays` rays each.
-  /// The field must outlive the schedule.
-  DeviceSchedule(const FieldResources& field, int most_probes, int rays);
+  /// `roles` has one entry per volume. The field must outlive the schedule.
+  DeviceSchedule(const FieldResources& field, std::span<const VolumeRole> roles, int most_probes,
+                 int rays);
 
   /// Records the choice of an update's probes. `update` counts from 0. With `look`, probes that are
   /// off are traced as well if they waited for kMaxProbeAge.
@@ -42,7 +46,7 @@ class DeviceSchedule {
   vulkan::Kernel priority_, choose_, list_them_, update_variability_, means_;
   int chunks_;
   DeviceProbes list_;
-  vulkan::Buffer state_, service_, bins_, chunk_records_, sizes_, changes_;
+  vulkan::Buffer levels_, state_, service_, bins_, chunk_records_, sizes_, changes_;
 };
 
 }  // namespace lambent

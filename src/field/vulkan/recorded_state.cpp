@@ -240,7 +240,8 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
     history = std::make_unique<DeviceHistory>(field, solver, probe_states(), largest);
   }
   if (recorded.rays_per_update > 0) {
-    schedule = std::make_unique<DeviceSchedule>(field, plan.most_probes(), of.rays_per_probe);
+    schedule =
+        std::make_unique<DeviceSchedule>(field, roles, plan.most_probes(), of.rays_per_probe);
   }
   for (int i = 0; i < recorded.frames_in_flight; ++i) {
     ring.emplace_back(field, plan, of.rays_per_probe, of.cascades > 0,

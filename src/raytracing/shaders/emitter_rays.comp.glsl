@@ -19,8 +19,8 @@ void main() {
     RayRecord ray = no_ray();
     EmitterDraw draw = draw_emitter(random, int(n), share);
     if (point.random_index != kAsksForNoLight && draw.by_cosine != 0u) {
-      vec3 direction = sample_cosine_about(point.normal_ws, vec2(draw.u.y, draw.u.z));
-      if (dot(point.geometric_normal_ws, direction) > 0.0f) {
+      vec3 direction = emitter_direction(point, draw);
+      if (direction != vec3(0.0f)) {
         ray = RayRecord(offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f,
                         direction, infinity(), kRayMeetsAll);
       }

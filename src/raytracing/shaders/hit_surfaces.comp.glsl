@@ -18,12 +18,10 @@ void main() {
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
-  ShadedHitRecord shaded = ShadedHitRecord(vec3(0.0f), vec3(0.0f), 0u, kSurfaceMissed);
   if (missed(hit)) {
-    shaded.radiance = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
-    shaded.flags |= kSurfaceReceivesGi;
     args.points.at[i] = point;
-    args.shaded.at[i] = shaded;
+    args.shaded.at[i] =
+        shaded_sky(sky_radiance(args.scene.at[0].environment, ray.direction_ws));
     return;
   }
 
@@ -32,20 +30,12 @@ void main() {
   point.position_ws = surface.position_ws;
   point.normal_ws = surface.normal_ws;
   point.geometric_normal_ws = surface.geometric_normal_ws;
-  shaded.material = surface.material;
-  if (!surface.front_face && !surface.double_sided && args.back_faces_count == 0u) {
-    shaded.flags = kSurfaceDiscounted | kSurfaceReceivesGi;
-  } else {
-    shaded.flags = surface.receives_gi ? kSurfaceReceivesGi : 0u;
-    shaded.radiance = surface.emission;
-    float n_dot_v = -dot(surface.normal_ws, ray.direction_ws);
-    vec3 albedo = min(effective_albedo(surface.reflectance, n_dot_v), vec3(args.max_albedo));
-    shaded.albedo_over_pi = albedo * kInvPi;
+  ShadedHitRecord shaded =
+      shaded_surface(surface, ray.direction_ws, args.max_albedo, args.back_faces_count);
 
-    // Ask for the light that may reach it
-    if (albedo != vec3(0.0f)) {
-      point.random_index = args.first_indices.at[i / args.rays_per_index] + i % args.rays_per_index;
-    }
+  // Ask for the light that may reach it
+  if (shaded.albedo_over_pi != vec3(0.0f)) {
+    point.random_index = args.first_indices.at[i / args.rays_per_index] + i % args.rays_per_index;
   }
   args.points.at[i] = point;
   args.shaded.at[i] = shaded;

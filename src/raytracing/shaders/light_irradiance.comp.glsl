@@ -21,13 +21,9 @@ void main() {
     RayRecord ray = no_ray();
     vec3 unoccluded = vec3(0.0f);
     if (asks) {
-      LightCandidate light = candidate_of_slot(args, point, i, slot, random);
-      float cosine = dot(point.normal_ws, light.to_light);
-      float side = dot(point.geometric_normal_ws, light.to_light);
-      if (light.perpendicular_irradiance != vec3(0.0f) && cosine > 0.0f && side > 0.0f) {
-        unoccluded = light.perpendicular_irradiance * cosine;
-        ray = shadow_ray(point, light);
-      }
+      LightCandidate light = candidate_of_slot(args, point, slot, random);
+      unoccluded = unoccluded_irradiance(point, light);
+      if (unoccluded != vec3(0.0f)) ray = shadow_ray(point, light);
     }
     args.unoccluded_irradiance.at[slot * args.count + i] = unoccluded;
     args.shadow_rays.at[slot * args.count + i] = ray;

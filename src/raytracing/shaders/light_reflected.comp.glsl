@@ -25,16 +25,9 @@ void main() {
     RayRecord ray = no_ray();
     ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
     if (asks) {
-      LightCandidate light = candidate_of_slot(args, point, i, slot, random);
-      if (light.perpendicular_irradiance != vec3(0.0f) &&
-          dot(point.geometric_normal_ws, light.to_light) > 0.0f) {
-        ReflectedPair share =
-            evaluate_reflectance(surface.reflectance, to_viewer, to_local(frame, light.to_light));
-        pair.diffuse = share.diffuse * light.perpendicular_irradiance;
-        pair.specular = share.specular * light.perpendicular_irradiance;
-        bool shows = share.diffuse != vec3(0.0f) || share.specular != vec3(0.0f);
-        if (shows) ray = shadow_ray(point, light);
-      }
+      LightCandidate light = candidate_of_slot(args, point, slot, random);
+      pair = unoccluded_reflection(surface.reflectance, frame, to_viewer, point, light);
+      if (pair.diffuse + pair.specular != vec3(0.0f)) ray = shadow_ray(point, light);
     }
     args.pairs.at[slot * args.count + i] = pair;
     args.shadow_rays.at[slot * args.count + i] = ray;

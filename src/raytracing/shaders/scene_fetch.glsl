@@ -28,6 +28,7 @@ struct LevelOfTexture {
 #define InstanceRef InstanceRecord
 #define MeshRef MeshRecord
 #define MaterialRef MaterialRecord
+#define TrianglePointRef TrianglePoint
 #define TextureViewRef TextureViewRecord
 #define TextureLevelRef LevelOfTexture
 

@@ -153,11 +153,8 @@ void DeviceScene::update_meshes(const Scene& scene) {
 
 void DeviceScene::update_emitters(const Scene& scene, const EmissiveTriangles& emissive) {
   first_emitter_pdfs_.assign(scene.instances.size(), kEmitsNothing);
-  std::vector<EmitterRecord> records;
   std::vector<float> pdfs;
-  records.reserve(emissive.size());
-  for (const EmissiveTriangles::Entry& entry : emissive.entries()) {
-    records.push_back({entry.instance, entry.triangle, entry.area, entry.probability});
+  for (const EmitterRecord& entry : emissive.entries()) {
     std::uint32_t& first = first_emitter_pdfs_[entry.instance];
     if (first == kEmitsNothing) {
       first = static_cast<std::uint32_t>(pdfs.size());
@@ -166,8 +163,8 @@ void DeviceScene::update_emitters(const Scene& scene, const EmissiveTriangles& e
     }
     pdfs[first + entry.triangle] = entry.probability / entry.area;
   }
-  emitter_count_ = records.size();
-  emitters_.set(device_, std::move(records), "emitters");
+  emitter_count_ = emissive.size();
+  emitters_.set(device_, emissive.entries(), "emitters");
   emitter_cumulative_.set(device_, emissive.cumulative(), "cumulative power of emitters");
   emitter_pdfs_.set(device_, std::move(pdfs), "densities of emitters");
 }

@@ -4,6 +4,7 @@
 #define LAMBENT_RAYTRACING_VULKAN_SCENE_RECORDS_H
 
 #include "raytracing/ray_records.h"
+#include "scene/emissive_sample.h"
 #include "scene/punctual_light.h"
 
 LAMBENT_BEGIN
@@ -94,14 +95,6 @@ struct InstanceRecord {
   uint flags;
   /// Where the densities of its triangles begin in SceneRecord::emitter_pdfs.
   uint first_emitter_pdf;
-};
-
-/// An emissive triangle.
-struct EmitterRecord {
-  uint instance;
-  uint triangle;
-  float area;         ///< World space [m^2].
-  float probability;  ///< Of being drawn.
 };
 
 LAMBENT_DEVICE_ARRAY(MaterialArray, MaterialRecord, 4)

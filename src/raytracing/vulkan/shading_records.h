@@ -3,8 +3,8 @@
 #ifndef LAMBENT_RAYTRACING_VULKAN_SHADING_RECORDS_H
 #define LAMBENT_RAYTRACING_VULKAN_SHADING_RECORDS_H
 
+#include "raytracing/shaded_hit.h"
 #include "raytracing/vulkan/scene_records.h"
-#include "shared/brdf.h"
 
 LAMBENT_BEGIN
 
@@ -18,21 +18,6 @@ struct LitPointRecord {
   vec3 normal_ws;            ///< Unit, on the lit side.
   vec3 geometric_normal_ws;  ///< Unit, likewise.
   uint random_index;         ///< Picks its random numbers; kAsksForNoLight: nothing is asked.
-};
-
-// Flags of ShadedHitRecord and PixelSurfaceRecord.
-const uint kSurfaceMissed = 1u;  ///< The ray left the scene.
-const uint kSurfaceDiscounted =
-    2u;  ///< The back of a single-sided surface: the ray does not count.
-const uint kSurfaceReceivesGi = 4u;  ///< Indirect light reaches the surface.
-
-/// What a ray brings back but for its direct light and its point; as struct ShadedHit of
-/// shade_hits.h.
-struct ShadedHitRecord {
-  vec3 albedo_over_pi;  ///< Diffuse and specular together [1/sr]; 0: reflects nothing.
-  vec3 radiance;        ///< Emitted, or the sky's where the ray left the scene [W/(m^2 sr)].
-  uint material;        ///< Index into Scene::materials; 0 where the ray left the scene.
-  uint flags;
 };
 
 /// What a camera ray met but for its point; as struct Surface of surface.h.

@@ -186,7 +186,7 @@ void render_rsm(const World& world, const Camera& camera, float aspect, const Rs
                                            static_cast<int>(first / rays.size()), map.resolution);
           map.texels[first + i] = to_texel(
               seen_texel(surface.position_ws, surface.geometric_normal_ws, rays[i].direction,
-                         shaded[i].albedo_over_pi * shaded[i].direct_irradiance,
+                         shaded[i].surface.albedo_over_pi * shaded[i].direct_irradiance,
                          perpendicular_area(projection, square, map.resolution, hits[i].distance)));
         }
       });

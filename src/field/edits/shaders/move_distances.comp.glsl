@@ -4,14 +4,15 @@
 // change.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/edits/edit_arguments.h"
-#include "field/probes/moments_encoding.h"
+#include "field/vulkan/device_arguments.h"
 #include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push {
   MoveDistancesArguments args;
 };
+
+#include "field/probes/shaders/store_moments.glsl"
 
 void main() {
   int t = int(gl_GlobalInvocationID.x);
@@ -38,26 +39,11 @@ void main() {
   bool is_blocked = args.blocked.at[k] != 0u;
   before = was_blocked ? vec2(0.0) : before / total;
   now = is_blocked ? vec2(0.0) : now / total;
-  // A probe without history takes all of its new distances
-  bool replaces = args.blocked_before.at[k] == kNoDistancesBefore;
-  if (before == now && !replaces) return;
 
-  // The history of a probe that came out of geometry, or went into it, is not worth keeping
   int width = kDistanceTexels + 2;
   int index = (probe * width + t / kDistanceTexels + 1) * width + t % kDistanceTexels + 1;
   float unit = distance_unit(args.store.grids.at[volume_of(args.store.grids, probe)]);
-  vec2 units = vec2(unit, unit * unit);
-  bool keeps = !was_blocked && !is_blocked;
-  if (kDistanceFormat == kRg16f) {
-    uint word = args.store.distance.at[index];
-    vec2 moved = keeps ? moved_moments(decode_half2(word) * units, before, now) : now;
-    args.store.distance.at[index] =
-        blended_halves(word, moved, 1.0, 1.0 / unit, uint(index) + args.dither_seed);
-    return;
-  }
-  vec2 held = vec2(uintBitsToFloat(args.store.distance.at[2 * index]),
-                   uintBitsToFloat(args.store.distance.at[2 * index + 1]));
-  vec2 moved = (keeps ? moved_moments(held * units, before, now) : now) / units;
-  args.store.distance.at[2 * index] = floatBitsToUint(moved.x);
-  args.store.distance.at[2 * index + 1] = floatBitsToUint(moved.y);
+  vec2 held = moments_at(index) * vec2(unit, unit * unit);
+  bool has_history = !was_blocked && !is_blocked;
+  store_moments(index, moved_moments(held, before, now, has_history), 1.0, 1.0 / unit);
 }

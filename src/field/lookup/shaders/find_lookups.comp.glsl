@@ -14,7 +14,23 @@ layout(push_constant, scalar) uniform Push {
 #include "field/probes/shaders/store.glsl"
 #include "field/lookup/visibility_math.h"
 #include "field/lookup/lookup.inl.h"
-#include "field/lookup/lookup_weights.inl.h"
+
+/// The weights of the eight probes around a point in one volume. They sum to 1, or to 0 where all
+/// of these probes are inside geometry.
+CornerWeights lookup_weights(LookupGrid in_volume, int volume, QueryRecord query) {
+  LookupCell cell =
+      lookup_cell(in_volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
+  ivec3 base = cell.cell.base;
+  CornerWeights weights;
+  weights.base = probe_index(in_volume.grid, base);
+  weights.table = uint(kCellWraps * volume + cell_wrap(in_volume.grid, base));
+  for (int k = 0; k < kCellCorners; ++k) {
+    weights.weight[k] =
+        lookup_weight(in_volume, cell, cell_corner(k), query.position_ws, query.normal_ws);
+  }
+  normalize_weights(weights);
+  return weights;
+}
 
 void main() {
   LookupPoint point = lookup_point();
@@ -31,8 +47,7 @@ void main() {
     float volume_weight =
         volume + 1 == kVolumes ? 1.0 : volume_blend_weight(grid, query.position_ws);
     if (volume_weight <= 0.0) continue;
-    CornerWeights corners =
-        lookup_weights(grid, volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
+    CornerWeights corners = lookup_weights(lookup_grid(grid), volume, query);
     // Where no probe of this volume is visible, the next volumes take its weight
     if (sum_of_weights(corners) == 0.0) continue;
     volume_weight *= left;

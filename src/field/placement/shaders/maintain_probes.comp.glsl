@@ -65,12 +65,7 @@ void place(int probe, vec3 spacing, uint inside_geometry) {
   vec3 offset = decode_probe_offset(standing.offset);
   if (step == kPlaceFirstStep) standing.relocation = begin_relocation(offset);
   if (standing.relocation.converged != 0u) return;
-  vec3 position = offset * spacing;
-  vec3 better = better_place(position, vec3(0.0), spacing, inside_geometry);
-  float margin = kSurfaceMargin * min(spacing.x, min(spacing.y, spacing.z));
-  float cost = placement_cost(position, better, margin, inside_geometry);
-  vec3 there = better == position ? offset : better / spacing;
-  vec3 next = relocation_step(standing.relocation, offset, there, cost);
+  vec3 next = relocate(standing.relocation, offset, spacing, inside_geometry);
   if (step == kPlaceEnd) {
     next = standing.relocation.best;
     standing.relocation.converged = 1u;

@@ -22,8 +22,8 @@ void main() {
   int slot = probe * args.stride + ray;
   SurfelRecord surfel = args.surfels.at[slot];
   if (surfel.kind != kSurfelSurface || surfel.albedo_over_pi == vec3(0.0)) return;
-  float takes = args.received.at[probe] * scatter_fraction(rays) *
-                scatter_albedo(surfel.albedo_over_pi) * args.scale;
+  float takes = args.scale *
+                scattered_importance(args.received.at[probe], rays, surfel.albedo_over_pi);
   for (int l = 0; l < kLookups; ++l) {
     SurfelLookup lookup = args.lookups.at[slot * kLookups + l];
     if (lookup.tile_corner == kNoLookup) continue;

@@ -21,11 +21,12 @@ float fetch_noise(int probe) { return args.service.at[probe].known.noise; }
 int bin_of(int probe, out float noise) {
   noise = 0.0;
   uint served = args.service.at[probe].served;
+  int volume = volume_of(args.grids, probe);
   float reduction = 0.0;
   if (fetch_live(probe)) {
     float samples = args.probes.standing.at[probe].samples;
-    ProbeGrid grid = args.grids.at[volume_of(args.grids, probe)];
-    float held = probe_noise(fetch_noise(probe), noise_around(grid, probe));
+    float held =
+        probe_noise(fetch_noise(probe), noise_around(args.grids.at[volume], probe));
     reduction = error_reduction(held, samples, args.longest);
     if (reduction > 0.0) {
       noise = held;
@@ -35,8 +36,9 @@ int bin_of(int probe, out float noise) {
   } else if (args.look == 0u || !waits_too_long(served, args.update)) {
     return kNoPartBin;
   }
-  // An engine says nothing of the camera: all probes weigh the same
-  return priority_bin(probe_urgency(reduction, served, args.update, /*weight=*/1.0));
+  // An engine says nothing of the camera, so that only a cascade's levels weigh
+  float weight = level_weight(args.levels.at[volume]);
+  return priority_bin(probe_urgency(reduction, served, args.update, weight));
 }
 
 void main() {

@@ -3,7 +3,6 @@
 // lane group keeps kDistanceVectors x kLaneGroupSize texels of kBlockProbes probes in registers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/probes/moments_encoding.h"
 #include "field/transport/shaders/lane_group.glsl"
 #include "field/probes/shaders/volume_of.glsl"
 
@@ -12,19 +11,7 @@ layout(push_constant, scalar) uniform Push {
   BlendDistancesArguments args;
 };
 
-/// Blends a stored texel with new moments.
-void store_moments(int texel, vec2 now, float blend_weight, float scale) {
-  if (kDistanceFormat == kRg16f) {
-    args.store.distance.at[texel] = blended_halves(args.store.distance.at[texel], now, blend_weight,
-                                                   scale, uint(texel) + args.dither_seed);
-    return;
-  }
-  vec2 old = vec2(uintBitsToFloat(args.store.distance.at[2 * texel]),
-                  uintBitsToFloat(args.store.distance.at[2 * texel + 1]));
-  vec2 moments = blended_moments(old, now, blend_weight, scale);
-  args.store.distance.at[2 * texel] = floatBitsToUint(moments.x);
-  args.store.distance.at[2 * texel + 1] = floatBitsToUint(moments.y);
-}
+#include "field/probes/shaders/store_moments.glsl"
 
 void main() {
   int b = int(gl_WorkGroupID.y * kLaneGroupsPerWorkgroup + lane_group_in_workgroup());

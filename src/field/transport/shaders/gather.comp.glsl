@@ -14,29 +14,33 @@ layout(push_constant, scalar) uniform Push {
 
 const int kTexels = kIrradianceTexels * kIrradianceTexels;
 
-/// The irradiance that a lookup reads from the field.
-vec3 read_field(SurfelLookup lookup) {
-  ivec2 corner = ivec2(int(lookup.tile_corner) % (kIrradianceTexels + 1),
-                       int(lookup.tile_corner) / (kIrradianceTexels + 1));
-  CornerOffsets offsets = args.corners.at[lookup.corners.table];
-  float fx = lookup.fraction_x;
-  float fy = lookup.fraction_y;
-  float tap_weights[4] =
-      float[]((1.0 - fx) * (1.0 - fy), fx * (1.0 - fy), (1.0 - fx) * fy, fx * fy);
+#define FieldRef Vec4Array
+#define SurfelLookupRef SurfelLookup
+#define CornerOffsetsRef CornerOffsets
+#define TapsRef int[4]
+#define TileRef int
+
+CornerOffsets fetch_offsets(Vec4Array field, uint table) {
+  return args.corners.at[table];
+}
+int[4] fetch_taps(Vec4Array field, uint tile_corner) {
+  const int places = kIrradianceTexels + 1;
+  ivec2 corner = ivec2(int(tile_corner) % places, int(tile_corner) / places);
   int taps[4];
   for (int tap = 0; tap < 4; ++tap) {
     ivec2 source = tile_source(corner + ivec2(tap & 1, tap >> 1), kIrradianceTexels);
     taps[tap] = source.x + kIrradianceTexels * source.y;
   }
-  vec3 sum = vec3(0.0);
-  for (int k = 0; k < kCellCorners; ++k) {
-    int tile = (lookup.corners.base + offsets.probe[k]) * kTexels;
-    for (int tap = 0; tap < 4; ++tap) {
-      sum += args.field.at[tile + taps[tap]].xyz * (lookup.corners.weight[k] * tap_weights[tap]);
-    }
-  }
-  return sum;
+  return taps;
 }
+int fetch_tile(Vec4Array field, int probe) {
+  return probe * kTexels;
+}
+vec4 fetch_texel(Vec4Array field, int tile, int texel) {
+  return field.at[tile + texel];
+}
+
+#include "field/transport/gather.inl.h"
 
 void main() {
   int ray = int(gl_GlobalInvocationID.x);
@@ -48,17 +52,14 @@ void main() {
   int slot = probe * args.stride + min(ray, rays - 1);
   SurfelRecord surfel = args.surfels.at[slot];
 
-  vec3 reflectance = surfel.kind == kSurfelSky       ? vec3(1.0)
-               : args.light != kGatherSky      ? surfel.albedo_over_pi
-                                               : vec3(0.0);
   vec3 arrives = surfel.light;
   if (there && args.light == kGatherAll && surfel.albedo_over_pi != vec3(0.0)) {
     for (int l = 0; l < kLookups; ++l) {
       SurfelLookup lookup = args.lookups.at[slot * kLookups + l];
-      if (lookup.tile_corner != kNoLookup) arrives += read_field(lookup);
+      if (lookup.tile_corner != kNoLookup) arrives += vec3(read_field(args.field, lookup));
     }
   }
-  float counts = there && surfel.kind != kSurfelBackFace ? 1.0 : 0.0;
-  vec4 radiance = there ? vec4(reflectance * arrives, counts) : vec4(0.0);
-  args.radiance.at[k * args.radiance_stride + ray] = radiance;
+  vec4 radiance =
+      sent_radiance(surfel.kind, surfel.albedo_over_pi, arrives, args.light != kGatherSky);
+  args.radiance.at[k * args.radiance_stride + ray] = there ? radiance : vec4(0.0);
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes surfels from shaded hits, one lane per surfel. The twin of make_surfel() in surfels.cpp.
+// Makes surfels from shaded hits, one lane per surfel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"
-#include "shared/octahedral.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push {
@@ -16,17 +15,7 @@ void main() {
   if (k >= args.count || ray >= args.rays_per_probe) return;
   int i = k * args.rays_per_probe + ray;
   LitPointRecord point = args.points.at[i];
-  ShadedHitRecord shaded = args.shaded.at[i];
-  SurfelRecord surfel;
-  surfel.position_ws = point.position_ws;
-  surfel.normal_ws = encode_unit_vector(point.normal_ws);
-  surfel.geometric_normal_ws = encode_unit_vector(point.geometric_normal_ws);
-  bool sky = (shaded.flags & kSurfaceMissed) != 0u;
-  bool counts = (shaded.flags & kSurfaceDiscounted) == 0u;
-  surfel.kind = sky ? kSurfelSky : counts ? kSurfelSurface : kSurfelBackFace;
-  surfel.material = sky ? 0u : shaded.material;
-  surfel.albedo_over_pi = sky ? vec3(0.0) : shaded.albedo_over_pi;
-  surfel.light = sky ? shaded.radiance : args.irradiance.at[i];
-  surfel.receives_gi = !sky && (shaded.flags & kSurfaceReceivesGi) != 0u ? 1u : 0u;
-  args.surfels.at[args.probes.at[k] * args.stride + ray] = surfel;
+  args.surfels.at[args.probes.at[k] * args.stride + ray] =
+      surfel_record(point.position_ws, point.normal_ws, point.geometric_normal_ws,
+                    args.shaded.at[i], args.irradiance.at[i]);
 }

@@ -4,8 +4,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"
-#include "shared/constants.h"
-#include "shared/octahedral.h"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(push_constant, scalar) uniform Push {
@@ -28,25 +26,26 @@ void main() {
   bool left = result.kind == kRayLeft;
   bool surface = result.kind == kRayMetSurface;
 
-  SurfelRecord surfel;
-  surfel.kind = left ? kSurfelSky : surface ? kSurfelSurface : kSurfelBackFace;
-  surfel.position_ws = from.origin_ws + (left ? 0.0 : result.distance) * from.direction_ws;
-  surfel.normal_ws = encode_unit_vector(left ? -from.direction_ws : result.normal_ws);
-  surfel.geometric_normal_ws =
-      encode_unit_vector(left ? -from.direction_ws : result.geometric_normal_ws);
-  surfel.material = 0u;
-  surfel.receives_gi = surface ? 1u : 0u;
-  surfel.albedo_over_pi = vec3(0.0);
-  surfel.light = left ? result.radiance : vec3(0.0);
+  ShadedHitRecord hit = shaded_sky(result.radiance);
+  vec3 position_ws = from.origin_ws;
+  vec3 normal_ws = -from.direction_ws;
+  vec3 geometric_normal_ws = -from.direction_ws;
+  vec3 irradiance = vec3(0.0);
+  if (!left) {
+    hit.flags = surface ? kSurfaceReceivesGi : kSurfaceDiscounted;
+    position_ws += result.distance * from.direction_ws;
+    normal_ws = result.normal_ws;
+    geometric_normal_ws = result.geometric_normal_ws;
+  }
   if (surface) {
     vec3 albedo = clamp(result.albedo, 0.0, args.max_albedo);
     vec3 glows = vec3(greaterThan(result.radiance, vec3(0.0)));
-    albedo = max(albedo, kLeastGlowingAlbedo * glows);
-    surfel.albedo_over_pi = albedo * kInvPi;
-    surfel.light = result.direct_irradiance;
+    hit.albedo_over_pi = max(albedo, kLeastGlowingAlbedo * glows) * kInvPi;
+    irradiance = result.direct_irradiance;
     for (int c = 0; c < 3; ++c) {
-      if (glows[c] > 0.0) surfel.light[c] += result.radiance[c] / surfel.albedo_over_pi[c];
+      if (glows[c] > 0.0) irradiance[c] += result.radiance[c] / hit.albedo_over_pi[c];
     }
   }
-  args.surfels.at[args.list.at[k] * args.stride + ray] = surfel;
+  args.surfels.at[args.list.at[k] * args.stride + ray] =
+      surfel_record(position_ws, normal_ws, geometric_normal_ws, hit, irradiance);
 }

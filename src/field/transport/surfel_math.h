@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a shaded hit to a surfel.
+#ifndef LAMBENT_FIELD_TRANSPORT_SURFEL_MATH_H
+#define LAMBENT_FIELD_TRANSPORT_SURFEL_MATH_H
+
+#include "raytracing/shaded_hit.h"
+#include "shared/octahedral.h"
+
+LAMBENT_BEGIN
+
+// What a surfel's ray hit. The numbers are those of SurfelKind.
+const uint kSurfelSurface = 0u;
+const uint kSurfelSky = 1u;
+const uint kSurfelBackFace = 2u;
+
+/// A surfel, like struct Surfel.
+struct SurfelRecord {
+  vec3 position_ws;
+  uint material;
+  vec3 albedo_over_pi;
+  uint normal_ws;
+  vec3 light;
+  uint geometric_normal_ws;
+  uint kind;
+  uint receives_gi;
+};
+
+/// The surfel of a ray that ended at a point and brought back `hit`. `irradiance` is the direct
+/// light there.
+LAMBENT_FN SurfelRecord surfel_record(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
+                                      ShadedHitRecord hit, vec3 irradiance) {
+  bool sky = (hit.flags & kSurfaceMissed) != 0u;
+  bool counts = (hit.flags & kSurfaceDiscounted) == 0u;
+  SurfelRecord surfel;
+  surfel.position_ws = position_ws;
+  surfel.material = hit.material;
+  surfel.albedo_over_pi = hit.albedo_over_pi;
+  surfel.normal_ws = encode_unit_vector(normal_ws);
+  surfel.light = sky ? hit.radiance : irradiance;
+  surfel.geometric_normal_ws = encode_unit_vector(geometric_normal_ws);
+  surfel.kind = sky ? kSurfelSky : counts ? kSurfelSurface : kSurfelBackFace;
+  surfel.receives_gi = !sky && (hit.flags & kSurfaceReceivesGi) != 0u ? 1u : 0u;
+  return surfel;
+}
+
+LAMBENT_END
+#endif
