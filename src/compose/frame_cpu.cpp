@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The passes of a frame on the processor.
+#include <algorithm>
 #include <optional>
 
 #include "compose/frame_passes.h"

@@ -32,7 +32,7 @@ struct ProbeViewSettings {
 /// newly vigilant, green vigilant.
 glm::vec3 probe_state_color(ProbeState state);
 
-/// Draws the field's probes into a frame of render_frame, behind and in front of the scene as they
+/// Draws the field's probes into a rendered frame, behind and in front of the scene as they
 /// stand, and adds the layer "probes": colour and coverage, premultiplied, of what was drawn.
 /// Irradiance is drawn as bright as it is, all else so that automatic exposure shows its colour.
 void draw_probes(const World& world, const IrradianceField& field, const Camera& camera,

@@ -24,7 +24,6 @@ class Log final : public FieldPasses {
 
   const FieldSettings& settings() const override { return settings_; }
   int batches() const override { return batches_; }
-  void scroll() override { done.emplace_back("scroll"); }
   void schedule() override { done.emplace_back("schedule"); }
   void trace(int batch) override { done.push_back("trace" + std::to_string(batch)); }
   void shade(int batch) override { done.push_back("shade" + std::to_string(batch)); }

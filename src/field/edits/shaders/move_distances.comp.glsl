@@ -4,7 +4,7 @@
 // change.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/vulkan/device_arguments.h"
+#include "field/edits/edit_arguments.h"
 #include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -35,6 +35,7 @@ void main() {
     now += weight * vec2(seen, seen * seen);
     total += weight;
   }
+  // Here, a probe without history (kNoDistancesBefore) counts as blocked: it takes all that is new
   bool was_blocked = args.blocked_before.at[k] != 0u;
   bool is_blocked = args.blocked.at[k] != 0u;
   before = was_blocked ? vec2(0.0) : before / total;
