@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.h"
@@ -40,15 +42,17 @@ constexpr float kMinEnclosed = 0.75f;
 // Where this share of a scene's open places is enclosed, it is a room or a building seen from
 // within, and what is outside of it does not count.
 constexpr float kMinRoomShare = 0.6f;
-// Places stand this far off the grid [cells], as scenes and grids are made in round numbers: a
-// place in a wall's own plane would be on either side of it by chance.
-const vec3 kOffPlanes(0.137f, 0.211f, 0.173f);
+// Places stand off the grid and within its hull, so far from its edge [places]: scenes and grids
+// are made in round numbers, and a place in a wall's own plane would be on either side of it by
+// chance.
+const vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
 // Places of the grid over the whole scene, about.
 constexpr float kScenePlaces = 2048.0f;
 // Flat scenes get no more than this along an axis.
 constexpr int kMaxPlacesAlongAxis = 64;
-// A scene without extent is taken to have this [m].
-constexpr float kSmallestScene = 1e-3f;
+// A flat scene is looked at from this share of its longest side around it, one without extent from
+// so far [m].
+constexpr float kMinThickness = 0.1f, kSmallestScene = 1e-3f;
 
 /// How often open space saw the front and the back of something.
 struct Sightings {
@@ -64,8 +68,9 @@ struct Sightings {
   }
 };
 
-/// The places whose sightings count.
-enum class Voters { all, open, enclosed };
+/// The places whose sightings count: all, those that are open, and of these the enclosed ones and
+/// the others.
+enum class Voters { all, open, enclosed, exposed };
 
 /// The places of a grid, what they see, and which of them are open.
 class Places {
@@ -81,6 +86,8 @@ class Places {
     mark_lights();
     open_regions();
   }
+
+  OpenPlaces take_open() && { return {grid_, std::move(open_)}; }
 
   bool any_open() const {
     return std::any_of(open_.begin(), open_.end(), [](std::uint8_t open) { return open != 0; });
@@ -103,6 +110,7 @@ class Places {
     for (std::size_t place = 0; place < count(); ++place) {
       if (voters != Voters::all && open_[place] == 0) continue;
       if (voters == Voters::enclosed && !is_enclosed(place)) continue;
+      if (voters == Voters::exposed && is_enclosed(place)) continue;
       for (int i = 0; i < kRays; ++i) {
         const Hit& hit = hits_[place * kRays + i];
         if (!hit.missed()) see(hit);
@@ -115,7 +123,8 @@ class Places {
     return static_cast<std::size_t>(grid_.count.x) * grid_.count.y * grid_.count.z;
   }
   vec3 position(const vec3& coords) const {
-    return grid_.origin_ws + grid_.axes * (grid_.spacing * (coords + kOffPlanes));
+    const vec3 cells = (coords + kOffPlanes) * vec3(grid_.count - 1) / vec3(grid_.count);
+    return grid_.origin_ws + grid_.axes * (grid_.spacing * cells);
   }
   ivec3 coords(std::size_t place) const {
     const int i = static_cast<int>(place);
@@ -257,20 +266,58 @@ class Places {
   std::vector<std::uint8_t> joined_;    // 1: sees the next place along an axis; kAxes a place
 };
 
-/// A grid over a box whose outermost places stand half a cell inside.
+/// A grid over a box.
 PlaceGrid grid_over(const Bounds& bounds) {
-  const vec3 size = max(bounds.max - bounds.min, vec3(kSmallestScene));
+  const vec3 extent = bounds.max - bounds.min;
+  const float longest = std::max({extent.x, extent.y, extent.z, kSmallestScene});
+  const vec3 size = max(extent, vec3(kMinThickness * longest));
   const float spacing = std::cbrt(size.x * size.y * size.z / kScenePlaces);
   PlaceGrid grid;
   grid.count = clamp(ivec3(size / spacing), ivec3(2), ivec3(kMaxPlacesAlongAxis));
-  grid.spacing = size / vec3(grid.count);
-  grid.origin_ws = bounds.min + 0.5f * grid.spacing;
+  grid.spacing = size / vec3(grid.count - 1);
+  grid.origin_ws = 0.5f * (bounds.min + bounds.max) - 0.5f * size;
   return grid;
 }
 
 /// The sides that bound solid matter if nothing but a surface's winding is known.
 std::uint32_t sides_by_winding(const Scene& scene, const Instance& instance) {
   return scene.materials[scene.meshes[instance.mesh].material].double_sided ? 0u : kSolidBack;
+}
+
+/// What some of the places see of each triangle and of each instance.
+struct Votes {
+  Votes(const Scene& scene, std::span<const Places> places, Voters voters)
+      : triangles(scene.instances.size()), instances(scene.instances.size()) {
+    for (const Places& some : places) {
+      some.for_each_sighting(voters, [&](const Hit& hit) {
+        std::vector<Sightings>& seen = triangles[hit.instance];
+        seen.resize(scene.meshes[scene.instances[hit.instance].mesh].triangles.size());
+        seen[hit.triangle].add(hit.front_face);
+        instances[hit.instance].add(hit.front_face);
+      });
+    }
+  }
+
+  std::vector<std::vector<Sightings>> triangles;  // empty where an instance was not seen
+  std::vector<Sightings> instances;
+};
+
+/// The sides of a triangle that bound solid matter, by the first votes that know it, or else its
+/// instance; none where nobody saw either.
+std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t instance,
+                                   std::uint32_t triangle) {
+  for (const Votes& some : votes) {
+    const std::vector<Sightings>& seen = some.triangles[instance];
+    if (triangle < seen.size() && seen[triangle].all() >= kMinSightings) {
+      return seen[triangle].solid_sides();
+    }
+  }
+  for (const Votes& some : votes) {
+    if (some.instances[instance].all() >= kMinSightings) {
+      return some.instances[instance].solid_sides();
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -283,32 +330,26 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   for (const PlaceGrid& grid : grids) places.emplace_back(world, grid);
   const bool some_open =
       std::any_of(places.begin(), places.end(), [](const Places& some) { return some.any_open(); });
-  const Voters voters = !some_open ? Voters::all : room ? Voters::enclosed : Voters::open;
-
-  // Count what open space sees of each triangle
-  std::vector<std::vector<Sightings>> triangles(scene.instances.size());
-  std::vector<Sightings> instances(scene.instances.size());
-  for (const Places& some : places) {
-    some.for_each_sighting(voters, [&](const Hit& hit) {
-      std::vector<Sightings>& seen = triangles[hit.instance];
-      seen.resize(scene.meshes[scene.instances[hit.instance].mesh].triangles.size());
-      seen[hit.triangle].add(hit.front_face);
-      instances[hit.instance].add(hit.front_face);
-    });
+  // Count what open space sees of each triangle. In a room, what is seen from within tells more
+  std::vector<Votes> votes;
+  if (!some_open) {
+    votes.emplace_back(scene, places, Voters::all);
+  } else if (room) {
+    votes.emplace_back(scene, places, Voters::enclosed);
+    votes.emplace_back(scene, places, Voters::exposed);
+  } else {
+    votes.emplace_back(scene, places, Voters::open);
   }
 
   SolidSides sides = no_solid_sides(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    const std::uint32_t otherwise = instances[i].all() >= kMinSightings
-                                        ? instances[i].solid_sides()
-                                        : sides_by_winding(scene, instance);
     const auto count = static_cast<std::uint32_t>(scene.meshes[instance.mesh].triangles.size());
     for (std::uint32_t t = 0; t < count; ++t) {
-      const bool known = t < triangles[i].size() && triangles[i][t].all() >= kMinSightings;
-      sides.set(i, t, known ? triangles[i][t].solid_sides() : otherwise);
+      sides.set(i, t, judge(votes, i, t).value_or(sides_by_winding(scene, instance)));
     }
   }
+  for (Places& some : places) sides.open_space.push_back(std::move(some).take_open());
   return sides;
 }
 

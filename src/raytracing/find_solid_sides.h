@@ -9,14 +9,6 @@
 
 namespace lambent {
 
-/// A regular grid of places from which the scene is looked at.
-struct PlaceGrid {
-  glm::vec3 origin_ws{0.0f};  ///< Place (0, 0, 0) [m].
-  glm::mat3 axes{1.0f};       ///< Columns: the grid's axes in world space, unit and orthogonal.
-  glm::vec3 spacing{1.0f};    ///< Distance of neighbouring places along each axis [m], > 0.
-  glm::ivec3 count{2};        ///< Places along each axis, >= 2. Cost is in proportion.
-};
-
 /// Finds the sides that bound solid matter from the places of some grids. Open space is
 /// where rays leave the scene or meet emissive surfaces, where a point or spot light shines from,
 /// and whatever a chain of neighbouring places that see each other joins to these. A side of a

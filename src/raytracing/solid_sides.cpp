@@ -16,6 +16,22 @@ std::size_t words_of(const Scene& scene, const Instance& instance) {
 
 }  // namespace
 
+bool OpenPlaces::reach(const glm::vec3& point_ws) const {
+  const glm::vec3 cells = ((point_ws - grid.origin_ws) * grid.axes) / grid.spacing;
+  if (glm::any(glm::lessThan(cells, glm::vec3(-1.0f))) ||
+      glm::any(glm::greaterThan(cells, glm::vec3(grid.count)))) {
+    return false;
+  }
+  const glm::ivec3 base = glm::clamp(glm::ivec3(glm::floor(cells)), glm::ivec3(0), grid.count - 2);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 at = base + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    if (open[(static_cast<std::size_t>(at.z) * grid.count.y + at.y) * grid.count.x + at.x] != 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool SolidSides::fits(const Scene& scene) const {
   if (first_word.size() != scene.instances.size()) return false;
   std::size_t word = 0;

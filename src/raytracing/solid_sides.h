@@ -2,6 +2,7 @@
 // Which sides of triangles bound solid matter. A ray that meets such a side comes from inside.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -12,12 +13,30 @@
 
 namespace lambent {
 
+/// A regular grid of places from which the scene is looked at.
+struct PlaceGrid {
+  glm::vec3 origin_ws{0.0f};  ///< Its first corner [m].
+  glm::mat3 axes{1.0f};       ///< Columns: the grid's axes in world space, unit and orthogonal.
+  glm::vec3 spacing{1.0f};    ///< Size of a cell along each axis [m], > 0.
+  glm::ivec3 count{2};        ///< Places along each axis, >= 2. Cost is in proportion.
+};
+
+/// A grid of places, and which of them are open.
+struct OpenPlaces {
+  PlaceGrid grid;
+  std::vector<std::uint8_t> open;  ///< 1: light can come there. Along x first, then y.
+
+  /// Whether one of the places around a point is open.
+  bool reach(const glm::vec3& point_ws) const;
+};
+
 /// For each triangle of each instance, which of its sides bound solid matter: neither, as with
 /// leaves, curtains and all that is open on both sides, the back, or the front where a mesh is
 /// wound the other way round.
 struct SolidSides {
   std::vector<std::uint32_t> first_word;  ///< For each instance, the index of its first word.
   std::vector<std::uint32_t> words;       ///< See solid_sides_math.h.
+  std::vector<OpenPlaces> open_space;     ///< Where it was looked from.
 
   /// Whether the side that a ray met bounds solid matter. A ray that met nothing meets none.
   bool is_solid(const Hit& hit) const {
@@ -31,6 +50,11 @@ struct SolidSides {
   }
   /// Whether it was made for the scene's instances and triangles as they are now.
   bool fits(const Scene& scene) const;
+  /// Whether a point was found to be in open space.
+  bool is_open(const glm::vec3& point_ws) const {
+    return std::any_of(open_space.begin(), open_space.end(),
+                       [&](const OpenPlaces& places) { return places.reach(point_ws); });
+  }
 };
 
 /// A mesh of which triangles face solid matter, as their vertices run.

@@ -29,14 +29,48 @@ const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
 }  // namespace
 
+namespace {
+
+/// Whether a lamp came to shine where no light could come before.
+bool shines_in_the_dark(const World& world, std::span<const WorldChanges> changes,
+                        const SolidSides& sides) {
+  for (const WorldChanges& change : changes) {
+    for (const WorldChanges::LightChange& light : change.lights) {
+      if (light.after && light.after->type != Light::Type::directional &&
+          !sides.is_open(light.after->position_ws)) {
+        return true;
+      }
+    }
+    if (!change.emission) continue;
+    const Scene& scene = world.scene();
+    for (int i = 0; i < static_cast<int>(scene.instances.size()); ++i) {
+      const Mesh& mesh = scene.meshes[scene.instances[i].mesh];
+      if (scene.materials[mesh.material].emission == vec3(0.0f)) continue;
+      const Bounds box = world.instance_bounds(i);
+      if (!box.empty() && !sides.is_open(0.5f * (box.min + box.max))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
 void IrradianceField::State::find_solid_sides(const World& world) {
-  if (data.solid_sides.fits(world.scene())) return;
+  const auto changes = world.changes_since(placement.solid_revision);
+  placement.solid_revision = world.revision();
+  const bool made = data.solid_sides.fits(world.scene());
+  if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides)) return;
+  const std::vector<std::uint32_t> before = std::move(data.solid_sides.words);
   std::vector<PlaceGrid> places;
   for (const ProbeGrid& grid : data.store.grids()) {
     places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
   }
   data.solid_sides = lambent::find_solid_sides(world, places);
   backend->push_solid_sides();
+  // What was taken for solid matter was a dark room
+  if (made && data.solid_sides.words != before) {
+    placement.edited_places = {{kEverywhere, updates - kRestUpdates}};
+  }
 }
 
 std::vector<int> IrradianceField::State::place_probes(const World& world,

@@ -22,6 +22,7 @@ struct EditedPlace {
 struct PlacementState {
   std::vector<ClassificationInput> classification_inputs;  ///< From the static part of the scene.
   std::vector<EditedPlace> edited_places = {};
+  std::uint64_t solid_revision = 0;   ///< The revision that ProbeData::solid_sides know.
   std::uint64_t placed_revision = 0;  ///< The revision that edited_places are up to date with.
   bool classified = false;  ///< The classification inputs have not changed since classify().
   std::vector<Bounds> moved_to = {};  ///< Bounds of the dynamic instances at the last classify().
