@@ -16,8 +16,8 @@ namespace lambent {
 /// The ray that asks whether a candidate reaches a point; the geometric normal is on the lit side.
 inline Ray shadow_ray(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,
                       const LightCandidate& light) {
-  return {offset_ray_origin(position_ws, geometric_normal_ws), 0.0f, light.to_light,
-          shadow_ray_length(light.distance)};
+  const RayRecord ray = shadow_ray_record(position_ws, geometric_normal_ws, light);
+  return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
 }
 
 /// A point on a surface that asks for light, with both its normals on the lit side; unit.

@@ -41,7 +41,7 @@ LAMBENT_FN LightCandidate candidate_of_slot(DrawsRef draws, LitPointRef point, u
     vec3 direction = emitter_direction(point, draw);
     if (direction != vec3(0.0f)) emitter = find_emitter(draws, point, sample_index, direction);
   } else {
-    emitter = emitter_drawn(fetch_emissive_sample(draws, draw.u), point.position_ws);
+    emitter = emitter_seen(fetch_emissive_sample(draws, draw.u), point.position_ws);
   }
   if (emitter.radiance == vec3(0.0f)) return no_candidate();
   return emitter_candidate(emitter, point.normal_ws, share);

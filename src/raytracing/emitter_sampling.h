@@ -3,6 +3,7 @@
 #ifndef LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 #define LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 
+#include "raytracing/shadow_rays.h"
 #include "scene/emissive_sample.h"
 #include "shared/random.h"
 #include "shared/rays.h"
@@ -23,9 +24,17 @@ LAMBENT_FN LightCandidate no_candidate() {
   return none;
 }
 
-/// Length of the ray that asks whether a candidate reaches a point [m].
-LAMBENT_FN float shadow_ray_length(float distance) {
-  return distance * (1.0f - kShadowRayShortening);
+/// The ray that asks whether a candidate reaches a point; the geometric normal is on the lit side.
+LAMBENT_FN RayRecord shadow_ray_record(vec3 position_ws, vec3 geometric_normal_ws,
+                                       LightCandidate light) {
+  bool endless = floatBitsToUint(light.distance) == kMissedDistanceBits;
+  vec3 source_ws = position_ws + (endless ? 1.0f : light.distance) * light.to_light;
+  RayRecord ray = ray_to_point(position_ws, geometric_normal_ws, source_ws, kRayMeetsAll);
+  if (endless) {
+    ray.direction_ws = light.to_light;
+    ray.t_max = light.distance;
+  }
+  return ray;
 }
 
 /// Share of the samples of emissive surfaces that follow the cosine instead of the sources' power.
@@ -77,8 +86,8 @@ LAMBENT_FN float solid_angle_pdf(float pdf_area, float squared_distance, float c
   return pdf_area * squared_distance / max(cosine, kMinEmitterCosine);
 }
 
-/// A point drawn by power, as seen from `position_ws`.
-LAMBENT_FN EmitterPoint emitter_drawn(EmissiveSample drawn, vec3 position_ws) {
+/// A point of an emissive triangle, drawn or met by a ray, as seen from `position_ws`.
+LAMBENT_FN EmitterPoint emitter_seen(EmissiveSample drawn, vec3 position_ws) {
   vec3 offset = drawn.position_ws - position_ws;
   float squared = dot(offset, offset);
   EmitterPoint emitter = no_emitter();
@@ -88,18 +97,6 @@ LAMBENT_FN EmitterPoint emitter_drawn(EmissiveSample drawn, vec3 position_ws) {
   emitter.radiance = drawn.radiance;
   emitter.pdf_power =
       solid_angle_pdf(drawn.pdf_area, squared, abs(dot(drawn.normal_ws, emitter.to_light)));
-  return emitter;
-}
-
-/// A point that a ray drawn by the cosine met.
-LAMBENT_FN EmitterPoint emitter_met(EmissiveSample met, vec3 direction, float distance) {
-  EmitterPoint emitter = no_emitter();
-  if (met.pdf_area <= 0.0f) return emitter;
-  emitter.to_light = direction;
-  emitter.distance = distance;
-  emitter.radiance = met.radiance;
-  emitter.pdf_power =
-      solid_angle_pdf(met.pdf_area, distance * distance, abs(dot(met.normal_ws, direction)));
   return emitter;
 }
 

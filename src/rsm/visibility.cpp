@@ -13,7 +13,7 @@ namespace lambent {
 namespace {
 
 Ray ray_between(const vec3& position_ws, const vec3& normal_ws, const vec3& texel_ws) {
-  const RayRecord r = ray_to_texel(position_ws, normal_ws, texel_ws, kRayMeetsAll);
+  const RayRecord r = ray_to_point(position_ws, normal_ws, texel_ws, kRayMeetsAll);
   return {r.origin_ws, r.t_min, r.direction_ws, r.t_max, r.mask};
 }
 

@@ -78,9 +78,9 @@ std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
   }
   const vec2 u = next_uniform2(random);
   const EmitterPoint emitter =
-      emitter_drawn(emissive_of(world).sample({u.x, u.y, next_uniform(random)}), from);
+      emitter_seen(emissive_of(world).sample({u.x, u.y, next_uniform(random)}), from);
   if (emitter.radiance == glm::vec3(0.0f)) return std::nullopt;
-  return Ray{from, 0.0f, emitter.to_light, shadow_ray_length(emitter.distance)};
+  return Ray{from, 0.0f, emitter.to_light, emitter.distance * (1.0f - kShadowRayShortening)};
 }
 
 /// 1 for each of the rays' hits that a light reaches; all 0 where the scene has no light.

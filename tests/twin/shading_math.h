@@ -25,7 +25,8 @@ struct ShadingNumbers {
   float wrapped[3];
   vec2 map_fraction;
   EmitterDraw draw;
-  EmitterPoint drawn, met;
+  EmitterPoint drawn;
+  vec3 shadow_direction;
   LightCandidate candidate;
   float shadow_length, stopping;
 };
@@ -130,11 +131,12 @@ LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOU
   n.draw = draw_emitter(random, 1, 0.5f);
   EmissiveSample sampled = {random_vec3(random, -3.0f, 3.0f), random_direction(random),
                             random_vec3(random, 0.0f, 5.0f), next_uniform(random)};
-  n.drawn = emitter_drawn(sampled, point);
+  n.drawn = emitter_seen(sampled, point);
   vec3 direction = sample_cosine_about(normal, vec2(n.draw.u.y, n.draw.u.z));
-  n.met = emitter_met(sampled, direction, 2.0f);
-  n.candidate = emitter_candidate(n.met, normal, 0.5f);
-  n.shadow_length = shadow_ray_length(n.drawn.distance);
+  n.candidate = emitter_candidate(n.drawn, normal, 0.5f);
+  RayRecord shadow = shadow_ray_record(point, direction, n.candidate);
+  n.shadow_direction = shadow.direction_ws;
+  n.shadow_length = shadow.t_max;
   vec3 towards = random_direction(random);
   angles.map_point = latitude_longitude_from_direction(towards, 0.7f);
   angles.map_direction = direction_from_latitude_longitude(angles.map_point, 0.7f);

@@ -45,9 +45,9 @@ EmitterPoint find_emitter(LightDrawsArguments draws, LitPointRecord point, uint 
                           vec3 direction) {
   HitRecord hit = draws.emitter_hits.at[sample_index * draws.count + gl_GlobalInvocationID.x];
   if (missed(hit)) return no_emitter();
-  return emitter_met(
+  return emitter_seen(
       emissive_point(draws.scene, draws.scene, hit.instance, hit.triangle, hit.barycentrics),
-      direction, hit.distance);
+      point.position_ws);
 }
 
 #include "raytracing/direct_light.inl.h"
@@ -59,8 +59,7 @@ RayRecord no_ray() {
 
 /// The ray that asks whether a candidate reaches a point.
 RayRecord shadow_ray(LitPointRecord point, LightCandidate light) {
-  return RayRecord(offset_ray_origin(point.position_ws, point.geometric_normal_ws), 0.0f,
-                   light.to_light, shadow_ray_length(light.distance), kRayMeetsAll);
+  return shadow_ray_record(point.position_ws, point.geometric_normal_ws, light);
 }
 
 #endif

@@ -52,7 +52,7 @@ void main() {
       texel = texel_at(start, ++k);
       brought += worth(pixel, texel);
     }
-    args.rays.at[first + uint(i)] = ray_to_texel(pixel.position_ws, pixel.normal_ws,
+    args.rays.at[first + uint(i)] = ray_to_point(pixel.position_ws, pixel.normal_ws,
                                                  texel.position_ws, total > 0.0f ? args.mask : 0u);
   }
 }
