@@ -119,7 +119,7 @@ class Reader {
     header.bytes = in_.u64();
     const std::uint32_t irradiance_format = in_.u32(), distance_format = in_.u32();
     const std::uint32_t irradiance_texels = in_.u32(), distance_texels = in_.u32();
-    if (irradiance_format > static_cast<std::uint32_t>(IrradianceFormat::float32)) {
+    if (irradiance_format >= kIrradianceFormatCount) {
       return bad(place_, "stores irradiance in an unknown format");
     }
     if (distance_format > static_cast<std::uint32_t>(DistanceFormat::rg32f)) {

@@ -49,5 +49,29 @@ LAMBENT_FN vec3 decode_r11g11b10f(uint word) {
               linear_from_perceptual(decode_small_float(word >> 22u, 5)));
 }
 
+// The formats of irradiance, and how many there are. Their numbers are those of IrradianceFormat,
+// and of field files.
+const uint kRgb9e5 = 0u;
+const uint kR11g11b10f = 1u;
+const uint kIrradianceFloat32 = 2u;
+const uint kIrradianceFormatCount = 3u;
+
+/// The 32-bit words of a texel: one, or three that hold the light as it is.
+LAMBENT_FN int words_of_irradiance(uint format) {
+  return format == kIrradianceFloat32 ? 3 : 1;
+}
+
+/// The word of a texel in a format that takes one.
+LAMBENT_FN uint encode_irradiance(uint format, vec3 irradiance, vec3 u) {
+  if (format == kR11g11b10f) return encode_r11g11b10f(irradiance, u);
+  return encode_rgb9e5(irradiance, u);
+}
+
+/// The light of a texel in a format that takes one word.
+LAMBENT_FN vec3 decode_irradiance(uint format, uint word) {
+  if (format == kR11g11b10f) return decode_r11g11b10f(word);
+  return decode_rgb9e5(word);
+}
+
 LAMBENT_END
 #endif

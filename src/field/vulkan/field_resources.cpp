@@ -17,9 +17,6 @@ namespace {
 static_assert(sizeof(FieldQuery) == sizeof(QueryRecord));
 static_assert(sizeof(ProbeGrid) == 31 * sizeof(float));
 static_assert(sizeof(SurfelLookup) == 13 * sizeof(float));
-static_assert(kRgb9e5 == static_cast<uint>(IrradianceFormat::rgb9e5) &&
-              kR11g11b10f == static_cast<uint>(IrradianceFormat::r11g11b10f) &&
-              kIrradianceFloat32 == static_cast<uint>(IrradianceFormat::float32));
 static_assert(kRg16f == static_cast<uint>(DistanceFormat::rg16f) &&
               kRg32f == static_cast<uint>(DistanceFormat::rg32f));
 static_assert(kSurfelSurface == static_cast<uint>(SurfelKind::surface) &&
