@@ -27,6 +27,8 @@ class Log final : public FieldPasses {
   void schedule() override { done.emplace_back("schedule"); }
   void trace(int batch) override { done.push_back("trace" + std::to_string(batch)); }
   void shade(int batch) override { done.push_back("shade" + std::to_string(batch)); }
+  void keep_history() override { done.emplace_back("keep_history"); }
+  void move_distances() override { done.emplace_back("move_distances"); }
   void blend_distances() override { done.emplace_back("blend_distances"); }
   void visibility() override { done.emplace_back("visibility"); }
   void lookups() override { done.emplace_back("lookups"); }

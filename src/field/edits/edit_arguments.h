@@ -9,9 +9,9 @@
 
 LAMBENT_BEGIN
 
-/// UintArray blocked_before of move_distances: the probe has no history, and takes its new
-/// distances as they are.
-const uint kNoDistancesBefore = 2u;
+/// MoveDistancesArguments::blocked_before of a probe without history, which takes its new distances
+/// as they are, like one that came out of geometry.
+const uint kNoDistancesBefore = 1u;
 
 /// Arguments of gather_tiles, which copies tiles of a list out of the arrays of all probes.
 struct GatherTilesArguments {

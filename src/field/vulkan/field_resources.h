@@ -169,8 +169,8 @@ class FieldResources {
   /// where that has not been done before.
   void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
   void reserve_distances_before(const DeviceProbes& list);
-  /// One word per probe of the list: 1 where it stood inside geometry before, and, where the caller
-  /// says so, kNoDistancesBefore (edits/edit_arguments.h).
+  /// One word per probe of the list: 1 where it stood inside geometry before, or has no distances
+  /// from before for another reason (kNoDistancesBefore in edits/edit_arguments.h).
   UintArray blocked_before() const { return {blocked_before_.address()}; }
   void record_move_distances(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed);
   /// Records CellVisibility::update() of a field with visibility by rays. `cells` come from
