@@ -182,10 +182,10 @@ bool inside_geometry(std::span<const FixedRayHit> fixed_hits) {
   return is_inside_geometry(static_cast<int>(back_faces), static_cast<int>(fixed_hits.size())) != 0;
 }
 
-vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
-                     const vec3& spacing) {
+vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from,
+                     const vec3& grid_position, const vec3& spacing) {
   return Surroundings(fixed_hits)
-      .better_place(from, home, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
+      .better_place(from, grid_position, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
 }
 
 std::vector<int> relocate_probes(const Scene& scene, const RayTracer& tracer,

@@ -8,15 +8,15 @@
 
 /// The nearest place outside geometry: just behind the back face that is closest to the probe's
 /// place on the grid, among those that rays hit.
-LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 home, vec3 spacing, float margin) {
+LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 grid_position, vec3 spacing, float margin) {
   vec3 best = position;
   float nearest = infinity();
   for (int i = 0; i < hit_count(); ++i) {
     FixedRayHit hit = hit_at(i);
     if (hit.back_face == 0u) continue;
     vec3 outside = position + hit.distance * hit.direction - margin * hit.normal;
-    float away = length(outside - home);
-    if (away >= nearest || !within_reach(outside, home, spacing)) continue;
+    float away = length(outside - grid_position);
+    if (away >= nearest || !within_reach(outside, grid_position, spacing)) continue;
     nearest = away;
     best = outside;
   }
@@ -34,11 +34,11 @@ LAMBENT_FN float room_above(PlaneBelow below) {
 }
 
 /// A better position for a probe at `from`, or `from` itself where it should stay. It is at most
-/// kMaxProbeOffset of a cell from the probe's place on the grid, `home`.
-LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geometry) {
+/// kMaxProbeOffset of a cell from the probe's place on the grid, `grid_position`.
+LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint inside_geometry) {
   float smallest = min(spacing.x, min(spacing.y, spacing.z));
   float margin = kSurfaceMargin * smallest;
-  if (inside_geometry != 0u) return nearest_exit(from, home, spacing, margin);
+  if (inside_geometry != 0u) return nearest_exit(from, grid_position, spacing, margin);
 
   // Move to just in front of the nearest surface, then along it to just in front of the nearest one
   // that faces another way, and along both of them to a third
@@ -59,7 +59,7 @@ LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geo
     along /= steepness;
     float rise = min(margin - plane.height, room_above(plane));
     vec3 there = position + along * (rise / max(dot(along, plane.normal), kMinSteepness));
-    if (!within_reach(there, home, spacing)) continue;
+    if (!within_reach(there, grid_position, spacing)) continue;
     axes[count++] = along;
     if (abs(rise) > kMarginTolerance * margin) position = there;
   }

@@ -65,9 +65,9 @@ LAMBENT_FN PlaneBelow plane_below(FixedRayHit hit) {
   return plane;
 }
 
-/// Whether a probe whose place on the grid is `home` may stand at a position.
-LAMBENT_FN bool within_reach(vec3 position, vec3 home, vec3 spacing) {
-  vec3 cells = abs((position - home) / spacing);
+/// Whether a probe whose place on the grid is `grid_position` may stand at a position.
+LAMBENT_FN bool within_reach(vec3 position, vec3 grid_position, vec3 spacing) {
+  vec3 cells = abs((position - grid_position) / spacing);
   return max(cells.x, max(cells.y, cells.z)) <= kMaxProbeOffset;
 }
 

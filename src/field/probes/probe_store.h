@@ -56,7 +56,7 @@ class ProbeStore {
     return placed_position(grid, probe_coords(grid, probe), probe_offset(probe));
   }
   /// The place of a probe on the grid, without its offset.
-  vec3 probe_home_ws(int probe) const {
+  vec3 probe_grid_position_ws(int probe) const {
     const ProbeGrid& grid = grid_of(probe);
     return probe_position(grid, probe_coords(grid, probe));
   }

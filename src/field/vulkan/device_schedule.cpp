@@ -39,8 +39,8 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
   ScheduleState state{};
   state.live = static_cast<uint>(field.probes());
   state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
-  const std::vector<ProbeService> unknown(field.probes(), new_service());
-  service_ = vulkan::upload(device, unknown, "service of probes");
+  const std::vector<ProbeVariability> unknown(field.probes(), new_variability());
+  variability_ = vulkan::upload(device, unknown, "variability of probes");
   std::vector<ListSize> sizes;
   for (uint shape = 0; shape < kListShapes; ++shape) {
     sizes.push_back(field.list_size(shape, rays));
@@ -62,7 +62,7 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
 }
 
 std::size_t DeviceSchedule::bytes() const {
-  return bytes_of({&list_.indices, &list_.ray_sets, &list_.blocks, &state_, &service_, &bins_,
+  return bytes_of({&list_.indices, &list_.ray_sets, &list_.blocks, &state_, &variability_, &bins_,
                    &chunk_records_, &sizes_, &changes_});
 }
 
@@ -74,7 +74,7 @@ void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& prob
   const SchedulePriorityArguments priority = {{field_.grids().address()},
                                               {levels_.address()},
                                               probes,
-                                              {service_.address()},
+                                              {variability_.address()},
                                               state,
                                               {bins_.address()},
                                               chunks,
@@ -100,7 +100,7 @@ void DeviceSchedule::record_update_variability(vulkan::Recorder& to, const Devic
   const ScheduleStateArray state = {state_.address()};
   const Vec3Array changes = {changes_.address()};
   const UpdateVariabilityArguments variability = {state,
-                                                  {service_.address()},
+                                                  {variability_.address()},
                                                   list.index_array(),
                                                   blend_weights,
                                                   changes,

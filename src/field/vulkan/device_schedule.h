@@ -22,9 +22,9 @@ class DeviceSchedule {
   /// off are traced as well if they waited for kMaxProbeAge.
   void record_choose(vulkan::Recorder& to, const ProbeStates& probes, std::uint32_t update,
                      bool look) const;
-  /// Records the update of the noise of a list's probes, which now hold new light. `blend_weights`
-  /// are the weights of the new light, and `before` is the light that the probes held, both of the
-  /// list.
+  /// Records the update of the variance of a list's probes, which now hold new light.
+  /// `blend_weights` are the weights of the new light, and `before` is the light that the probes
+  /// held, both of the list.
   void record_update_variability(vulkan::Recorder& to, const DeviceProbes& list,
                                  FloatArray blend_weights, Vec4Array before,
                                  std::uint32_t update) const;
@@ -37,8 +37,8 @@ class DeviceSchedule {
   std::size_t bytes() const;
   /// Holds a ScheduleState.
   const vulkan::Buffer& state() const { return state_; }
-  /// Hold the ProbeService and the priority bin of each probe.
-  const vulkan::Buffer& service() const { return service_; }
+  /// Hold the ProbeVariability and the priority bin of each probe.
+  const vulkan::Buffer& variability() const { return variability_; }
   const vulkan::Buffer& bins() const { return bins_; }
 
  private:
@@ -46,7 +46,7 @@ class DeviceSchedule {
   vulkan::Kernel priority_, choose_, list_them_, update_variability_, means_;
   int chunks_;
   DeviceProbes list_;
-  vulkan::Buffer levels_, state_, service_, bins_, chunk_records_, sizes_, changes_;
+  vulkan::Buffer levels_, state_, variability_, bins_, chunk_records_, sizes_, changes_;
 };
 
 }  // namespace lambent
