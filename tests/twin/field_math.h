@@ -78,7 +78,7 @@ LAMBENT_FN FieldMathResult field_math(vec4 a, vec4 b, vec4 c, vec4 d) {
   r.number[14] = coefficients.z;
   r.number[15] = ray_weight(normalize(vec3(a)), normalize(vec3(b)), 1.0f);
   r.number[16] = ray_weight(normalize(vec3(c)), normalize(vec3(d)), kDistanceExponent);
-  r.number[17] = remaining_error(0.9f * c.w, d.w, a.x * a.x, 1.0f + b.x);
+  r.number[17] = remaining_error(assumed_contraction(c.w, 0.9f * b.x), d.w, a.x);
   VarianceEstimate known = {2.0f * a.x, uint(40.0f * a.y)};
   known = learned_variance(known, 3.0f * a.z, 0.2f + a.w, b.x < 0.1f ? 0.0f : 20.0f * b.y);
   r.number[18] = known.variance;
