@@ -5,7 +5,7 @@
 #ifndef LAMBENT_FIELD_PLACEMENT_RELOCATE_MATH_H
 #define LAMBENT_FIELD_PLACEMENT_RELOCATE_MATH_H
 
-#include "field/transport/blend_math.h"
+#include "field/probes/probe_grid.h"
 
 LAMBENT_BEGIN
 

@@ -27,10 +27,6 @@ LAMBENT_FN float ray_weight(vec3 normal, vec3 direction, float cosine_exponent) 
 /// 9.1 % (at 50) to 3.9 %. 200 is no better.
 const float kDistanceExponent = 100.0f;
 
-/// A probe of whose rays more than this fraction hit back faces stands inside geometry, and lights
-/// nothing. JCGT 10(2) 2021, sec. 4.
-const float kBackFaceThreshold = 0.25f;
-
 // The distance of a ray that hits the back of a single-sided surface is scaled by this factor, so
 // that a probe inside something has little weight in its surroundings. JCGT 10(2) 2021, sec. 4.
 const float kBackFaceDistanceScale = 0.2f;
@@ -39,11 +35,6 @@ const float kBackFaceDistanceScale = 0.2f;
 LAMBENT_FN float counted_distance(float seen, uint back_face, float farthest) {
   float cut = min(seen, farthest);
   return back_face != 0u ? cut * kBackFaceDistanceScale : cut;
-}
-
-/// Whether a probe stands inside geometry: 1 or 0.
-LAMBENT_FN uint is_inside_geometry(int back_faces, int rays) {
-  return float(back_faces) > kBackFaceThreshold * float(rays) ? 1u : 0u;
 }
 
 // A texel whose mean ray weight is below this received too few rays to be known.
