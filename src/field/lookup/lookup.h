@@ -53,8 +53,9 @@ LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer
          (kNormalBias * normal_ws + kViewBias * to_viewer_ws) * (kBiasScale * kBias * spacing_min);
 }
 
-/// A bilinear fetch of distances. Agrees with tile_fetch() but for rounding: it divides once, has
-/// no branches, and takes directions of any length, 0 included.
+/// A bilinear fetch of distances. Agrees with tile_fetch() of probes/tile.h but for rounding: it
+/// divides once, has no branches, and takes directions of any length, 0 included. Its first half is
+/// octahedral_encode() of shared/octahedral.h, written so that loops over it become vector code.
 LAMBENT_FN TileFetch moments_fetch(vec3 direction, int texels) {
   float l1_norm = abs(direction.x) + abs(direction.y) + abs(direction.z);
   float inverse = 1.0f / max(kTiniestLength, l1_norm);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
-// Fields", JCGT 8(2), 2019. The weights of single rays and texels in a blend.
+// Fields", JCGT 8(2), 2019. The weights of single rays and texels in a blend, and of an update in
+// the blend with its probes' history.
 #ifndef LAMBENT_FIELD_TRANSPORT_BLEND_MATH_H
 #define LAMBENT_FIELD_TRANSPORT_BLEND_MATH_H
 
@@ -47,6 +48,14 @@ const float kTiniestWeight = 1e-20f;
 /// count.
 LAMBENT_FN vec3 irradiance_at_centre(vec4 sums) {
   return vec3(sums) * (kPi / max(sums.w, kTiniestWeight));
+}
+
+/// The weight in the blend with a probe's history of rays that amount to `weight` updates. The
+/// history is of `samples` updates, and the average remembers `longest` at most: see
+/// longest_average() in schedule/schedule.h, which follows from the hysteresis.
+LAMBENT_FN float history_blend_weight(float samples, float weight, float longest) {
+  float held = min(samples, max(longest - weight, 0.0f));
+  return weight / (held + weight);
 }
 
 LAMBENT_END
