@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "lambent/error.h"
@@ -148,6 +149,25 @@ class RecordedField {
   RecordedField(RecordedField&&) noexcept;
   RecordedField& operator=(RecordedField&&) noexcept;
 
+  /// Starts a field that was not updated yet from a field file (save_field, `lambent bake`): from
+  /// its light, its distances, the places and states of its probes, and how many updates these
+  /// average. Lookups find that light once the call returns; updates add to it, with the random
+  /// numbers that come next. Probes stay where they stand until UpdatePlan::place_again. Submits to
+  /// the device's queue, and waits; memory that the copy takes is given back before it returns.
+  ///
+  /// Fails, naming the file, where it cannot be read, is broken, or does not fit, and leaves the
+  /// field as it was. Formats and texels must be those of the field's settings, and volumes those
+  /// that it was made with, to a thousandth of a cell; lookups then use the places of the file.
+  /// Cascades may stand elsewhere, and scroll from there to the viewer.
+  ///
+  /// Whether the file is of the scene that the engine traces is not checked: Lambent does not know
+  /// that scene. Where the geometry is another, the file is of no use. Where lights, materials,
+  /// FieldSettings::max_bounces or max_albedo are not those of the bake, give the first update a
+  /// history of 0: the light is then a start, but no part of averages. Edits (UpdatePlan::changes)
+  /// let all averages begin anew until every probe has been traced once. Throws std::runtime_error
+  /// where the device's memory runs out.
+  Expected<void> start_from(const std::string& path);
+
   /// Begins an update. Fails where a number of `update` is out of range; nothing has begun then.
   Expected<PlannedUpdate> plan(const UpdatePlan& update = {});
 
@@ -188,7 +208,7 @@ class RecordedField {
 
   const FieldSettings& settings() const;
   int probes() const;
-  /// Updates planned so far.
+  /// Updates planned so far, and those of the file that it started from.
   std::uint32_t updates() const;
 
  private:

@@ -55,6 +55,12 @@ Expected<FieldFile> decode_field(const std::string& name, std::span<const std::b
 /// Reads and decodes a file.
 Expected<FieldFile> read_field_file(const std::string& path);
 
+/// Puts the probes of a file into a store that was made for its volumes.
+void restore_store(const FieldFile& file, ProbeStore& store);
+
+/// Decodes the stored light of a probe into a tile without gutter, row after row.
+void stored_light(const ProbeStore& store, int probe, std::span<vec4> tile);
+
 /// Writes the size and the checksum of the bytes into their header. Does nothing if there are too
 /// few bytes for a header.
 void seal_field(std::span<std::byte> bytes);

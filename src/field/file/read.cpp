@@ -257,6 +257,20 @@ ProbeStore FieldVolume::store() const {
   return store;
 }
 
+void restore_store(const FieldFile& file, ProbeStore& store) {
+  for (int v = 0; v < store.volumes(); ++v) {
+    const FieldVolume& volume = file.volumes[v];
+    store.restore(store.grid(v).first, volume.offsets, volume.irradiance, volume.distance);
+  }
+}
+
+void stored_light(const ProbeStore& store, int probe, std::span<vec4> tile) {
+  const int n = store.irradiance_texels();
+  for (int t = 0; t < n * n; ++t) {
+    tile[t] = vec4(store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
+  }
+}
+
 Expected<FieldFile> decode_field(const std::string& name, std::span<const std::byte> bytes) {
   return Reader(name, bytes).read();
 }

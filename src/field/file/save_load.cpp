@@ -38,25 +38,21 @@ bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
 
 /// Replaces all light that the field holds.
 void IrradianceField::State::restore(const FieldFile& file, const World& world) {
+  restore_store(file, data.store);
   for (int v = 0; v < data.store.volumes(); ++v) {
-    const FieldVolume& volume = file.volumes[v];
-    const int first = data.store.grid(v).first;
-    data.store.restore(first, volume.offsets, volume.irradiance, volume.distance);
-    std::copy(volume.records.begin(), volume.records.end(), statuses.begin() + first);
+    const std::vector<ProbeStatus>& records = file.volumes[v].records;
+    std::copy(records.begin(), records.end(), statuses.begin() + data.store.grid(v).first);
   }
   updates = static_cast<int>(file.updates);
   placement.placed_revision = world.revision();
   scheduling.scheduler.mark_all_changed();
-  const int n = settings.irradiance_texels;
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   double sum = 0.0;
   bool never_served = false;
   for (int probe = 0; probe < data.store.probes(); ++probe) {
-    vec4* tile = &data.light[probe * texels];
-    for (int t = 0; t < n * n; ++t) {
-      tile[t] = vec4(data.store.irradiance_texel(probe, ivec2(t % n, t / n) + 1), 0.0f);
-    }
-    sum += mean_luminance(TileLight(tile, texels));
+    const std::span<vec4> tile(&data.light[probe * texels], texels);
+    stored_light(data.store, probe, tile);
+    sum += mean_luminance(tile);
     statuses[probe].revision = world.revision();
     // An exact number of bounces is carried through all probes at once
     if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;

@@ -17,6 +17,18 @@ namespace lambent {
 
 using vulkan::Buffer, vulkan::Memory;
 
+namespace {
+
+/// The state before the first update.
+ScheduleState first_state(const FieldResources& field, float mean_light) {
+  ScheduleState state{};
+  state.live = static_cast<uint>(field.probes());
+  state.mean_light = mean_light;
+  return state;
+}
+
+}  // namespace
+
 DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const VolumeRole> roles,
                                int most_probes, int rays)
     : field_(field), chunks_(static_cast<int>(groups_of(field.probes(), kChunkProbes))) {
@@ -36,9 +48,8 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
   std::vector<int> levels;
   for (const VolumeRole& role : roles) levels.push_back(role.level);
   levels_ = vulkan::upload(device, levels, "levels of volumes");
-  ScheduleState state{};
-  state.live = static_cast<uint>(field.probes());
-  state_ = vulkan::upload(device, std::span<const ScheduleState>(&state, 1), "schedule");
+  const ScheduleState state = first_state(field, /*mean_light=*/0.0f);
+  state_ = vulkan::upload(device, std::span(&state, 1), "schedule");
   const std::vector<ProbeService> unknown(field.probes(), new_service());
   service_ = vulkan::upload(device, unknown, "service of probes");
   std::vector<ListSize> sizes;
@@ -59,6 +70,12 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
   list_.ray_sets = vulkan::upload(device, zeros, "their ray sets");
   list_.blocks =
       Buffer(device, sizeof(ProbeBlock) * list_.block_count, Memory::device, "their blocks");
+}
+
+void DeviceSchedule::start_from(std::span<const ProbeService> service, float mean_light) {
+  const ScheduleState state = first_state(field_, mean_light);
+  vulkan::write(field_.device(), std::span(&state, 1), state_);
+  vulkan::write(field_.device(), service, service_);
 }
 
 std::size_t DeviceSchedule::bytes() const {

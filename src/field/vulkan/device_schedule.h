@@ -18,6 +18,10 @@ class DeviceSchedule {
   DeviceSchedule(const FieldResources& field, std::span<const VolumeRole> roles, int most_probes,
                  int rays);
 
+  /// Takes over what is known of all probes: their service, and the mean luminance of their light.
+  /// Must not be called while the device uses the schedule.
+  void start_from(std::span<const ProbeService> service, float mean_light);
+
   /// Records the choice of an update's probes. `update` counts from 0. With `look`, probes that are
   /// off are traced as well if they waited for kMaxProbeAge.
   void record_choose(vulkan::Recorder& to, const ProbeStates& probes, std::uint32_t update,

@@ -68,6 +68,22 @@ BatchPlan::BatchPlan(const FieldSettings& settings, const RecordedFieldSettings&
   }
 }
 
+void BatchPlan::start_from(std::uint32_t updates, std::span<const ProbeStatus> statuses) {
+  assert(statuses.size() == known_.size());
+  updates_ = updates;
+  // Rounds that warm up and those of placement are over
+  round_ = kWarmUpRounds;
+  placing_since_ = round_ - placing_updates_;
+  for (int probe = 0; probe < probes(); ++probe) {
+    Known& known = known_[probe];
+    known.traced = kOften;
+    known.least_samples = std::min(statuses[probe].samples, longest_);
+    known.of_file = known.least_samples > 0.0f;
+    const bool traceable = statuses[probe].state != ProbeState::off;
+    if (traceable && !known.of_file) recycled_.push_back(probe);
+  }
+}
+
 bool BatchPlan::warming_up() const {
   return most_ < probes() && round_ < kWarmUpRounds;
 }
@@ -104,7 +120,10 @@ void BatchPlan::begin_anew() {
 bool BatchPlan::can_retrace() const {
   if (!follows_edits_ || updates_ == 0) return false;
   std::set<std::uint32_t> drawn_in;
-  for (const Known& known : known_) drawn_in.insert(known.drawn_in);
+  for (const Known& known : known_) {
+    if (known.of_file) return false;
+    drawn_in.insert(known.drawn_in);
+  }
   return static_cast<int>(drawn_in.size()) <= most_sets_;
 }
 
@@ -203,6 +222,7 @@ void BatchPlan::count_samples(ProbeBatch& batch) {
     known.traced = static_cast<std::uint8_t>(std::min(known.traced + 1, kOften));
     known.least_samples = may_move ? 0.0f : std::min(known.least_samples + 1.0f, longest_);
     known.chosen = false;
+    known.of_file = false;
     known.drawn_in = batch.update + 1;
   }
   batch.drawn_in = {batch.update};
@@ -220,7 +240,10 @@ ProbeBatch BatchPlan::next(const UpdatePlan& update, std::span<const int> recycl
   if (at_rest) rebuilt_ = false;
   recycles_ = recycles_ || !recycled.empty();
   if (follows_edits_) {
-    for (const int probe : recycled) known_[probe].drawn_in = 0;
+    for (const int probe : recycled) {
+      known_[probe].drawn_in = 0;
+      known_[probe].of_file = false;
+    }
   }
   const bool retraces = edited && can_retrace();
   // Without the last rays of all probes, nobody knows how much of their averages an edit leaves

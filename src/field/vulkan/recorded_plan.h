@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "field/probes/probe_status.h"
 #include "lambent/field.h"
 #include "lambent/vulkan.h"
 #include "vulkan/api.h"
@@ -46,6 +47,10 @@ class BatchPlan {
   BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded,
             std::vector<std::uint8_t> levels);
 
+  /// Goes on after so many updates of another field, whose probes were these. They stay where they
+  /// stand, and those that average nothing come first.
+  void start_from(std::uint32_t updates, std::span<const ProbeStatus> statuses);
+
   /// Plans an update before which the `recycled` probes have lost all that was known of them.
   ProbeBatch next(const UpdatePlan& update, std::span<const int> recycled = {});
   std::uint32_t updates() const { return updates_; }
@@ -61,6 +66,7 @@ class BatchPlan {
     std::uint8_t level = 0;
     std::uint8_t traced = 0;     ///< How often, since it was placed anew; stays at kOften.
     bool chosen = false;         ///< It is in the batch that is being planned.
+    bool of_file = false;        ///< It averages rays of another field, and has traced none since.
     std::uint32_t drawn_in = 0;  ///< Number of the update that drew its last rays, from 1; 0: none.
     /// A lower bound on the updates that it has averaged: as if it moved whenever it may move.
     float least_samples = 0.0f;

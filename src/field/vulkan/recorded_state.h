@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "field/probes/volumes.h"
@@ -16,6 +17,10 @@
 #include "field/vulkan/recorded_arguments.h"
 #include "field/vulkan/recorded_plan.h"
 #include "vulkan/device.h"
+
+namespace lambent {
+struct FieldFile;
+}
 
 namespace lambent::vulkan {
 
@@ -84,6 +89,12 @@ struct RecordedField::State {
 
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         std::span<const Volume> volumes, const ProbeStore& shape);
+
+  /// Whether the file's volumes are the planned ones, with tiles as the settings ask for. The error
+  /// names the file.
+  Expected<void> check_fit(const std::string& path, const FieldFile& file) const;
+  /// Takes over all that a fitting file holds. Submits to the device's queue, and waits.
+  void restore(const FieldFile& file);
 
   /// Scrolls the volumes that follow the viewer. Returns the probes that this recycles.
   ScrolledVolumes scroll(const std::optional<vec3>& viewer_ws) const;
