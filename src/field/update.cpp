@@ -32,7 +32,7 @@ void find_surfels(FieldPasses& passes) {
   }
 }
 
-/// Runs all passes from lookups to stored light.
+/// Runs all passes from the solve to stored light.
 void solve_light(FieldPasses& passes) {
   run(passes, field_pass::kSolve, [&] { passes.solve(); });
   run(passes, field_pass::kVariability, [&] { passes.variability(); });

@@ -3,6 +3,7 @@
 #ifndef LAMBENT_TESTS_TWIN_FIELD_MATH_H
 #define LAMBENT_TESTS_TWIN_FIELD_MATH_H
 
+#include "field/placement/classify_math.h"
 #include "field/probes/irradiance_encoding.h"
 #include "field/probes/moments_encoding.h"
 #include "field/probes/tile.h"

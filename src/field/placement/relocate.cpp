@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "field/placement/classify_math.h"
 #include "field/transport/blend.h"
 #include "field/transport/distances.h"
 #include "raytracing/surface.h"

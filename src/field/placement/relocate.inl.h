@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The better position of a probe, from the hits of its fixed rays. The includer provides
-//   int hit_count();                // the hits of the fixed rays
+//   int hit_count();                 // how many hits the fixed rays have
 //   FixedRayHit hit_at(int index);
-//   int plane_count();              // the planes of hits that pass below the probe, the nearest
-//   first PlaneBelow plane_at(int rank);
+//   int plane_count();               // how many planes of hits pass below the probe
+//   PlaneBelow plane_at(int rank);   // one of these planes; rank 0 is the nearest
 // Everything is in the frame of the probe's grid.
 
 /// The nearest place outside geometry: just behind the back face that is closest to the probe's

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
 // Fields", JCGT 8(2), 2019 (perceptual encoding). Theirs averages in the encoded domain; ours
-// averages linear light and encodes only to store.
+// averages linear light and encodes only to store. The default encoding, RGB9E5, is in
+// shared/packing.h.
 #ifndef LAMBENT_FIELD_PROBES_IRRADIANCE_ENCODING_H
 #define LAMBENT_FIELD_PROBES_IRRADIANCE_ENCODING_H
 

@@ -70,13 +70,6 @@ LAMBENT_FN float estimate_relative_square(LightChange change, int texels, float 
   return relative_square * brightness / (blend_weight * blend_weight);
 }
 
-/// The weight in the blend with a probe's history of rays that amount to `weight` updates. The
-/// history is of `samples` updates, and the average remembers `longest` at most.
-LAMBENT_FN float history_blend_weight(float samples, float weight, float longest) {
-  float held = min(samples, max(longest - weight, 0.0f));
-  return weight / (held + weight);
-}
-
 /// The mean light of `live` probes after an update in which `count` of them have the mean light
 /// `now`.
 LAMBENT_FN float learned_light(float mean_light, float now, float count, float live) {

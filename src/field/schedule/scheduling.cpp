@@ -2,6 +2,7 @@
 #include "field/schedule/scheduling.h"
 
 #include "field/placement/classify.h"
+#include "field/transport/blend_math.h"
 
 namespace lambent {
 

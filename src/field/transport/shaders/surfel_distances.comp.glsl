@@ -3,6 +3,7 @@
 // geometry. One lane group per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "field/placement/classify_math.h"
 #include "field/transport/blend_math.h"
 #include "field/transport/shaders/lane_group.glsl"
 #include "field/probes/shaders/volume_of.glsl"
