@@ -10,6 +10,7 @@
 #include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
+#include "lambent/field_options.h"
 #include "lambent/help.h"
 #include "lambent/image.h"
 #include "lambent/input.h"
@@ -21,7 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kIrradianceFormats[] = {"rgb9e5", "r11g11b10f", "float32"};
 constexpr const char* kDistanceFormats[] = {"rg16f", "rg32f"};
 constexpr const char* kIrradianceEnding = ".irradiance.exr";
 constexpr const char* kDistanceEnding = ".distance.exr";
@@ -76,8 +76,7 @@ Json json_of(const FieldFile& field) {
     json["axes"].push_back(
         Json::array({array_of(grid.axes[0]), array_of(grid.axes[1]), array_of(grid.axes[2])}));
     json["scroll_volumes"].push_back(volume.role.follows_viewer);
-    json["irradiance_formats"].push_back(
-        kIrradianceFormats[static_cast<int>(volume.irradiance_format)]);
+    json["irradiance_formats"].push_back(name_of(volume.irradiance_format));
     json["distance_formats"].push_back(kDistanceFormats[static_cast<int>(volume.distance_format)]);
     json["irradiance_texels"].push_back(volume.irradiance_texels);
     json["distance_texels"].push_back(volume.distance_texels);
@@ -103,8 +102,8 @@ void print_volume(const FieldVolume& volume) {
   if (volume.role.follows_viewer) std::printf("role         follows the viewer\n");
   std::printf("irradiance   %d x %d texels, %s; %.4g %.4g %.4g W/m^2 on average\n",
               volume.irradiance_texels, volume.irradiance_texels,
-              kIrradianceFormats[static_cast<int>(volume.irradiance_format)], summary.irradiance.x,
-              summary.irradiance.y, summary.irradiance.z);
+              name_of(volume.irradiance_format).c_str(), summary.irradiance.x, summary.irradiance.y,
+              summary.irradiance.z);
   std::printf("distances    %d x %d texels, %s\n", volume.distance_texels, volume.distance_texels,
               kDistanceFormats[static_cast<int>(volume.distance_format)]);
   std::printf("samples      %.4g updates a probe on average\n", summary.samples);

@@ -2,12 +2,15 @@
 #include "lambent/field_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cassert>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "lambent/parse.h"
 #include "lambent/validators.h"
+#include "lambent/words.h"
 
 namespace lambent::cli {
 namespace {
@@ -147,7 +150,7 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       ->capture_default_str()
       ->type_name("H");
   of_shape(command.add_option("--irradiance-format", o.irradiance_format,
-                              "rgb9e5, r11g11b10f or float32"))
+                              list_text(names_of(kIrradianceFormats))))
       ->check(one_of(names_of(kIrradianceFormats)))
       ->capture_default_str()
       ->type_name("F");
@@ -173,6 +176,13 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       ->check(one_of(names_of(kVisibilities)))
       ->capture_default_str()
       ->type_name("V");
+}
+
+std::string name_of(IrradianceFormat format) {
+  const auto named = std::find_if(kIrradianceFormats.begin(), kIrradianceFormats.end(),
+                                  [&](const auto& entry) { return entry.second == format; });
+  assert(named != kIrradianceFormats.end());
+  return named->first;
 }
 
 Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,

@@ -36,6 +36,9 @@ struct FieldOptions {
 /// Declares the options on `command`; `options` must outlive it.
 void add_field_options(CLI::App& command, FieldOptions& options);
 
+/// What the options call a format.
+std::string name_of(IrradianceFormat format);
+
 /// What the options say, with the volumes that the scene brings.
 Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene& scene,
                                        std::uint32_t seed, int bounces);

@@ -117,7 +117,7 @@ class SphereFinder {
       const float distance = along - std::sqrt(square);
       // Whoever looks from inside a sphere looks through it
       if (distance <= ray.t_min || distance >= best.distance) continue;
-      if (is_spoken_for(store_.probe_home_ws(probe))) continue;
+      if (is_spoken_for(store_.probe_grid_position_ws(probe))) continue;
       best = {distance, probe, (ray.origin + distance * ray.direction - centre) / radius_};
     }
   }
@@ -138,8 +138,8 @@ class SphereFinder {
 
 /// Share of the way from new to the oldest that a probe becomes.
 float age_share(const IrradianceField& field, const ProbeStatus& record) {
-  if (record.served == 0) return 1.0f;
-  const auto age = static_cast<float>(field.updates()) - static_cast<float>(record.served);
+  if (record.last_traced == 0) return 1.0f;
+  const auto age = static_cast<float>(field.updates()) - static_cast<float>(record.last_traced);
   return std::log2(1.0f + max(age, 0.0f)) / std::log2(1.0f + static_cast<float>(kMaxProbeAge));
 }
 

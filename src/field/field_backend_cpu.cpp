@@ -104,11 +104,11 @@ class FieldPassesCpu final : public FieldPasses {
 
   // The host has scheduled and placed the probes before the update.
   void scroll() override {}
-  // It traces single rays again, not whole probes (edits/invalidation.h).
-  void keep_history() override {}
-  void move_distances() override {}
   void schedule() override {}
   void placement() override {}
+  // After edits the host traces single rays again, not whole probes (edits/invalidation.h).
+  void keep_history() override {}
+  void move_distances() override {}
 
   void begin(const char* name) override { name_ = name; }
   void end() override { timer_.finish(name_); }

@@ -21,7 +21,8 @@ std::uint64_t tile_bytes(int texels, std::uint64_t texel_bytes) {
 }  // namespace
 
 FieldMemory field_memory(const FieldSettings& s, std::uint64_t probes) {
-  const std::uint64_t irradiance_texel = s.irradiance_format == IrradianceFormat::float32 ? 12 : 4;
+  const auto irradiance_texel =
+      sizeof(uint) * words_of_irradiance(static_cast<uint>(s.irradiance_format));
   const std::uint64_t distance_texel = s.distance_format == DistanceFormat::rg32f ? 8 : 4;
   const auto texels = static_cast<std::uint64_t>(s.irradiance_texels) * s.irradiance_texels;
   FieldMemory memory;

@@ -48,7 +48,7 @@ class FieldPasses {
   /// Keeps what must be known of the probes from before edits. Their rays are about to be traced
   /// again.
   virtual void keep_history() = 0;
-  /// Moves the stored distances by as much as those that the rays see changed.
+  /// Shifts the stored distances by the change in what the same rays see.
   virtual void move_distances() = 0;
   /// Blends the distances that all rays saw into the store.
   virtual void blend_distances() = 0;
@@ -86,7 +86,7 @@ void choose_rays(FieldPasses& passes);
 void find_hits(FieldPasses& passes);
 /// Runs all passes from shaded hits to stored light.
 void follow_hits(FieldPasses& passes);
-/// Does that for rays that were traced again after edits.
+/// Runs all passes from shaded hits to stored light for rays that were traced again after edits.
 void follow_retraced_hits(FieldPasses& passes);
 /// Runs the placement.
 void maintain_probes(FieldPasses& passes);

@@ -32,7 +32,7 @@ void find_surfels(FieldPasses& passes) {
   }
 }
 
-/// Runs all passes from lookups to stored light.
+/// Runs all passes from the solve to stored light.
 void solve_light(FieldPasses& passes) {
   run(passes, field_pass::kSolve, [&] { passes.solve(); });
   run(passes, field_pass::kVariability, [&] { passes.variability(); });
@@ -253,7 +253,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   }
 
   s.scheduling.scheduler.refresh(s.data.store, s.statuses);
-  if (s.scheduling.warming_up && s.scheduling.scheduler.unserved() == 0) {
+  if (s.scheduling.warming_up && s.scheduling.scheduler.never_traced() == 0) {
     // Probes that were traced while others held no light yet have received a part of the bounces
     // only
     if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);

@@ -76,7 +76,9 @@ const int kRgb9e5BiasAndBits = 24;  // exponent bias 15 + 9 mantissa bits
 
 LAMBENT_FN vec3 decode_rgb9e5(uint word) {
   float scale = power_of_two(int(word >> 27u) - kRgb9e5BiasAndBits);
-  return vec3(float(word & 511u), float((word >> 9u) & 511u), float((word >> 18u) & 511u)) * scale;
+  // Signed, because processors before AVX-512 convert only signed integers in vectors
+  ivec3 mantissas = ivec3(int(word & 511u), int((word >> 9u) & 511u), int((word >> 18u) & 511u));
+  return vec3(mantissas) * scale;
 }
 
 /// A channel as encode_rgb9e5 takes it: clamped to what can be stored; 0 for what is not a number.

@@ -3,6 +3,7 @@
 #ifndef LAMBENT_TESTS_TWIN_FIELD_MATH_H
 #define LAMBENT_TESTS_TWIN_FIELD_MATH_H
 
+#include "field/placement/classify_math.h"
 #include "field/probes/irradiance_encoding.h"
 #include "field/probes/moments_encoding.h"
 #include "field/probes/tile.h"
@@ -78,18 +79,18 @@ LAMBENT_FN FieldMathResult field_math(vec4 a, vec4 b, vec4 c, vec4 d) {
   r.number[14] = coefficients.z;
   r.number[15] = ray_weight(normalize(vec3(a)), normalize(vec3(b)), 1.0f);
   r.number[16] = ray_weight(normalize(vec3(c)), normalize(vec3(d)), kDistanceExponent);
-  r.number[17] = remaining_error(0.9f * c.w, d.w, a.x * a.x, 1.0f + b.x);
-  KnownNoise known = {2.0f * a.x, uint(40.0f * a.y)};
-  known = learned_noise(known, 3.0f * a.z, 0.2f + a.w, b.x < 0.1f ? 0.0f : 20.0f * b.y);
-  r.number[18] = known.noise;
+  r.number[17] = remaining_error(assumed_contraction(c.w, 0.9f * b.x), d.w, a.x);
+  VarianceEstimate known = {2.0f * a.x, uint(40.0f * a.y)};
+  known = learned_variance(known, 3.0f * a.z, 0.2f + a.w, b.x < 0.1f ? 0.0f : 20.0f * b.y);
+  r.number[18] = known.variance;
   r.number[19] = float(known.samples);
   LightChange change = {c.x, c.y, 0.0f};
   r.number[20] = estimate_relative_square(change, 16, 0.05f + c.z, c.w < 0.1f ? 0.0f : 3.0f * c.w);
   r.number[24] = probe_urgency(a.x, uint(b.x * 300.0f), 300u, b.y);
   r.number[25] = history_blend_weight(40.0f * a.y, 0.1f + c.x, 25.0f);
   r.number[21] = learned_light(d.x, d.y, 64.0f * d.z, 100.0f * d.w);
-  r.number[22] = error_reduction(probe_noise(0.2f * a.x, 0.2f * b.x), 30.0f * c.x, 25.0f);
-  r.number[23] = error_reduction_per_noise(d.z);
+  r.number[22] = error_reduction(probe_deviation(0.2f * a.x, 0.2f * b.x), 30.0f * c.x, 25.0f);
+  r.number[23] = error_reduction_per_deviation(d.z);
   return r;
 }
 

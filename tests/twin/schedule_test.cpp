@@ -18,7 +18,7 @@ using test::cornell, test::recorded_settings, test::RecordedFieldTest;
 using vulkan::Buffer, vulkan::Memory, vulkan::RecordedField, vulkan::RecordedFieldSettings;
 
 constexpr std::uint32_t kUpdate = 1000;  // counted from 0
-constexpr float kMeanNoise = 0.8f;
+constexpr float kMeanDeviation = 0.8f;
 
 /// Probes of which all sorts of things are known.
 struct Crowd {
@@ -32,36 +32,37 @@ struct Crowd {
       standing.push_back(stands);
       states.push_back(uniform() < 0.1f ? kProbeOff : kProbeOn);
       const uint age = static_cast<uint>(300.0f * uniform() * uniform());
-      service.push_back(
+      variability.push_back(
           {{0.2f * uniform() * uniform(), 5u}, uniform() < 0.02f ? 0u : kUpdate - age});
     }
   }
 
   /// As the kernel's, by the processor.
   int bin_of(int probe, bool look) const {
-    const ProbeService& own = service[probe];
+    const ProbeVariability& own = variability[probe];
     const float weight = level_weight(roles[store.volume_of(probe)].level);
     const bool off = states[probe] == kProbeOff;
     if (off) {
-      const bool looked_at = look && waits_too_long(own.served, kUpdate + 1);
-      return looked_at ? priority_bin(probe_urgency(0.0f, own.served, kUpdate + 1, weight))
+      const bool looked_at = look && waits_too_long(own.last_traced, kUpdate + 1);
+      return looked_at ? priority_bin(probe_urgency(0.0f, own.last_traced, kUpdate + 1, weight))
                        : kNoPartBin;
     }
     const ProbeGrid& grid = store.grid_of(probe);
-    float sum = own.known.noise;
+    float sum = own.known.variance;
     int count = 1;
     for (int other = 0; other < store.probes(); ++other) {
       const ivec3 apart = probe_coords(grid, other) - probe_coords(grid, probe);
       if (dot(vec3(apart), vec3(apart)) != 1.0f || states[other] == kProbeOff) continue;
-      sum += service[other].known.noise;
+      sum += variability[other].known.variance;
       ++count;
     }
-    const float noise = probe_noise(own.known.noise, sum / static_cast<float>(count));
+    const float deviation = probe_deviation(own.known.variance, sum / static_cast<float>(count));
     const float samples = standing[probe].samples;
-    float reduction = error_reduction(noise, samples, longest_average(settings));
+    float reduction = error_reduction(deviation, samples, longest_average(settings));
     if (reduction > 0.0f)
-      reduction = scheduled_reduction(reduction, error_reduction_per_noise(samples), kMeanNoise);
-    return priority_bin(probe_urgency(reduction, own.served, kUpdate + 1, weight));
+      reduction =
+          scheduled_reduction(reduction, error_reduction_per_deviation(samples), kMeanDeviation);
+    return priority_bin(probe_urgency(reduction, own.last_traced, kUpdate + 1, weight));
   }
 
   FieldSettings settings;
@@ -69,7 +70,7 @@ struct Crowd {
   std::vector<VolumeRole> roles = {{.follows_viewer = false, .level = 2}};  // of the one volume
   std::vector<ProbeStanding> standing;
   std::vector<uint> states;
-  std::vector<ProbeService> service;
+  std::vector<ProbeVariability> variability;
 };
 
 FieldSettings many_probes() {
@@ -92,9 +93,9 @@ class DeviceScheduleTest : public test::OnDevice {
     DeviceSchedule schedule(field, crowd.roles, most, crowd.settings.rays_per_probe);
     const Buffer standing = vulkan::upload(device(), crowd.standing, "standing");
     const Buffer states = vulkan::upload(device(), crowd.states, "states");
-    vulkan::write<ProbeService>(device(), crowd.service, schedule.service());
+    vulkan::write<ProbeVariability>(device(), crowd.variability, schedule.variability());
     ScheduleState state{};
-    state.mean_noise = kMeanNoise;
+    state.mean_deviation = kMeanDeviation;
     vulkan::write<ScheduleState>(device(), std::span(&state, 1), schedule.state());
     device().run([&](vulkan::Recorder& to) {
       schedule.record_choose(to, {{standing.address()}, {states.address()}}, kUpdate, look);
@@ -161,14 +162,14 @@ TEST_F(DeviceScheduleTest, SizesTheKernelsThatFollow) {
 TEST_F(DeviceScheduleTest, LetsAllRestWhereAllAreSettled) {
   Crowd crowd(many_probes());
   for (ProbeStanding& standing : crowd.standing) standing.samples = 1000.0f;
-  for (ProbeService& service : crowd.service) service.served = kUpdate;
+  for (ProbeVariability& variability : crowd.variability) variability.last_traced = kUpdate;
   const Chosen chosen = choose(crowd, 96, false);
   EXPECT_TRUE(chosen.probes.empty());
   EXPECT_EQ(chosen.state.list.over[kOverRays].y, 0u);
   EXPECT_EQ(chosen.state.list.over[kOverProbes].x, 0u);
 }
 
-TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
+TEST_F(DeviceScheduleTest, LearnsVarianceAsTheProcessorDoes) {
   const FieldSettings settings = many_probes();
   const Crowd crowd(settings);
   const FieldResources field(device(), settings, crowd.store);
@@ -200,7 +201,7 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
   state.mean_light = kMeanLight;
   state.live = 600;
   vulkan::write<vec4>(device(), light, field.light());
-  vulkan::write<ProbeService>(device(), crowd.service, schedule.service());
+  vulkan::write<ProbeVariability>(device(), crowd.variability, schedule.variability());
   vulkan::write<ScheduleState>(device(), std::span(&state, 1), schedule.state());
   const Buffer blend_weight_buffer = vulkan::upload(device(), blend_weights, "blend_weights");
   const Buffer before_buffer = vulkan::upload<vec4>(device(), before, "before");
@@ -208,33 +209,33 @@ TEST_F(DeviceScheduleTest, LearnsNoiseAsTheProcessorDoes) {
     schedule.record_update_variability(to, list, {blend_weight_buffer.address()},
                                        {before_buffer.address()}, kUpdate);
   });
-  const auto booked = vulkan::download<ProbeService>(device(), schedule.service());
+  const auto booked = vulkan::download<ProbeVariability>(device(), schedule.variability());
   const auto after = vulkan::download<ScheduleState>(device(), schedule.state()).front();
 
-  std::vector<ProbeService> expected = crowd.service;
+  std::vector<ProbeVariability> expected = crowd.variability;
   float sum = 0.0f, count = 0.0f;
   for (int k = 0; k < list.count(); ++k) {
     if (blend_weights[k] == 0.0f) continue;
-    ProbeService& service = expected[list.probes[k]];
+    ProbeVariability& variability = expected[list.probes[k]];
     const TileLight now(&light[list.probes[k] * texels], texels), was(&before[k * texels], texels);
     sum += mean_luminance(now);
     count += 1.0f;
     ProbeStatus record;
-    record.noise = service.known.noise;
-    record.noise_samples = static_cast<std::uint16_t>(service.known.samples);
+    record.variance = variability.known.variance;
+    record.variance_samples = static_cast<std::uint16_t>(variability.known.samples);
     record.samples = 1.0f / blend_weights[k] - 1.0f;
-    learn_noise(estimate_relative_square(light_change(was, now), static_cast<int>(texels),
-                                         blend_weights[k], kMeanLight),
-                1.0f, record);
-    service = {{record.noise, record.noise_samples}, kUpdate + 1};
+    learn_variance(estimate_relative_square(light_change(was, now), static_cast<int>(texels),
+                                            blend_weights[k], kMeanLight),
+                   1.0f, record);
+    variability = {{record.variance, record.variance_samples}, kUpdate + 1};
   }
   for (int probe = 0; probe < crowd.store.probes(); ++probe) {
-    const ProbeService& is = booked[probe];
-    const ProbeService& should = expected[probe];
+    const ProbeVariability& is = booked[probe];
+    const ProbeVariability& should = expected[probe];
     // Sums over a tile in another order
-    EXPECT_NEAR(is.known.noise, should.known.noise, 1e-4f * should.known.noise) << probe;
+    EXPECT_NEAR(is.known.variance, should.known.variance, 1e-4f * should.known.variance) << probe;
     EXPECT_EQ(is.known.samples, should.known.samples) << probe;
-    EXPECT_EQ(is.served, should.served) << probe;
+    EXPECT_EQ(is.last_traced, should.last_traced) << probe;
   }
   EXPECT_NEAR(after.mean_light, learned_light(kMeanLight, sum / count, count, 600.0f), 1e-5f);
 }

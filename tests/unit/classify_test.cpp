@@ -60,15 +60,15 @@ TEST(ProbeStates, AreNewUntilTraced) {
 TEST(ProbeStates, MayLightWhatIsWithinACellAndTheBias) {
   const ProbeGrid grid = still_grid({vec3(0.0f), vec3(1.0f, 2.0f, 1.0f), ivec3(4)});
   // The bias is 0.225 of the smallest spacing
-  const vec3 home(1.0f, 2.0f, 1.0f);
+  const vec3 grid_position(1.0f, 2.0f, 1.0f);
   const auto box_at = [](float x, float y) {
     return Bounds{{x, y, 0.9f}, {x + 0.5f, y + 0.5f, 1.1f}};
   };
-  EXPECT_TRUE(may_light(box_at(2.2f, 2.0f), home, grid));
-  EXPECT_FALSE(may_light(box_at(2.3f, 2.0f), home, grid));
-  EXPECT_TRUE(may_light(box_at(1.0f, 4.2f), home, grid));
-  EXPECT_FALSE(may_light(box_at(1.0f, 4.3f), home, grid));
-  EXPECT_FALSE(may_light(Bounds{}, home, grid));
+  EXPECT_TRUE(may_light(box_at(2.2f, 2.0f), grid_position, grid));
+  EXPECT_FALSE(may_light(box_at(2.3f, 2.0f), grid_position, grid));
+  EXPECT_TRUE(may_light(box_at(1.0f, 4.2f), grid_position, grid));
+  EXPECT_FALSE(may_light(box_at(1.0f, 4.3f), grid_position, grid));
+  EXPECT_FALSE(may_light(Bounds{}, grid_position, grid));
 }
 
 /// What a probe a metre from its neighbours that stands at the origin sees.

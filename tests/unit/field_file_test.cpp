@@ -34,10 +34,10 @@ FieldVolume made_volume(IrradianceFormat irradiance, DistanceFormat distance) {
   for (int i = 0; i < probes; ++i) {
     ProbeStatus record;
     record.samples = 1.5f * static_cast<float>(i);
-    record.noise = 0.25f * static_cast<float>(i);
-    record.noise_samples = static_cast<std::uint16_t>(1000 * i);
+    record.variance = 0.25f * static_cast<float>(i);
+    record.variance_samples = static_cast<std::uint16_t>(1000 * i);
     record.state = static_cast<ProbeState>(i % 6);
-    record.served = static_cast<std::uint32_t>(i);
+    record.last_traced = static_cast<std::uint32_t>(i);
     volume.records.push_back(record);
     volume.offsets.push_back(encode_probe_offset(vec3(0.04f, -0.04f, 0.02f) * float(i)));
   }
@@ -87,10 +87,10 @@ TEST(FieldFile, KeepsEveryNumberOfEveryFormatAndVolume) {
     for (std::size_t p = 0; p < a.records.size(); ++p) {
       const ProbeStatus &x = a.records[p], &y = b.records[p];
       EXPECT_EQ(x.samples, y.samples);
-      EXPECT_EQ(x.noise, y.noise);
-      EXPECT_EQ(x.noise_samples, y.noise_samples);
+      EXPECT_EQ(x.variance, y.variance);
+      EXPECT_EQ(x.variance_samples, y.variance_samples);
       EXPECT_EQ(x.state, y.state);
-      EXPECT_EQ(x.served, y.served);
+      EXPECT_EQ(x.last_traced, y.last_traced);
     }
   }
 }

@@ -74,7 +74,7 @@ TEST_F(SavedField, IsTheSameToTheBit) {
     EXPECT_EQ(test::look_up(loaded.field, queries), test::look_up(field, queries));
     for (int p = 0; p < field.probes(); ++p) {
       EXPECT_EQ(statuses_of(loaded.field)[p].samples, statuses_of(field)[p].samples);
-      EXPECT_EQ(statuses_of(loaded.field)[p].noise, statuses_of(field)[p].noise);
+      EXPECT_EQ(statuses_of(loaded.field)[p].variance, statuses_of(field)[p].variance);
     }
   }
 }

@@ -19,13 +19,13 @@ struct Crowd {
     for (ProbeStatus& record : records) record.state = ProbeState::vigilant;
   }
 
-  /// All served, each with a noise of its own.
+  /// All traced, each with a variance of its own.
   void serve(std::uint32_t update) {
     RandomStream random = make_random_stream(1, 2, 3);
     for (ProbeStatus& record : records) {
-      record.served = update;
+      record.last_traced = update;
       record.samples = 1.0f + 9.0f * next_uniform(random);
-      record.noise = 2.0f * next_uniform(random);
+      record.variance = 2.0f * next_uniform(random);
     }
   }
 
@@ -77,11 +77,11 @@ TEST(ProbeScheduler, LetsProbesRestUntilTheyAreOld) {
   Crowd crowd;
   crowd.serve(5);
   for (ProbeStatus& record : crowd.records) {
-    record.noise = 1e-4f;
+    record.variance = 1e-4f;
     record.samples = 50.0f;
   }
   EXPECT_TRUE(crowd.within(1u << 20, 5 + kMaxProbeAge - 1).probes.empty());
-  crowd.records[33].served = 4;
+  crowd.records[33].last_traced = 4;
   EXPECT_EQ(crowd.within(1u << 20, 4 + kMaxProbeAge).probes, std::vector<int>{33});
   EXPECT_EQ(crowd.within(1u << 20, 5 + kMaxProbeAge).probes.size(), crowd.records.size());
 }
@@ -90,7 +90,7 @@ TEST(ProbeScheduler, ServesTheOldestFirst) {
   Crowd crowd;
   crowd.serve(1000);
   for (std::size_t i = 0; i < crowd.records.size(); ++i) {
-    crowd.records[i].served = static_cast<std::uint32_t>(1000 - i);
+    crowd.records[i].last_traced = static_cast<std::uint32_t>(1000 - i);
   }
   const Schedule schedule = crowd.within(512, 3000);
   ASSERT_FALSE(schedule.probes.empty());
@@ -103,7 +103,7 @@ TEST(ProbeScheduler, ServesTheOldestFirst) {
 TEST(ProbeScheduler, GivesTheProbeThatGainsMost) {
   Crowd crowd;
   crowd.serve(5);
-  for (ProbeStatus& record : crowd.records) record.noise = record.samples = 1.0f;
+  for (ProbeStatus& record : crowd.records) record.variance = record.samples = 1.0f;
   crowd.records[300].samples = 0.25f;
   EXPECT_EQ(crowd.within(crowd.settings.rays_per_probe, 6).probes, std::vector<int>{300});
 }
@@ -111,7 +111,7 @@ TEST(ProbeScheduler, GivesTheProbeThatGainsMost) {
 TEST(ProbeScheduler, PrefersWhatMattersToWhatIsSeenButStarvesNobody) {
   Crowd crowd;
   crowd.serve(5);
-  for (ProbeStatus& record : crowd.records) record.noise = record.samples = 1.0f;
+  for (ProbeStatus& record : crowd.records) record.variance = record.samples = 1.0f;
   std::vector<float> importance(crowd.records.size(), 0.0f);
   importance[400] = 1.0f;
   ProbeScheduler scheduler(crowd.store.probes(), crowd.roles, crowd.settings);
@@ -134,9 +134,9 @@ TEST(ProbeScheduler, WhatItKeepsInMindIsWhatItWouldFindAnew) {
       const int probe =
           static_cast<int>(next_uniform(random) * static_cast<float>(crowd.records.size()));
       ProbeStatus& record = crowd.records[probe];
-      record.noise = next_uniform(random);
+      record.variance = next_uniform(random);
       record.samples += next_uniform(random);
-      record.served = update;
+      record.last_traced = update;
       record.state = static_cast<ProbeState>(static_cast<int>(next_uniform(random) * 6.0f));
       scheduler.mark_changed(probe);
     }
@@ -149,7 +149,7 @@ TEST(ProbeScheduler, WhatItKeepsInMindIsWhatItWouldFindAnew) {
     EXPECT_EQ(kept.rays, found.rays);
     EXPECT_EQ(scheduler.states().vigilant, anew.states().vigilant);
     EXPECT_EQ(scheduler.states().sleeping, anew.states().sleeping);
-    EXPECT_EQ(scheduler.unserved(), anew.unserved());
+    EXPECT_EQ(scheduler.never_traced(), anew.never_traced());
   }
 }
 

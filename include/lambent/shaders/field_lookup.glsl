@@ -8,6 +8,7 @@
 #define LAMBENT_SHADERS_FIELD_LOOKUP_GLSL
 
 #include "field/lookup/field_record.h"
+#include "field/probes/irradiance_encoding.h"
 
 // The defaults of FieldSettings
 #ifndef LAMBENT_IRRADIANCE_TEXELS

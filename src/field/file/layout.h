@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "field/probes/irradiance_encoding.h"
 #include "lambent/field.h"
 
 namespace lambent {
@@ -26,7 +27,7 @@ inline std::uint64_t tile_words(std::uint64_t probes, int texels, int words_per_
 }
 
 inline int words_per_texel(IrradianceFormat format) {
-  return format == IrradianceFormat::float32 ? 3 : 1;
+  return words_of_irradiance(static_cast<std::uint32_t>(format));
 }
 inline int words_per_texel(DistanceFormat format) {
   return format == DistanceFormat::rg32f ? 2 : 1;

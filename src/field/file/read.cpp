@@ -119,7 +119,7 @@ class Reader {
     header.bytes = in_.u64();
     const std::uint32_t irradiance_format = in_.u32(), distance_format = in_.u32();
     const std::uint32_t irradiance_texels = in_.u32(), distance_texels = in_.u32();
-    if (irradiance_format > static_cast<std::uint32_t>(IrradianceFormat::float32)) {
+    if (irradiance_format >= kIrradianceFormatCount) {
       return bad(place_, "stores irradiance in an unknown format");
     }
     if (distance_format > static_cast<std::uint32_t>(DistanceFormat::rg32f)) {
@@ -219,15 +219,16 @@ class Reader {
     offset = in_.u32();
     const std::uint32_t state = in_.u32();
     record.samples = in_.f32();
-    record.noise = in_.f32();
-    const std::uint32_t noise_samples = in_.u32();
-    record.served = in_.u32();
-    if (state >= kStates || noise_samples > 0xFFFFu) return false;
+    record.variance = in_.f32();
+    const std::uint32_t variance_samples = in_.u32();
+    record.last_traced = in_.u32();
+    if (state >= kStates || variance_samples > 0xFFFFu) return false;
     record.state = static_cast<ProbeState>(state);
-    record.noise_samples = static_cast<std::uint16_t>(noise_samples);
+    record.variance_samples = static_cast<std::uint16_t>(variance_samples);
     const bool on_grid = encode_probe_offset(decode_probe_offset(offset)) == offset;
     return on_grid && record.samples >= 0.0f && std::isfinite(record.samples) &&
-           record.noise >= 0.0f && std::isfinite(record.noise) && record.served <= updates;
+           record.variance >= 0.0f && std::isfinite(record.variance) &&
+           record.last_traced <= updates;
   }
 
   const std::string& name_;

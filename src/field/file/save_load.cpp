@@ -48,7 +48,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
   scheduling.scheduler.mark_all_changed();
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   double sum = 0.0;
-  bool never_served = false;
+  bool never_traced = false;
   for (int probe = 0; probe < data.store.probes(); ++probe) {
     const std::span<vec4> tile(&data.light[probe * texels], texels);
     stored_light(data.store, probe, tile);
@@ -56,10 +56,10 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world) 
     statuses[probe].revision = world.revision();
     // An exact number of bounces is carried through all probes at once
     if (settings.max_bounces >= 0) statuses[probe].state = ProbeState::newly_vigilant;
-    never_served = never_served || (is_live(statuses[probe]) && statuses[probe].served == 0);
+    never_traced = never_traced || (is_live(statuses[probe]) && statuses[probe].last_traced == 0);
   }
   scheduling.mean_light = static_cast<float>(sum / data.store.probes());
-  scheduling.warming_up = updates == 0 || never_served;
+  scheduling.warming_up = updates == 0 || never_traced;
   // Compute what the first update finds out about the scene, if that update is in the past
   if (updates == 0) return;
   std::vector<int> all(statuses.size());

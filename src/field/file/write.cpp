@@ -44,9 +44,9 @@ void write_volume(const FieldVolume& volume, ByteWriter& out) {
     out.u32(volume.offsets[probe]);
     out.u32(static_cast<std::uint32_t>(record.state));
     out.f32(record.samples);
-    out.f32(record.noise);
-    out.u32(record.noise_samples);
-    out.u32(record.served);
+    out.f32(record.variance);
+    out.u32(record.variance_samples);
+    out.u32(record.last_traced);
   }
   out.u32s(volume.irradiance);
   out.u32s(volume.distance);

@@ -18,6 +18,11 @@
 namespace lambent {
 namespace {
 
+static_assert(kRgb9e5 == static_cast<uint>(IrradianceFormat::rgb9e5) &&
+              kR11g11b10f == static_cast<uint>(IrradianceFormat::r11g11b10f) &&
+              kIrradianceFloat32 == static_cast<uint>(IrradianceFormat::float32) &&
+              kIrradianceFormatCount == kIrradianceFloat32 + 1u);
+
 constexpr int kCorners = kCellCorners;
 
 /// Everything that the lookups of a batch in one volume have in common.
@@ -149,23 +154,6 @@ LAMBENT_LOOKUP_KERNEL void weigh_all_rg32f(const Tables& t, const FieldQuery* qu
   weigh_all<DistanceFormat::rg32f>(t, queries, result, count);
 }
 
-template <IrradianceFormat format>
-LAMBENT_FORCE_INLINE void decode_irradiance(const uint* word, float& r, float& g, float& b) {
-  if constexpr (format == IrradianceFormat::rgb9e5) {
-    const float scale = power_of_two(static_cast<int>(*word >> 27u) - kRgb9e5BiasAndBits);
-    r = static_cast<float>(static_cast<int>(*word & 511u)) * scale;
-    g = static_cast<float>(static_cast<int>((*word >> 9u) & 511u)) * scale;
-    b = static_cast<float>(static_cast<int>((*word >> 18u) & 511u)) * scale;
-  } else if constexpr (format == IrradianceFormat::r11g11b10f) {
-    const vec3 value = decode_r11g11b10f(*word);
-    r = value.x, g = value.y, b = value.z;
-  } else {
-    r = uintBitsToFloat(word[0]);
-    g = uintBitsToFloat(word[1]);
-    b = uintBitsToFloat(word[2]);
-  }
-}
-
 /// Everything that reads of irradiance have in common.
 struct IrradianceTables {
   explicit IrradianceTables(const ProbeStore& store)
@@ -180,13 +168,13 @@ struct IrradianceTables {
 
 /// Adds the weighted irradiance of a cell's probes along the surface normal. All eight probes are
 /// read at the same place of their tiles.
-template <IrradianceFormat format>
+template <uint format>
 LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const FieldQuery* queries,
                                             std::span<const CornerWeights> weights,
                                             const std::uint32_t* query, vec3* result) {
-  constexpr int kWords = format == IrradianceFormat::float32 ? 3 : 1;
+  const int words = words_of_irradiance(format);
   const int width = t.texels + 2;
-  const int tile_words = kWords * width * width;
+  const int tile_words = words * width * width;
 
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const TileFetch fetch = tile_fetch(queries[query[i]].normal_ws, t.texels);
@@ -194,8 +182,8 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
     const float tap_weights[4] = {(1.0f - f.x) * (1.0f - f.y), f.x * (1.0f - f.y),
                                   (1.0f - f.x) * f.y, f.x * f.y};
     const uint* first = t.words + static_cast<std::ptrdiff_t>(tile_words) * weights[i].base +
-                        kWords * (fetch.corner.y * width + fetch.corner.x);
-    const int steps[4] = {0, kWords, kWords * width, kWords * (width + 1)};
+                        words * (fetch.corner.y * width + fetch.corner.x);
+    const int steps[4] = {0, words, words * width, words * (width + 1)};
     int tile_offset[kCorners];
     const CornerOffsets& offsets = t.offsets[weights[i].table];
     for (int k = 0; k < kCorners; ++k) tile_offset[k] = tile_words * offsets.probe[k];
@@ -205,11 +193,13 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
     for (int tap = 0; tap < 4; ++tap) {
       const float tap_weight = tap_weights[tap];
       for (int k = 0; k < kCorners; ++k) {
-        float r, g, b;
-        decode_irradiance<format>(first + steps[tap] + tile_offset[k], r, g, b);
-        red[k] += tap_weight * r;
-        green[k] += tap_weight * g;
-        blue[k] += tap_weight * b;
+        const uint* texel = first + steps[tap] + tile_offset[k];
+        const vec3 light = words == 1 ? decode_irradiance(format, *texel)
+                                      : vec3(uintBitsToFloat(texel[0]), uintBitsToFloat(texel[1]),
+                                             uintBitsToFloat(texel[2]));
+        red[k] += tap_weight * light.x;
+        green[k] += tap_weight * light.y;
+        blue[k] += tap_weight * light.z;
       }
     }
 
@@ -225,19 +215,19 @@ LAMBENT_FORCE_INLINE void gather_irradiance(const IrradianceTables& t, const Fie
 LAMBENT_LOOKUP_KERNEL void gather_rgb9e5(const IrradianceTables& t, const FieldQuery* queries,
                                          std::span<const CornerWeights> weights,
                                          const std::uint32_t* query, vec3* result) {
-  gather_irradiance<IrradianceFormat::rgb9e5>(t, queries, weights, query, result);
+  gather_irradiance<kRgb9e5>(t, queries, weights, query, result);
 }
 
 LAMBENT_LOOKUP_KERNEL void gather_r11g11b10f(const IrradianceTables& t, const FieldQuery* queries,
                                              std::span<const CornerWeights> weights,
                                              const std::uint32_t* query, vec3* result) {
-  gather_irradiance<IrradianceFormat::r11g11b10f>(t, queries, weights, query, result);
+  gather_irradiance<kR11g11b10f>(t, queries, weights, query, result);
 }
 
 LAMBENT_LOOKUP_KERNEL void gather_float32(const IrradianceTables& t, const FieldQuery* queries,
                                           std::span<const CornerWeights> weights,
                                           const std::uint32_t* query, vec3* result) {
-  gather_irradiance<IrradianceFormat::float32>(t, queries, weights, query, result);
+  gather_irradiance<kIrradianceFloat32>(t, queries, weights, query, result);
 }
 
 }  // namespace

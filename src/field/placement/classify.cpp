@@ -26,13 +26,13 @@ bool is_awake(ProbeState state) {
 }  // namespace
 
 ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits,
-                                         const vec3& position, const vec3& home,
+                                         const vec3& position, const vec3& grid_position,
                                          const vec3& spacing) {
   ClassificationInput input;
   input.inside_geometry = inside_geometry(fixed_hits);
   for (const FixedRayHit& hit : fixed_hits) {
     if (missed(hit)) continue;
-    const vec3 cells = abs((position + hit.distance * hit.direction - home) / spacing);
+    const vec3 cells = abs((position + hit.distance * hit.direction - grid_position) / spacing);
     if (max(cells.x, max(cells.y, cells.z)) <= 1.0f + kCellSlack) input.lights_surface = true;
   }
   return input;
@@ -73,18 +73,20 @@ struct LitCells {
 void classify_probe(const ProbeStore& store, const ClassificationInput& input,
                     std::span<const Bounds> moving, int probe, ProbeStatus& status) {
   const ProbeGrid& grid = store.grid_of(probe);
-  const vec3 home = store.probe_home_ws(probe);
-  const bool near_moving = std::any_of(moving.begin(), moving.end(),
-                                       [&](const Bounds& b) { return may_light(b, home, grid); });
+  const vec3 grid_position = store.probe_grid_position_ws(probe);
+  const bool near_moving = std::any_of(moving.begin(), moving.end(), [&](const Bounds& b) {
+    return may_light(b, grid_position, grid);
+  });
   status.state = next_state(status.state, input, near_moving);
 }
 
 }  // namespace
 
-bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid) {
+bool may_light(const Bounds& moving, const vec3& grid_position_ws, const ProbeGrid& grid) {
   if (moving.empty()) return false;
   const LitCells cells(moving, grid);
-  return glm::all(glm::lessThanEqual(abs(grid_coords(grid, home_ws) - cells.middle), cells.reach));
+  return glm::all(
+      glm::lessThanEqual(abs(grid_coords(grid, grid_position_ws) - cells.middle), cells.reach));
 }
 
 void classify_probes(const ProbeStore& store,

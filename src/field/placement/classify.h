@@ -19,9 +19,9 @@ struct ClassificationInput {
 };
 
 /// Computes the input from the hits of a probe's fixed rays. The probe stands at `position`, and
-/// its place on the grid is `home`; both are in the frame of the hits.
+/// its place on the grid is `grid_position`; both are in the frame of the hits.
 ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits,
-                                         const vec3& position, const vec3& home,
+                                         const vec3& position, const vec3& grid_position,
                                          const vec3& spacing);
 
 /// The next state of a probe. `near_moving` says whether it may light a dynamic instance. A state
@@ -31,9 +31,9 @@ ProbeState next_state(ProbeState before, const ClassificationInput& input, bool 
 /// The state of a probe once it has been traced.
 ProbeState state_once_traced(ProbeState state);
 
-/// Whether a probe whose place on the grid is `home_ws` may light something within these bounds:
-/// they contain it once expanded by a cell and by the lookup's bias.
-bool may_light(const Bounds& moving, const vec3& home_ws, const ProbeGrid& grid);
+/// Whether a probe whose place on the grid is `grid_position_ws` may light something within these
+/// bounds: they contain it once expanded by a cell and by the lookup's bias.
+bool may_light(const Bounds& moving, const vec3& grid_position_ws, const ProbeGrid& grid);
 
 /// Sets the state of every probe. The inputs and statuses have one entry per probe; `moving` are
 /// the bounds of the dynamic instances.

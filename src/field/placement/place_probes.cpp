@@ -142,10 +142,10 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
   if (at_rest == placement.edited_places.end()) return;
   std::vector<int> near;
   for (int probe = 0; probe < data.store.probes(); ++probe) {
-    const vec3 home = data.store.probe_home_ws(probe);
+    const vec3 grid_position = data.store.probe_grid_position_ws(probe);
     const ProbeGrid& grid = data.store.grid_of(probe);
     if (std::any_of(at_rest, placement.edited_places.end(),
-                    [&](const EditedPlace& p) { return may_light(p.box, home, grid); })) {
+                    [&](const EditedPlace& p) { return may_light(p.box, grid_position, grid); })) {
       near.push_back(probe);
     }
   }
@@ -167,7 +167,7 @@ void IrradianceField::State::inherit_history(int probe, const World& world) {
     status.samples = static_cast<float>(fixed_ray_directions().size()) /
                      static_cast<float>(settings.rays_per_probe);
   }
-  status.served = static_cast<std::uint32_t>(updates);
+  status.last_traced = static_cast<std::uint32_t>(updates);
   status.revision = world.revision();
   scheduling.scheduler.mark_changed(probe);
 }

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "field/placement/classify_math.h"
 #include "field/transport/blend.h"
 #include "field/transport/distances.h"
 #include "raytracing/surface.h"
@@ -182,10 +183,10 @@ bool inside_geometry(std::span<const FixedRayHit> fixed_hits) {
          0;
 }
 
-vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
-                     const vec3& spacing) {
+vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from,
+                     const vec3& grid_position, const vec3& spacing) {
   return Surroundings(fixed_hits)
-      .better_place(from, home, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
+      .better_place(from, grid_position, spacing, inside_geometry(fixed_hits) ? 1u : 0u);
 }
 
 std::vector<int> relocate_probes(const StaticScene& stage, std::span<const int> probes,

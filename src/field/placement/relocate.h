@@ -53,10 +53,10 @@ std::size_t viewpoints_of_batch(const RayTracer& tracer);
 bool inside_geometry(std::span<const FixedRayHit> fixed_hits);
 
 /// A better position for a probe with these hits at `from`, or `from` itself where it should stay.
-/// It is at most kMaxProbeOffset of a cell from the probe's place on the grid, `home`. All
+/// It is at most kMaxProbeOffset of a cell from the probe's place on the grid, `grid_position`. All
 /// arguments are in the frame of the hits.
-vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from, const vec3& home,
-                     const vec3& spacing);
+vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from,
+                     const vec3& grid_position, const vec3& spacing);
 
 /// Relocates some probes until they have converged. Returns those that moved, in the order of
 /// `probes`: what they hold belongs to their old places. Gives the same bits on any number of

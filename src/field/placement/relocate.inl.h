@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // The better position of a probe, from the hits of its fixed rays. The includer provides
-//   int hit_count();                // the hits of the fixed rays
+//   int hit_count();                 // how many hits the fixed rays have
 //   FixedRayHit hit_at(int index);
-//   int plane_count();              // the planes of hits that pass below the probe, the nearest
-//   first PlaneBelow plane_at(int rank);
+//   int plane_count();               // how many planes of hits pass below the probe
+//   PlaneBelow plane_at(int rank);   // one of these planes; rank 0 is the nearest
 // Everything is in the frame of the probe's grid.
 
 /// The nearest place outside geometry: just behind the back face that is closest to the probe's
 /// place on the grid, among those that rays hit.
-LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 home, vec3 spacing, float margin) {
+LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 grid_position, vec3 spacing, float margin) {
   vec3 best = position;
   float nearest = infinity();
   for (int i = 0; i < hit_count(); ++i) {
     FixedRayHit hit = hit_at(i);
     if (hit.from_inside == 0u) continue;
     vec3 outside = position + hit.distance * hit.direction - margin * hit.normal;
-    float away = length(outside - home);
-    if (away >= nearest || !within_reach(outside, home, spacing)) continue;
+    float away = length(outside - grid_position);
+    if (away >= nearest || !within_reach(outside, grid_position, spacing)) continue;
     nearest = away;
     best = outside;
   }
@@ -34,11 +34,11 @@ LAMBENT_FN float room_above(PlaneBelow below) {
 }
 
 /// A better position for a probe at `from`, or `from` itself where it should stay. It is at most
-/// kMaxProbeOffset of a cell from the probe's place on the grid, `home`.
-LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geometry) {
+/// kMaxProbeOffset of a cell from the probe's place on the grid, `grid_position`.
+LAMBENT_FN vec3 better_place(vec3 from, vec3 grid_position, vec3 spacing, uint inside_geometry) {
   float smallest = min(spacing.x, min(spacing.y, spacing.z));
   float margin = kSurfaceMargin * smallest;
-  if (inside_geometry != 0u) return nearest_exit(from, home, spacing, margin);
+  if (inside_geometry != 0u) return nearest_exit(from, grid_position, spacing, margin);
 
   // Move to just in front of the nearest surface, then along it to just in front of the nearest one
   // that faces another way, and along both of them to a third
@@ -59,7 +59,7 @@ LAMBENT_FN vec3 better_place(vec3 from, vec3 home, vec3 spacing, uint inside_geo
     along /= steepness;
     float rise = min(margin - plane.height, room_above(plane));
     vec3 there = position + along * (rise / max(dot(along, plane.normal), kMinSteepness));
-    if (!within_reach(there, home, spacing)) continue;
+    if (!within_reach(there, grid_position, spacing)) continue;
     axes[count++] = along;
     if (abs(rise) > kMarginTolerance * margin) position = there;
   }

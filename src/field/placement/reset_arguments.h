@@ -8,18 +8,18 @@
 LAMBENT_BEGIN
 
 /// Arguments of reset_probes, which discards all that a recorded field knows of the probes of a
-/// list: their light, distances, offset, state, history and service.
+/// list: their light, distances, offset, state, history and variability.
 struct ResetProbesArguments {
   ProbeStates probes;
-  ServiceArray service;
+  VariabilityArray variability;
   IntArray list;
   UintArray offsets;
   UintArray distance;
   Vec4Array light;
   Vec4Array last_irradiance_estimate;
   int count;
-  int distance_words;  ///< Words of a probe's distance tile.
-  uint has_service;    ///< 0: the host schedules, and there is no `service`.
+  int distance_words;    ///< Words of a probe's distance tile.
+  uint has_variability;  ///< 0: the host schedules, and there is no `variability`.
   uint unused;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scrolling of volumes that follow the viewer: the probes of the slab that is left behind are
 // recycled for the slab that comes into range, and start from the light that the coarser volumes
-// hold there.
+// hold there. How far volumes scroll and which probes they recycle is in probes/volumes.cpp.
 #include <algorithm>
 #include <vector>
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
 // Fields", JCGT 8(2), 2019 (perceptual encoding). Theirs averages in the encoded domain; ours
-// averages linear light and encodes only to store.
+// averages linear light and encodes only to store. The default encoding, RGB9E5, is in
+// shared/packing.h.
 #ifndef LAMBENT_FIELD_PROBES_IRRADIANCE_ENCODING_H
 #define LAMBENT_FIELD_PROBES_IRRADIANCE_ENCODING_H
 
@@ -47,6 +48,30 @@ LAMBENT_FN vec3 decode_r11g11b10f(uint word) {
   return vec3(linear_from_perceptual(decode_small_float(word & 0x7FFu, 6)),
               linear_from_perceptual(decode_small_float((word >> 11u) & 0x7FFu, 6)),
               linear_from_perceptual(decode_small_float(word >> 22u, 5)));
+}
+
+// The formats of irradiance, and how many there are. Their numbers are those of IrradianceFormat,
+// and of field files.
+const uint kRgb9e5 = 0u;
+const uint kR11g11b10f = 1u;
+const uint kIrradianceFloat32 = 2u;
+const uint kIrradianceFormatCount = 3u;
+
+/// The 32-bit words of a texel: one, or three that hold the light as it is.
+LAMBENT_FN int words_of_irradiance(uint format) {
+  return format == kIrradianceFloat32 ? 3 : 1;
+}
+
+/// The word of a texel in a format that takes one.
+LAMBENT_FN uint encode_irradiance(uint format, vec3 irradiance, vec3 u) {
+  if (format == kR11g11b10f) return encode_r11g11b10f(irradiance, u);
+  return encode_rgb9e5(irradiance, u);
+}
+
+/// The light of a texel in a format that takes one word.
+LAMBENT_FN vec3 decode_irradiance(uint format, uint word) {
+  if (format == kR11g11b10f) return decode_r11g11b10f(word);
+  return decode_rgb9e5(word);
 }
 
 LAMBENT_END

@@ -22,10 +22,11 @@ struct ProbeStatus {
   float samples = 0.0f;
   /// Relative variance of the light that one such update estimates, and the number of updates from
   /// which that was learned.
-  float noise = 1.0f;
-  std::uint16_t noise_samples = 0;
+  float variance = 1.0f;
+  std::uint16_t variance_samples = 0;
   ProbeState state = ProbeState::newly_vigilant;
-  std::uint32_t served = 0;  ///< Number of the update that traced it last, counted from 1; 0: none.
+  /// Number of the update that traced it last, counted from 1; 0: none.
+  std::uint32_t last_traced = 0;
   std::uint64_t revision = 0;  ///< Revision of the world that its surfels are up to date with.
 };
 

@@ -136,13 +136,8 @@ void ProbeStore::restore(int first, std::span<const uint> offsets, std::span<con
 
 vec3 ProbeStore::irradiance_texel(int probe, ivec2 with_gutter) const {
   const std::size_t index = texel_index(probe, with_gutter, irradiance_texels_);
-  switch (irradiance_format_) {
-    case IrradianceFormat::rgb9e5:
-      return decode_rgb9e5(irradiance_[index]);
-    case IrradianceFormat::r11g11b10f:
-      return decode_r11g11b10f(irradiance_[index]);
-    case IrradianceFormat::float32:
-      break;
+  if (words_per_irradiance_texel() == 1) {
+    return decode_irradiance(irradiance_code(), irradiance_[index]);
   }
   const uint* words = &irradiance_[3 * index];
   return {uintBitsToFloat(words[0]), uintBitsToFloat(words[1]), uintBitsToFloat(words[2])};
@@ -176,13 +171,12 @@ void ProbeStore::store_irradiance(int probe, std::span<const vec3> interior, uin
     const std::size_t index = texel_index(probe, ivec2(t % n, t / n) + ivec2(1), n);
     uint* word = &irradiance_[index * words];
     const vec3 value = interior[t];
-    if (irradiance_format_ == IrradianceFormat::float32) {
+    if (words == 3) {
       for (int c = 0; c < 3; ++c) word[c] = floatBitsToUint(value[c]);
       continue;
     }
     const vec3 u = irradiance_dither(static_cast<uint>(index), dither_seed);
-    *word = irradiance_format_ == IrradianceFormat::rgb9e5 ? encode_rgb9e5(value, u)
-                                                           : encode_r11g11b10f(value, u);
+    *word = encode_irradiance(irradiance_code(), value, u);
   }
   fill_gutter(&irradiance_[texel_index(probe, {0, 0}, n) * words], n, words);
 }

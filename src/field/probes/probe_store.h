@@ -9,6 +9,7 @@
 
 #include "core/large_pages.h"
 #include "field/lookup/lookup_records.h"
+#include "field/probes/irradiance_encoding.h"
 #include "field/probes/probe_grid.h"
 #include "field/probes/tile.h"
 #include "lambent/field.h"
@@ -55,7 +56,7 @@ class ProbeStore {
     return placed_position(grid, probe_coords(grid, probe), probe_offset(probe));
   }
   /// The place of a probe on the grid, without its offset.
-  vec3 probe_home_ws(int probe) const {
+  vec3 probe_grid_position_ws(int probe) const {
     const ProbeGrid& grid = grid_of(probe);
     return probe_position(grid, probe_coords(grid, probe));
   }
@@ -86,9 +87,7 @@ class ProbeStore {
   /// distance_unit() of the volume.
   std::span<const uint> irradiance_words() const { return irradiance_; }
   std::span<const uint> distance_words() const { return distance_; }
-  int words_per_irradiance_texel() const {
-    return irradiance_format_ == IrradianceFormat::float32 ? 3 : 1;
-  }
+  int words_per_irradiance_texel() const { return words_of_irradiance(irradiance_code()); }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 
   /// Replaces the words of the probes from `first` on by those that offset_words, irradiance_words
@@ -100,6 +99,9 @@ class ProbeStore {
   void clear();
 
  private:
+  /// The format's number, as irradiance_encoding.h takes it.
+  uint irradiance_code() const { return static_cast<uint>(irradiance_format_); }
+
   std::vector<ProbeGrid> grids_;
   std::vector<CornerOffsets> corner_table_;
   int probes_ = 0;

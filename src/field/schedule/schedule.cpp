@@ -23,7 +23,7 @@ bool is_live(const ProbeStatus& status) {
   if (status.state == ProbeState::off) return false;
   // Fog and lookups in open air need the light of sleeping probes: these are traced once, and again
   // where their history was reset
-  return status.state != ProbeState::sleeping || status.served == 0 || status.samples == 0.0f;
+  return status.state != ProbeState::sleeping || status.last_traced == 0 || status.samples == 0.0f;
 }
 
 int ray_class_for(float rays) {
@@ -55,7 +55,7 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
       if (!is_live(statuses[probe])) continue;
       // Spread the probes of a coarse volume over its updates
       const bool turn = (update + static_cast<std::uint32_t>(probe)) % period == 0;
-      if (turn || statuses[probe].served == 0) schedule.probes.push_back(probe);
+      if (turn || statuses[probe].last_traced == 0) schedule.probes.push_back(probe);
     }
   }
   schedule.rays.assign(schedule.probes.size(), settings.rays_per_probe);
@@ -79,11 +79,11 @@ std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSetti
   return groups;
 }
 
-void learn_noise(float relative_square, float weight, ProbeStatus& status) {
-  const KnownNoise known = {status.noise, status.noise_samples};
-  const KnownNoise learned = learned_noise(known, relative_square, weight, status.samples);
-  status.noise = learned.noise;
-  status.noise_samples = static_cast<std::uint16_t>(learned.samples);
+void learn_variance(float relative_square, float weight, ProbeStatus& status) {
+  const VarianceEstimate known = {status.variance, status.variance_samples};
+  const VarianceEstimate learned = learned_variance(known, relative_square, weight, status.samples);
+  status.variance = learned.variance;
+  status.variance_samples = static_cast<std::uint16_t>(learned.samples);
   status.samples += weight;
 }
 

@@ -3,10 +3,10 @@
 //
 // The light of a probe is a mean over updates, whose standard error falls with the square root of
 // their number. An update traces the probes with the largest relative standard errors, and gives
-// each rays in proportion to its noise. Of all ways to allocate rays, that leaves the least error
-// (Neyman, "On the Two Different Aspects of the Representative Method", J. R. Stat. Soc. 97(4),
-// 1934). Probes that matter to the visible points, or are near the camera, have a larger weight. No
-// probe waits for ever.
+// each rays in proportion to its standard deviation. Of all ways to allocate rays, that leaves the
+// least error (Neyman, "On the Two Different Aspects of the Representative Method", J. R. Stat.
+// Soc. 97(4), 1934). Probes that matter to the visible points, or are near the camera, have a
+// larger weight. No probe waits for ever.
 #pragma once
 
 #include <array>
@@ -85,7 +85,7 @@ class ProbeScheduler {
   const ProbeCounts& states() const { return states_; }
 
   /// The number of live probes that have never been traced, sleeping ones not included.
-  int unserved() const { return unserved_; }
+  int never_traced() const { return never_traced_; }
 
   /// The most urgent probes within a budget of rays, as of the last refresh(). `update` counts
   /// from 1. `importance` has one number per probe, 0 to 1; if it is empty, the distance from the
@@ -97,29 +97,29 @@ class ProbeScheduler {
  private:
   /// What the urgency of a probe depends on.
   struct Entry {
-    float noise = 0.0f;                ///< probe_noise() of the probe and its neighbours.
-    float reduction = 0.0f;            ///< error_reduction() of the probe; 0: it has converged.
-    float reduction_per_noise = 0.0f;  ///< error_reduction_per_noise() of the probe.
+    float deviation = 0.0f;                ///< probe_deviation() of the probe and its neighbours.
+    float reduction = 0.0f;                ///< error_reduction() of the probe; 0: it has converged.
+    float reduction_per_deviation = 0.0f;  ///< error_reduction_per_deviation() of the probe.
     /// Number of the update that traced it last; 0: none; the largest number: it is not live.
-    std::uint32_t served = 0;
+    std::uint32_t last_traced = 0;
     ProbeState state = ProbeState::off;
   };
   /// What an upper bound on the urgency of a block of consecutive probes depends on.
   struct Block {
-    float reduction = 0.0f;            ///< The largest of its probes.
-    float reduction_per_noise = 0.0f;  ///< The largest of its probes.
-    std::uint32_t served = 0;          ///< The smallest of its probes.
-    float noise_sum = 0.0f;            ///< Sum of the noise of those that have not converged.
-    int unsettled = 0;                 ///< The number of those.
+    float reduction = 0.0f;                ///< The largest of its probes.
+    float reduction_per_deviation = 0.0f;  ///< The largest of its probes.
+    std::uint32_t last_traced = 0;         ///< The smallest of its probes.
+    float deviation_sum = 0.0f;  ///< Sum of the deviations of those that have not converged.
+    int unsettled = 0;           ///< The number of those.
   };
 
   float view_weight(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
                     std::span<const float> importance) const;
   void refresh_status(std::span<const ProbeStatus> statuses, int probe);
-  void refresh_noise(const ProbeStore& store, std::span<const ProbeStatus> statuses, int probe);
+  void refresh_deviation(const ProbeStore& store, std::span<const ProbeStatus> statuses, int probe);
   void refresh_block(std::size_t block);
-  float mean_noise() const;
-  int rays_of(const Entry& entry, float mean_noise) const;
+  float mean_deviation() const;
+  int rays_of(const Entry& entry, float mean_deviation) const;
 
   std::vector<VolumeRole> roles_;
   int rays_per_probe_;
@@ -129,17 +129,17 @@ class ProbeScheduler {
   std::vector<int> changed_;
   bool all_changed_ = true;
   ProbeCounts states_;
-  int unserved_ = 0;
+  int never_traced_ = 0;
 };
 
 /// Groups the scheduled probes by their numbers of rays, and draws the directions of each ray set.
 std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,
                                       uint update);
 
-/// Learns a probe's noise from the difference between what its rays estimated and what it held:
+/// Learns a probe's variance from the difference between what its rays estimated and what it held:
 /// `relative_square` is the mean square of that difference over the square of the mean. The
 /// estimate is of `weight` updates' worth of rays, and the probe held an average of
 /// `status.samples` updates. Then adds `weight` to the samples.
-void learn_noise(float relative_square, float weight, ProbeStatus& status);
+void learn_variance(float relative_square, float weight, ProbeStatus& status);
 
 }  // namespace lambent

@@ -46,27 +46,27 @@ LAMBENT_FN int priority_bin(float urgency) {
   return kFirstReductionBin + clamp(octaves, 0, kReductionBins - 1);
 }
 
-/// The noise of a probe, and when it was traced.
-struct ProbeService {
-  KnownNoise known;
-  uint served;  ///< Number of the update that traced it last, counted from 1; 0: none.
+/// The variance of the light of a probe, and when it was traced.
+struct ProbeVariability {
+  VarianceEstimate known;
+  uint last_traced;  ///< Number of the update that traced it last, counted from 1; 0: none.
 };
-LAMBENT_DEVICE_ARRAY(ServiceArray, ProbeService, 4)
+LAMBENT_DEVICE_ARRAY(VariabilityArray, ProbeVariability, 4)
 
-/// The service of a probe that was never traced, with the initial values of ProbeStatus.
-LAMBENT_FN ProbeService new_service() {
-  ProbeService service = {{1.0f, 0u}, 0u};
-  return service;
+/// The variability of a probe that was never traced, with the initial values of ProbeStatus.
+LAMBENT_FN ProbeVariability new_variability() {
+  ProbeVariability variability = {{1.0f, 0u}, 0u};
+  return variability;
 }
 
 /// The device's decision about an update, and what it keeps for the next one.
 struct ScheduleState {
   ListState list;
-  uint live;         ///< The number of probes that are not left out.
-  float mean_light;  ///< Their mean luminance.
-  float mean_noise;  ///< Mean noise of those that had not converged before the update.
-  int last_bin;      ///< The bin in which the budget ends.
-  int of_last_bin;   ///< The number of probes of this bin that are traced.
+  uint live;             ///< The number of probes that are not left out.
+  float mean_light;      ///< Their mean luminance.
+  float mean_deviation;  ///< Mean deviation of those that had not converged before it.
+  int last_bin;          ///< The bin in which the budget ends.
+  int of_last_bin;       ///< The number of probes of this bin that are traced.
 };
 LAMBENT_DEVICE_ARRAY(ScheduleStateArray, ScheduleState, 4)
 
@@ -77,7 +77,7 @@ const int kChunkProbes = 256;
 /// Sums over consecutive probes.
 struct ScheduleChunk {
   uint bins[kPriorityBins];  ///< The number of probes in each bin.
-  float noise_sum;           ///< Sum of the noise of those that have not converged.
+  float deviation_sum;       ///< Sum of the deviations of those that have not converged.
   uint unsettled;            ///< The number of those.
   int higher;   ///< The number of probes in higher bins than the last one that is traced.
   int of_last;  ///< The number of probes in the last bin that is traced.
@@ -90,7 +90,7 @@ struct SchedulePriorityArguments {
   GridArray grids;
   IntArray levels;  ///< The cascade level of each volume.
   ProbeStates probes;
-  ServiceArray service;
+  VariabilityArray variability;
   ScheduleStateArray state;
   UintArray bins;
   ChunkArray chunks;
@@ -124,7 +124,7 @@ struct ScheduleListArguments {
 /// computes it.
 struct UpdateVariabilityArguments {
   ScheduleStateArray state;
-  ServiceArray service;
+  VariabilityArray variability;
   IntArray list;
   FloatArray blend_weights;
   Vec3Array changes;
@@ -134,7 +134,8 @@ struct UpdateVariabilityArguments {
   uint unused;
 };
 
-/// Arguments of schedule_means, which computes the mean noise and mean light for the next update.
+/// Arguments of schedule_means, which computes the mean deviation and mean light for the next
+/// update.
 struct ScheduleMeansArguments {
   ScheduleStateArray state;
   ChunkArray chunks;

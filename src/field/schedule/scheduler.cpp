@@ -115,7 +115,7 @@ ProbeScheduler::ProbeScheduler(int probes, std::span<const VolumeRole> roles,
       entries_(probes),
       blocks_((entries_.size() + kBlock - 1) / kBlock) {
   states_.off = static_cast<int>(entries_.size());
-  unserved_ = states_.off;
+  never_traced_ = states_.off;
 }
 
 void ProbeScheduler::mark_changed(int probe) {
@@ -128,48 +128,51 @@ void ProbeScheduler::refresh_status(std::span<const ProbeStatus> statuses, int p
   --count_of(states_, entry.state);
   entry.state = status.state;
   ++count_of(states_, entry.state);
-  if (entry.served == 0) --unserved_;
-  entry.served = is_live(status) ? status.served : kNotLive;
+  if (entry.last_traced == 0) --never_traced_;
+  entry.last_traced = is_live(status) ? status.last_traced : kNotLive;
   // Only open air needs the light of a sleeping probe: it counts as traced once, and so comes after
   // all other probes that have never been traced
-  if (status.state == ProbeState::sleeping) entry.served = std::max(entry.served, 1u);
-  if (entry.served == 0) ++unserved_;
+  if (status.state == ProbeState::sleeping) entry.last_traced = std::max(entry.last_traced, 1u);
+  if (entry.last_traced == 0) ++never_traced_;
 }
 
-/// Updates what depends on the noise of a probe and its neighbours; see probe_noise().
-void ProbeScheduler::refresh_noise(const ProbeStore& store, std::span<const ProbeStatus> statuses,
-                                   int probe) {
+/// Updates what depends on the variance of a probe and its neighbours; see probe_deviation().
+void ProbeScheduler::refresh_deviation(const ProbeStore& store,
+                                       std::span<const ProbeStatus> statuses, int probe) {
   Entry& entry = entries_[probe];
   const ProbeStatus& own = statuses[probe];
-  entry.noise = entry.reduction = entry.reduction_per_noise = 0.0f;
-  if (entry.served == kNotLive) return;
+  entry.deviation = entry.reduction = entry.reduction_per_deviation = 0.0f;
+  if (entry.last_traced == kNotLive) return;
   struct Neighbourhood {
     std::span<const Entry> entries;
     std::span<const ProbeStatus> statuses;
-    bool fetch_live(int at) const { return entries[at].served != kNotLive; }
-    float fetch_noise(int at) const { return statuses[at].noise; }
-#include "field/schedule/noise_around.inl.h"
+    bool fetch_live(int at) const { return entries[at].last_traced != kNotLive; }
+    float fetch_variance(int at) const { return statuses[at].variance; }
+#include "field/schedule/neighbourhood_variance.inl.h"
   } near = {entries_, statuses};
-  entry.noise = probe_noise(own.noise, near.noise_around(store.grid_of(probe), probe));
+  entry.deviation =
+      probe_deviation(own.variance, near.neighbourhood_variance(store.grid_of(probe), probe));
   if (own.state == ProbeState::sleeping) {
     entry.reduction = kSleepingReduction;
     return;
   }
-  entry.reduction = error_reduction(entry.noise, own.samples, longest_);
-  if (entry.reduction > 0.0f) entry.reduction_per_noise = error_reduction_per_noise(own.samples);
+  entry.reduction = error_reduction(entry.deviation, own.samples, longest_);
+  if (entry.reduction == 0.0f) return;
+  entry.reduction_per_deviation = error_reduction_per_deviation(own.samples);
 }
 
 void ProbeScheduler::refresh_block(std::size_t block) {
   Block sum;
-  sum.served = kNotLive;
+  sum.last_traced = kNotLive;
   const std::size_t end = std::min((block + 1) * kBlock, entries_.size());
   for (std::size_t i = block * kBlock; i < end; ++i) {
     const Entry& entry = entries_[i];
     sum.reduction = std::max(sum.reduction, entry.reduction);
-    sum.reduction_per_noise = std::max(sum.reduction_per_noise, entry.reduction_per_noise);
-    sum.served = std::min(sum.served, entry.served);
+    sum.reduction_per_deviation =
+        std::max(sum.reduction_per_deviation, entry.reduction_per_deviation);
+    sum.last_traced = std::min(sum.last_traced, entry.last_traced);
     if (entry.reduction == 0.0f) continue;
-    sum.noise_sum += entry.noise;
+    sum.deviation_sum += entry.deviation;
     ++sum.unsettled;
   }
   blocks_[block] = sum;
@@ -181,45 +184,45 @@ void ProbeScheduler::refresh(const ProbeStore& store, std::span<const ProbeStatu
     parallel_chunks(blocks_.size(), kBlocksPerTask, [&](std::size_t begin, std::size_t end) {
       const std::size_t last = std::min(end * kBlock, entries_.size());
       for (std::size_t i = begin * kBlock; i < last; ++i)
-        refresh_noise(store, statuses, static_cast<int>(i));
+        refresh_deviation(store, statuses, static_cast<int>(i));
       for (std::size_t block = begin; block < end; ++block) refresh_block(block);
     });
   } else {
-    std::vector<int> noisy = changed_;
+    std::vector<int> affected = changed_;
     for (const int probe : changed_) {
       refresh_status(statuses, probe);
-      for_each_neighbour(store, probe, [&](int neighbour) { noisy.push_back(neighbour); });
+      for_each_neighbour(store, probe, [&](int neighbour) { affected.push_back(neighbour); });
     }
-    std::sort(noisy.begin(), noisy.end());
-    noisy.erase(std::unique(noisy.begin(), noisy.end()), noisy.end());
-    for (std::size_t i = 0; i < noisy.size(); ++i) {
-      refresh_noise(store, statuses, noisy[i]);
-      const std::size_t block = noisy[i] / kBlock;
-      if (i + 1 == noisy.size() || noisy[i + 1] / kBlock != block) refresh_block(block);
+    std::sort(affected.begin(), affected.end());
+    affected.erase(std::unique(affected.begin(), affected.end()), affected.end());
+    for (std::size_t i = 0; i < affected.size(); ++i) {
+      refresh_deviation(store, statuses, affected[i]);
+      const std::size_t block = affected[i] / kBlock;
+      if (i + 1 == affected.size() || affected[i + 1] / kBlock != block) refresh_block(block);
     }
   }
   changed_.clear();
   all_changed_ = false;
 }
 
-/// A probe gets rays in proportion to its noise. The first time it gets few, so that all probes
+/// A probe gets rays in proportion to its deviation. The first time it gets few, so that all probes
 /// hold some light soon.
-int ProbeScheduler::rays_of(const Entry& entry, float mean_noise) const {
-  if (entry.served == 0) return kRayClasses.front();
-  const bool unknown = entry.state == ProbeState::sleeping || mean_noise <= 0.0f;
-  const float share = unknown ? 1.0f : entry.noise / mean_noise;
+int ProbeScheduler::rays_of(const Entry& entry, float mean_deviation) const {
+  if (entry.last_traced == 0) return kRayClasses.front();
+  const bool unknown = entry.state == ProbeState::sleeping || mean_deviation <= 0.0f;
+  const float share = unknown ? 1.0f : entry.deviation / mean_deviation;
   return ray_class_for(static_cast<float>(rays_per_probe_) * share);
 }
 
-/// The mean noise of the probes that have not converged.
-float ProbeScheduler::mean_noise() const {
-  double noise_sum = 0.0;
+/// The mean deviation of the probes that have not converged.
+float ProbeScheduler::mean_deviation() const {
+  double deviation_sum = 0.0;
   std::int64_t unsettled = 0;
   for (const Block& block : blocks_) {
-    noise_sum += block.noise_sum;
+    deviation_sum += block.deviation_sum;
     unsettled += block.unsettled;
   }
-  return unsettled > 0 ? static_cast<float>(noise_sum / static_cast<double>(unsettled)) : 0.0f;
+  return unsettled > 0 ? static_cast<float>(deviation_sum / static_cast<double>(unsettled)) : 0.0f;
 }
 
 /// The weight of a probe, 0 to 1, from its volume's level and its importance or distance.
@@ -239,20 +242,21 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
                                 std::span<const float> importance) const {
   // Order the blocks by an upper bound on the urgency of their probes
   std::vector<Candidate> blocks;
-  const float noise = mean_noise();
+  const float deviation = mean_deviation();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
     // Only the oldest probe of a block matters here: if it is not old, none is
-    const std::uint32_t served = waits_too_long(block.served, update) ? block.served : kNotLive;
+    const std::uint32_t last_traced =
+        waits_too_long(block.last_traced, update) ? block.last_traced : kNotLive;
     float weight = 1.0f;
     if (viewer_ws && importance.empty()) {
       const int first = static_cast<int>(b * kBlock);
       const int last = static_cast<int>(std::min((b + 1) * kBlock, entries_.size())) - 1;
       weight = distance_weight(least_cells_away(store, first, last, *viewer_ws));
     }
-    const float urgency =
-        probe_urgency(scheduled_reduction(block.reduction, block.reduction_per_noise, noise),
-                      served, update, weight);
+    const float urgency = probe_urgency(
+        scheduled_reduction(block.reduction, block.reduction_per_deviation, deviation), last_traced,
+        update, weight);
     if (urgency > 0.0f) blocks.push_back({urgency, static_cast<int>(b)});
   }
   const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };
@@ -266,13 +270,13 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
     blocks.pop_back();
     for (std::size_t i = first; i < std::min(first + kBlock, entries_.size()); ++i) {
       const Entry& entry = entries_[i];
-      if (entry.reduction == 0.0f && !waits_too_long(entry.served, update)) continue;
+      if (entry.reduction == 0.0f && !waits_too_long(entry.last_traced, update)) continue;
       const int probe = static_cast<int>(i);
       const float weight = view_weight(store, probe, viewer_ws, importance);
-      best.add(
-          {probe_urgency(scheduled_reduction(entry.reduction, entry.reduction_per_noise, noise),
-                         entry.served, update, weight),
-           probe});
+      best.add({probe_urgency(
+                    scheduled_reduction(entry.reduction, entry.reduction_per_deviation, deviation),
+                    entry.last_traced, update, weight),
+                probe});
     }
   }
 
@@ -281,7 +285,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
   std::uint64_t spent = 0;
   for (const Candidate& candidate : best.take()) {
     const Entry& entry = entries_[candidate.probe];
-    const int rays = rays_of(entry, noise);
+    const int rays = rays_of(entry, deviation);
     if (spent + rays > ray_budget) break;
     spent += rays;
     chosen.emplace_back(candidate.probe, rays);

@@ -2,6 +2,7 @@
 #include "field/schedule/scheduling.h"
 
 #include "field/placement/classify.h"
+#include "field/transport/blend_math.h"
 
 namespace lambent {
 
@@ -33,11 +34,11 @@ void update_variability(const TracedProbes& traced, std::span<const LightChange>
     ProbeStatus& status = statuses[probe];
     const LightChange& change = changes[k];
     light_sum += change.now;
-    learn_noise(
+    learn_variance(
         estimate_relative_square(change, texels, traced.blend_weights[k], scheduling.mean_light),
         traced.weights[k], status);
     status.samples = min(status.samples, longest);
-    status.served = in.update;
+    status.last_traced = in.update;
     status.state = state_once_traced(status.state);
     status.revision = in.revision;
     scheduling.scheduler.mark_changed(probe);

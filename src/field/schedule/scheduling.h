@@ -41,8 +41,8 @@ struct TracedIn {
   std::uint64_t revision = 0;
 };
 
-/// Learns the noise of the traced probes from how much their light changed, counts their samples,
-/// and notes that they were traced.
+/// Learns the variance of the traced probes from how much their light changed, counts their
+/// samples, and notes that they were traced.
 void update_variability(const TracedProbes& traced, std::span<const LightChange> changes,
                         const TracedIn& in, const FieldSettings& settings,
                         std::span<ProbeStatus> statuses, Scheduling& scheduling);

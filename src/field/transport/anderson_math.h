@@ -21,14 +21,17 @@ const float kAndersonRidge = 1e-10f;
 // suggest.
 const float kMinContraction = 0.1f;
 
+/// The contraction to assume of a transport whose iteration showed the factor `observed`, and that
+/// is known not to exceed `bound`.
+LAMBENT_FN float assumed_contraction(float observed, float bound) {
+  return min(bound, max(observed, kMinContraction));
+}
+
 /// The estimated relative error of the light after blending in a solution. A contraction by q
-/// leaves q / (1 - q) of the last step to go. The squares are the squared norms of the residual and
-/// the image.
-LAMBENT_FN float remaining_error(float contraction, float blend_weight, float residual_square,
-                                 float image_square) {
-  float remaining = contraction / (1.0f - contraction);
-  return image_square > 0.0f ? blend_weight * remaining * sqrt(residual_square / image_square)
-                             : 0.0f;
+/// leaves q / (1 - q) of the last step to go. `relative_residual` is the norm of the residual over
+/// that of the image.
+LAMBENT_FN float remaining_error(float contraction, float blend_weight, float relative_residual) {
+  return blend_weight * (contraction / (1.0f - contraction)) * relative_residual;
 }
 
 /// The inner products of the last steps' residual changes with each other (row after row), and with

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
-// Fields", JCGT 8(2), 2019. The weights of single rays and texels in a blend.
+// Fields", JCGT 8(2), 2019. The weights of single rays and texels in a blend, and of an update in
+// the blend with its probes' history.
 #ifndef LAMBENT_FIELD_TRANSPORT_BLEND_MATH_H
 #define LAMBENT_FIELD_TRANSPORT_BLEND_MATH_H
 
@@ -22,14 +23,10 @@ LAMBENT_FN float ray_weight(vec3 normal, vec3 direction, float cosine_exponent) 
 
 /// Exponent of the cosine in the ray weights of distances: sharp enough that an occluder in one
 /// direction does not blur into the next texel. The published exponent is 50 (JCGT 8(2) 2019,
-/// sec. 4.3). 100 is about as wide as a texel of the default tile and leaks less than half as much
-/// (brightest spot behind a closed wall, probes 1 m apart: 3.9 % of the room's light with the door
-/// open, against 9.1 %). 200 is no better.
+/// sec. 4.3). 100 is about as wide as a texel of the default tile and leaks less than half as much:
+/// when it was chosen, the largest pixel of `scripts/measure leaks` with probes 1 m apart fell from
+/// 9.1 % (at 50) to 3.9 %. 200 is no better.
 const float kDistanceExponent = 100.0f;
-
-/// A probe of whose rays more than this fraction hit back faces stands inside geometry, and lights
-/// nothing. JCGT 10(2) 2021, sec. 4.
-const float kBackFaceThreshold = 0.25f;
 
 // The distance of a ray that hits the back of a single-sided surface is scaled by this factor, so
 // that a probe inside something has little weight in its surroundings. JCGT 10(2) 2021, sec. 4.
@@ -39,11 +36,6 @@ const float kBackFaceDistanceScale = 0.2f;
 LAMBENT_FN float counted_distance(float seen, uint back_face, float farthest) {
   float cut = min(seen, farthest);
   return back_face != 0u ? cut * kBackFaceDistanceScale : cut;
-}
-
-/// Whether a probe stands inside geometry: 1 or 0.
-LAMBENT_FN uint is_inside_geometry(int back_faces, int rays) {
-  return float(back_faces) > kBackFaceThreshold * float(rays) ? 1u : 0u;
 }
 
 // A texel whose mean ray weight is below this received too few rays to be known.
@@ -56,6 +48,14 @@ const float kTiniestWeight = 1e-20f;
 /// count.
 LAMBENT_FN vec3 irradiance_at_centre(vec4 sums) {
   return vec3(sums) * (kPi / max(sums.w, kTiniestWeight));
+}
+
+/// The weight in the blend with a probe's history of rays that amount to `weight` updates. The
+/// history is of `samples` updates, and the average remembers `longest` at most: see
+/// longest_average() in schedule/schedule.h, which follows from the hysteresis.
+LAMBENT_FN float history_blend_weight(float samples, float weight, float longest) {
+  float held = min(samples, max(longest - weight, 0.0f));
+  return weight / (held + weight);
 }
 
 LAMBENT_END

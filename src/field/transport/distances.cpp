@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "field/placement/classify_math.h"
 
 namespace lambent {
 namespace {

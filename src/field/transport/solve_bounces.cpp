@@ -20,9 +20,6 @@ constexpr std::size_t kProbesPerTask = 16;
 constexpr std::size_t kProbesPerCopy = 512;
 constexpr std::size_t kTexelsPerTask = 16384;
 
-// kMinContraction in double precision.
-constexpr double kLeastContraction = 0.1;
-
 /// Calls body(k, i, j) for each of the operator's probes: k is its place among them, i the index of
 /// its first texel in the field, and j that in arrays of the operator's probes alone.
 template <class Body>
@@ -252,11 +249,10 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
   AndersonMemory memory;
   SolveResult result;
   if (size == 0) return result;
-  const double blend_weight = *std::max_element(blend_weights.begin(), blend_weights.end());
-  const double bound = blend_weight * settings.max_albedo;
-  assert(static_cast<float>(kLeastContraction) == kMinContraction);
-  double observed = 0.0;
-  double contraction = bound;
+  const float blend_weight = *std::max_element(blend_weights.begin(), blend_weights.end());
+  const float bound = blend_weight * settings.max_albedo;
+  float observed = 0.0f;
+  float contraction = bound;
 
   while (true) {
     // Apply the transport once
@@ -274,15 +270,18 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
       add_scaled(image, -1.0f, previous_image, image_change);
       add_scaled(image_change, -1.0f, residual_change, change);
       const double change_norm = norm(change);
-      if (change_norm > 0.0) observed = std::max(observed, norm(image_change) / change_norm);
-      contraction = std::min(bound, std::max(observed, kLeastContraction));
+      if (change_norm > 0.0) {
+        observed = max(observed, static_cast<float>(norm(image_change) / change_norm));
+      }
+      contraction = assumed_contraction(observed, bound);
       memory.push(std::move(residual_change), std::move(image_change));
     }
 
-    // Estimate the error: a contraction by q leaves q / (1 - q) of the last step to go
+    // Estimate the error
     const double image_norm = norm(image);
-    const double remaining = contraction / (1.0 - contraction);
-    result.error = image_norm > 0.0 ? blend_weight * remaining * norm(residual) / image_norm : 0.0;
+    const double relative_residual = image_norm > 0.0 ? norm(residual) / image_norm : 0.0;
+    result.error =
+        remaining_error(contraction, blend_weight, static_cast<float>(relative_residual));
     if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {
       result.change = finish(transport, blend_weights, history, image, field);
       result.solution = std::move(image);

@@ -46,20 +46,20 @@ struct MakeSurfelsArguments {
   int stride;
 };
 
-/// Arguments of see_distances. `seen` receives the distances that hits count as [m], `seen_stride`
-/// per probe of the list, 0 beyond its rays. `blocked` receives 1 for each probe of the list that
-/// stands inside geometry, else 0.
-struct SeeDistancesArguments {
+/// Arguments of hit_distances. `distances` receives the distances that hits count as [m],
+/// `distance_stride` per probe of the list, 0 beyond its rays. `blocked` receives 1 for each probe
+/// of the list that stands inside geometry, else 0.
+struct HitDistancesArguments {
   GridArray grids;
   IntArray probes;
   HitArray hits;
   SurfelArray surfels;  ///< All probes x stride.
-  FloatArray seen;
+  FloatArray distances;
   UintArray blocked;
   int count;
   int rays_per_probe;
   int stride;
-  int seen_stride;
+  int distance_stride;
 };
 
 /// Arguments of blend_distances, which blends these distances into the store. `blend_weights` are
@@ -68,7 +68,7 @@ struct BlendDistancesArguments {
   StoreArrays store;
   ProbeList list;
   ProbeBlockArray blocks;
-  FloatArray seen;
+  FloatArray distances;
   UintArray blocked;
   FloatArray blend_weights;
   int block_count;
@@ -76,25 +76,26 @@ struct BlendDistancesArguments {
   uint dither_seed;
 };
 
-/// Arguments of see_surfels, which computes the distances and flags of see_distances from surfels.
-struct SeeSurfelsArguments {
+/// Arguments of surfel_distances, which computes the distances and flags of hit_distances from
+/// surfels.
+struct SurfelDistancesArguments {
   StoreArrays store;
   ProbeList list;
   SurfelArray surfels;
-  FloatArray seen;
+  FloatArray distances;
   UintArray blocked;
   int count;
   int stride;  ///< Surfels per probe.
-  int seen_stride;
+  int distance_stride;
 };
 
 /// Arguments of move_distances, which moves stored moments by as much as the rays' moments changed.
 struct MoveDistancesArguments {
   StoreArrays store;
   ProbeList list;
-  FloatArray seen_before;
+  FloatArray distances_before;
   UintArray blocked_before;
-  FloatArray seen;
+  FloatArray distances;
   UintArray blocked;
   int count;
   int stride;

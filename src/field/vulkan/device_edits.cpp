@@ -6,35 +6,35 @@
 
 namespace lambent {
 
-void FieldResources::record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list,
-                                        FloatArray seen, UintArray blocked) const {
-  const SeeSurfelsArguments arguments = {store(),
-                                         arrays(list),
-                                         {surfels_.address()},
-                                         seen,
-                                         blocked,
-                                         list.count(),
-                                         stride_,
-                                         round_up(list.most_rays, kLaneGroupSize)};
-  run_over(to, kernels_.see_surfels, arguments, list, kOverLaneGroups);
+void FieldResources::record_surfel_distances(vulkan::Recorder& to, const DeviceProbes& list,
+                                             FloatArray distances, UintArray blocked) const {
+  const SurfelDistancesArguments arguments = {store(),
+                                              arrays(list),
+                                              {surfels_.address()},
+                                              distances,
+                                              blocked,
+                                              list.count(),
+                                              stride_,
+                                              round_up(list.most_rays, kLaneGroupSize)};
+  run_over(to, kernels_.surfel_distances, arguments, list, kOverLaneGroups);
   to.barrier();
 }
 
 void FieldResources::record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list) {
-  record_see_surfels(to, list, {seen_.address()}, {blocked_.address()});
+  record_surfel_distances(to, list, {ray_distances_.address()}, {blocked_.address()});
 }
 
 void FieldResources::reserve_distances_before(const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
   const int stride = round_up(list.most_rays, kLaneGroupSize);
   reserve_seen(list);
-  reserve<float>(device_, count * stride, "distances seen before", seen_before_);
+  reserve<float>(device_, count * stride, "distances of rays before", ray_distances_before_);
   reserve<uint>(device_, count, "probes in solid matter before", blocked_before_);
 }
 
 void FieldResources::record_distances_before(vulkan::Recorder& to, const DeviceProbes& list) {
   reserve_distances_before(list);
-  record_see_surfels(to, list, {seen_before_.address()}, {blocked_before_.address()});
+  record_surfel_distances(to, list, {ray_distances_before_.address()}, {blocked_before_.address()});
 }
 
 void FieldResources::record_move_distances(vulkan::Recorder& to, const DeviceProbes& list,
@@ -43,9 +43,9 @@ void FieldResources::record_move_distances(vulkan::Recorder& to, const DevicePro
   const int edge = settings_.distance_texels;
   const MoveDistancesArguments arguments = {store(),
                                             arrays(list),
-                                            {seen_before_.address()},
+                                            {ray_distances_before_.address()},
                                             {blocked_before_.address()},
-                                            {seen_.address()},
+                                            {ray_distances_.address()},
                                             {blocked_.address()},
                                             list.count(),
                                             round_up(list.most_rays, kLaneGroupSize),

@@ -16,6 +16,7 @@
 #include "shaders/fit_comp.h"
 #include "shaders/gather_comp.h"
 #include "shaders/gutters_comp.h"
+#include "shaders/hit_distances_comp.h"
 #include "shaders/lookup_comp.h"
 #include "shaders/make_surfels_comp.h"
 #include "shaders/move_distances_comp.h"
@@ -25,11 +26,10 @@
 #include "shaders/receive_comp.h"
 #include "shaders/scatter_importance_comp.h"
 #include "shaders/scatter_tiles_comp.h"
-#include "shaders/see_distances_comp.h"
-#include "shaders/see_surfels_comp.h"
 #include "shaders/solve_step_comp.h"
 #include "shaders/solve_sums_comp.h"
 #include "shaders/store_irradiance_comp.h"
+#include "shaders/surfel_distances_comp.h"
 #include "shaders/test_corners_comp.h"
 #include "vulkan/device.h"
 
@@ -92,7 +92,7 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   ray_weights = make(shaders::ray_weights_comp(), "ray_weights");
   probe_rays = make(shaders::probe_rays_comp(), "probe_rays");
   make_surfels = make(shaders::make_surfels_comp(), "make_surfels");
-  see_distances = make(shaders::see_distances_comp(), "see_distances");
+  hit_distances = make(shaders::hit_distances_comp(), "hit_distances");
   blend_distances = make(shaders::blend_distances_comp(), "blend_distances");
   gutters = make(shaders::gutters_comp(), "gutters");
   find_lookups = make(shaders::find_lookups_comp(), "find_lookups");
@@ -106,7 +106,7 @@ FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& se
   compare_light = make(shaders::compare_light_comp(), "compare_light");
   lookup = make(shaders::lookup_comp(), "lookup");
   scatter_tiles = make(shaders::scatter_tiles_comp(), "scatter_tiles");
-  see_surfels = make(shaders::see_surfels_comp(), "see_surfels");
+  surfel_distances = make(shaders::surfel_distances_comp(), "surfel_distances");
   scatter_importance = make(shaders::scatter_importance_comp(), "scatter_importance");
   move_distances = make(shaders::move_distances_comp(), "move_distances");
 }

@@ -26,10 +26,10 @@ struct FieldKernels {
   FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                int lookups);
 
-  vulkan::Kernel ray_weights, probe_rays, make_surfels, see_distances, blend_distances, gutters;
+  vulkan::Kernel ray_weights, probe_rays, make_surfels, hit_distances, blend_distances, gutters;
   vulkan::Kernel find_lookups, gather, receive, fit, blend_solution, solve_sums, solve_step;
   vulkan::Kernel store_irradiance, compare_light, lookup, scatter_tiles;
-  vulkan::Kernel see_surfels, move_distances, scatter_importance;
+  vulkan::Kernel surfel_distances, move_distances, scatter_importance;
 };
 
 /// The kernels of visibility by rays, which few fields need.

@@ -70,27 +70,27 @@ void FieldResources::record_surfels(vulkan::Recorder& to, const DeviceProbes& li
 
 void FieldResources::reserve_seen(const DeviceProbes& list) {
   const auto count = static_cast<std::size_t>(list.count());
-  reserve<float>(device_, count * round_up(list.most_rays, kLaneGroupSize), "seen distances",
-                 seen_);
+  reserve<float>(device_, count * round_up(list.most_rays, kLaneGroupSize), "distances of rays",
+                 ray_distances_);
   reserve<uint>(device_, count, "probes in solid matter", blocked_);
 }
 
 void FieldResources::record_seen_distances(vulkan::Recorder& to, const DeviceProbes& list,
                                            const DeviceGroup& group, HitArray hits) {
-  const int seen_stride = round_up(list.most_rays, kLaneGroupSize);
+  const int distance_stride = round_up(list.most_rays, kLaneGroupSize);
   const auto first = static_cast<std::size_t>(group.first);
-  const SeeDistancesArguments arguments = {
+  const HitDistancesArguments arguments = {
       {grids_.address()},
       indices_from(list, group.first),
       hits,
       {surfels_.address()},
-      from<FloatArray>(seen_, first * seen_stride, sizeof(float)),
+      from<FloatArray>(ray_distances_, first * distance_stride, sizeof(float)),
       from<UintArray>(blocked_, first, sizeof(uint)),
       group.count,
       group.rays,
       stride_,
-      seen_stride};
-  to.run(kernels_.see_distances, arguments, group.count * kLaneGroupSize);
+      distance_stride};
+  to.run(kernels_.hit_distances, arguments, group.count * kLaneGroupSize);
   to.barrier();
 }
 
@@ -99,7 +99,7 @@ void FieldResources::record_blend_distances(vulkan::Recorder& to, const DevicePr
   const BlendDistancesArguments arguments = {store(),
                                              arrays(list),
                                              list.block_array(),
-                                             {seen_.address()},
+                                             {ray_distances_.address()},
                                              {blocked_.address()},
                                              blend_weights,
                                              list.block_count,

@@ -9,10 +9,7 @@
 
 LAMBENT_BEGIN
 
-// Formats of the store's words. The numbers are those of IrradianceFormat and DistanceFormat.
-const uint kRgb9e5 = 0u;
-const uint kR11g11b10f = 1u;
-const uint kIrradianceFloat32 = 2u;
+// Formats of the store's distances. The numbers are those of DistanceFormat.
 const uint kRg16f = 0u;
 const uint kRg32f = 1u;
 

@@ -50,8 +50,8 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
   levels_ = vulkan::upload(device, levels, "levels of volumes");
   const ScheduleState state = first_state(field, /*mean_light=*/0.0f);
   state_ = vulkan::upload(device, std::span(&state, 1), "schedule");
-  const std::vector<ProbeService> unknown(field.probes(), new_service());
-  service_ = vulkan::upload(device, unknown, "service of probes");
+  const std::vector<ProbeVariability> unknown(field.probes(), new_variability());
+  variability_ = vulkan::upload(device, unknown, "variability of probes");
   std::vector<ListSize> sizes;
   for (uint shape = 0; shape < kListShapes; ++shape) {
     sizes.push_back(field.list_size(shape, rays));
@@ -72,14 +72,14 @@ DeviceSchedule::DeviceSchedule(const FieldResources& field, std::span<const Volu
       Buffer(device, sizeof(ProbeBlock) * list_.block_count, Memory::device, "their blocks");
 }
 
-void DeviceSchedule::start_from(std::span<const ProbeService> service, float mean_light) {
+void DeviceSchedule::start_from(std::span<const ProbeVariability> variability, float mean_light) {
   const ScheduleState state = first_state(field_, mean_light);
   vulkan::write(field_.device(), std::span(&state, 1), state_);
-  vulkan::write(field_.device(), service, service_);
+  vulkan::write(field_.device(), variability, variability_);
 }
 
 std::size_t DeviceSchedule::bytes() const {
-  return bytes_of({&list_.indices, &list_.ray_sets, &list_.blocks, &state_, &service_, &bins_,
+  return bytes_of({&list_.indices, &list_.ray_sets, &list_.blocks, &state_, &variability_, &bins_,
                    &chunk_records_, &sizes_, &changes_});
 }
 
@@ -91,7 +91,7 @@ void DeviceSchedule::record_choose(vulkan::Recorder& to, const ProbeStates& prob
   const SchedulePriorityArguments priority = {{field_.grids().address()},
                                               {levels_.address()},
                                               probes,
-                                              {service_.address()},
+                                              {variability_.address()},
                                               state,
                                               {bins_.address()},
                                               chunks,
@@ -117,7 +117,7 @@ void DeviceSchedule::record_update_variability(vulkan::Recorder& to, const Devic
   const ScheduleStateArray state = {state_.address()};
   const Vec3Array changes = {changes_.address()};
   const UpdateVariabilityArguments variability = {state,
-                                                  {service_.address()},
+                                                  {variability_.address()},
                                                   list.index_array(),
                                                   blend_weights,
                                                   changes,

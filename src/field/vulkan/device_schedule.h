@@ -18,17 +18,17 @@ class DeviceSchedule {
   DeviceSchedule(const FieldResources& field, std::span<const VolumeRole> roles, int most_probes,
                  int rays);
 
-  /// Takes over what is known of all probes: their service, and the mean luminance of their light.
-  /// Must not be called while the device uses the schedule.
-  void start_from(std::span<const ProbeService> service, float mean_light);
+  /// Takes over what is known of all probes: their variability, and the mean luminance of their
+  /// light. Must not be called while the device uses the schedule.
+  void start_from(std::span<const ProbeVariability> variability, float mean_light);
 
   /// Records the choice of an update's probes. `update` counts from 0. With `look`, probes that are
   /// off are traced as well if they waited for kMaxProbeAge.
   void record_choose(vulkan::Recorder& to, const ProbeStates& probes, std::uint32_t update,
                      bool look) const;
-  /// Records the update of the noise of a list's probes, which now hold new light. `blend_weights`
-  /// are the weights of the new light, and `before` is the light that the probes held, both of the
-  /// list.
+  /// Records the update of the variance of a list's probes, which now hold new light.
+  /// `blend_weights` are the weights of the new light, and `before` is the light that the probes
+  /// held, both of the list.
   void record_update_variability(vulkan::Recorder& to, const DeviceProbes& list,
                                  FloatArray blend_weights, Vec4Array before,
                                  std::uint32_t update) const;
@@ -41,8 +41,8 @@ class DeviceSchedule {
   std::size_t bytes() const;
   /// Holds a ScheduleState.
   const vulkan::Buffer& state() const { return state_; }
-  /// Hold the ProbeService and the priority bin of each probe.
-  const vulkan::Buffer& service() const { return service_; }
+  /// Hold the ProbeVariability and the priority bin of each probe.
+  const vulkan::Buffer& variability() const { return variability_; }
   const vulkan::Buffer& bins() const { return bins_; }
 
  private:
@@ -50,7 +50,7 @@ class DeviceSchedule {
   vulkan::Kernel priority_, choose_, list_them_, update_variability_, means_;
   int chunks_;
   DeviceProbes list_;
-  vulkan::Buffer levels_, state_, service_, bins_, chunk_records_, sizes_, changes_;
+  vulkan::Buffer levels_, state_, variability_, bins_, chunk_records_, sizes_, changes_;
 };
 
 }  // namespace lambent

@@ -17,7 +17,7 @@ void RecordedField::State::EngineRays::scroll(Recorder& to) {
   to.copy(m.grids, s_.field.grids(), m.grids.bytes());
   if (m.recycled_count > 0) {
     const ResetProbesArguments reset = {s_.probe_states(),
-                                        {s_.schedule ? s_.schedule->service().address() : 0},
+                                        {s_.schedule ? s_.schedule->variability().address() : 0},
                                         {m.recycled.address()},
                                         {s_.field.offsets().address()},
                                         {s_.field.distance().address()},
@@ -132,7 +132,7 @@ void RecordedField::State::EngineRays::visibility(Recorder&) {
 
 void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& list,
                                               FloatArray weights, Vec4Array before) {
-  // Where probes take turns, nobody asks how noisy they are
+  // Where probes take turns, nobody asks how variable their light is
   if (s_.schedule)
     s_.schedule->record_update_variability(to, list, weights, before, s_.batch.update);
 }

@@ -17,9 +17,6 @@ namespace {
 static_assert(sizeof(FieldQuery) == sizeof(QueryRecord));
 static_assert(sizeof(ProbeGrid) == 31 * sizeof(float));
 static_assert(sizeof(SurfelLookup) == 13 * sizeof(float));
-static_assert(kRgb9e5 == static_cast<uint>(IrradianceFormat::rgb9e5) &&
-              kR11g11b10f == static_cast<uint>(IrradianceFormat::r11g11b10f) &&
-              kIrradianceFloat32 == static_cast<uint>(IrradianceFormat::float32));
 static_assert(kRg16f == static_cast<uint>(DistanceFormat::rg16f) &&
               kRg32f == static_cast<uint>(DistanceFormat::rg32f));
 static_assert(kSurfelSurface == static_cast<uint>(SurfelKind::surface) &&
@@ -87,8 +84,8 @@ FieldResources::FieldResources(const vulkan::Device& device, const FieldSettings
 std::size_t FieldResources::bytes() const {
   std::size_t bytes =
       bytes_of({&grids_, &offsets_, &irradiance_, &distance_, &corners_, &fit_, &light_,
-                &last_irradiance_estimate_, &surfels_, &lookup_records_, &sets_, &seen_, &blocked_,
-                &radiance_, &at_centres_, &seen_before_, &blocked_before_});
+                &last_irradiance_estimate_, &surfels_, &lookup_records_, &sets_, &ray_distances_,
+                &blocked_, &radiance_, &at_centres_, &ray_distances_before_, &blocked_before_});
   for (const RaySlot& slot : slots_) {
     bytes += bytes_of({&slot.directions, &slot.irradiance_weights, &slot.distance_weights});
   }

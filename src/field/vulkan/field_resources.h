@@ -224,8 +224,8 @@ class FieldResources {
   int slot_for(const std::shared_ptr<const RaySet>& rays);
   void fill_weights(RaySlot& slot) const;
   void write_sets();
-  void record_see_surfels(vulkan::Recorder& to, const DeviceProbes& list, FloatArray seen,
-                          UintArray blocked) const;
+  void record_surfel_distances(vulkan::Recorder& to, const DeviceProbes& list, FloatArray distances,
+                               UintArray blocked) const;
   template <class Arguments>
   void run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
                      const DeviceProbes& list, uint shape, const TransportGroups& groups,
@@ -249,8 +249,8 @@ class FieldResources {
   std::vector<int> slot_of_;  // one per probe; -1: it has no surfels
   vulkan::Buffer sets_;       // RaySetRecords of the slots
   // Intermediate results that passes hand on to each other
-  vulkan::Buffer seen_, blocked_, radiance_, at_centres_;
-  vulkan::Buffer seen_before_, blocked_before_;
+  vulkan::Buffer ray_distances_, blocked_, radiance_, at_centres_;
+  vulkan::Buffer ray_distances_before_, blocked_before_;
 };
 
 }  // namespace lambent

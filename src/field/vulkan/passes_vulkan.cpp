@@ -45,8 +45,8 @@ void FieldPassesVulkan::variability() {
     update_.history->record_keep(to_, update_.list);
     return;
   }
-  update_.noise.record(to_, update_.list, {update_.blend_weights.address()},
-                       {update_.solver.history().address()});
+  update_.variability.record(to_, update_.list, {update_.blend_weights.address()},
+                             {update_.solver.history().address()});
 }
 
 void FieldPassesVulkan::store() {

@@ -34,7 +34,7 @@ class RaySourceVulkan {
 };
 
 /// Records what becomes of the changes of the probes' light. Where the host schedules, they are
-/// read back; where the device schedules, it learns the probes' noise from them.
+/// read back; where the device schedules, it learns the probes' variance from them.
 class VariabilityVulkan {
  public:
   virtual ~VariabilityVulkan() = default;
@@ -48,7 +48,7 @@ struct UpdateVulkan {
   FieldResources& field;
   DeviceSolver& solver;
   RaySourceVulkan& source;
-  VariabilityVulkan& noise;
+  VariabilityVulkan& variability;
   const DeviceProbes& list;
   const vulkan::Buffer& blend_weights;  ///< One per probe of the list.
   float largest_blend_weight = 1.0f;

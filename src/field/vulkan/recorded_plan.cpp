@@ -6,6 +6,7 @@
 #include <set>
 
 #include "field/schedule/schedule.h"
+#include "field/transport/blend_math.h"
 #include "field/vulkan/device_arguments.h"
 #include "field/vulkan/recorded_arguments.h"
 

@@ -119,7 +119,7 @@ void RecordedField::State::restore(const FieldFile& file) {
   std::vector<vec4> light(statuses.size() * texels);
   std::vector<ProbeStanding> stands;
   std::vector<uint> switched;
-  std::vector<ProbeService> service;
+  std::vector<ProbeVariability> variability;
   double sum = 0.0;
   for (std::size_t probe = 0; probe < statuses.size(); ++probe) {
     const ProbeStatus& status = statuses[probe];
@@ -128,14 +128,15 @@ void RecordedField::State::restore(const FieldFile& file) {
     sum += mean_luminance(tile);
     stands.push_back(standing_of(status, store.offset_words()[probe], longest, placing_updates));
     switched.push_back(status.state == ProbeState::off ? kProbeOff : kProbeOn);
-    service.push_back({{status.noise, status.noise_samples}, status.served});
+    variability.push_back({{status.variance, status.variance_samples}, status.last_traced});
   }
   field.write_store(store);
   vulkan::write<vec4>(*device, light, field.light());
   vulkan::write<ProbeStanding>(*device, stands, standing);
   vulkan::write<uint>(*device, switched, states);
   if (schedule) {
-    schedule->start_from(service, static_cast<float>(sum / static_cast<double>(statuses.size())));
+    schedule->start_from(variability,
+                         static_cast<float>(sum / static_cast<double>(statuses.size())));
   }
   plan.start_from(file.updates, statuses);
 }

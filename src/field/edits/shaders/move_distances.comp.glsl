@@ -29,10 +29,10 @@ void main() {
   float total = 0.0;
   for (int ray = 0; ray < set.rays; ++ray) {
     float weight = set.distance_weights.at[ray * columns + t];
-    float seen_before = args.seen_before.at[k * args.stride + ray];
-    float seen = args.seen.at[k * args.stride + ray];
-    before += weight * vec2(seen_before, seen_before * seen_before);
-    now += weight * vec2(seen, seen * seen);
+    float distance_before = args.distances_before.at[k * args.stride + ray];
+    float distance_now = args.distances.at[k * args.stride + ray];
+    before += weight * vec2(distance_before, distance_before * distance_before);
+    now += weight * vec2(distance_now, distance_now * distance_now);
     total += weight;
   }
   // Here, a probe without history (kNoDistancesBefore) counts as blocked: it takes all that is new

@@ -2,6 +2,7 @@
 // Sets the states and next places of probes from what their rays hit. One workgroup per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "field/placement/classify_math.h"
 #include "field/probes/shaders/volume_of.glsl"
 #include "field/vulkan/recorded_arguments.h"
 

@@ -29,5 +29,5 @@ void main() {
   args.probes.standing.at[probe].samples = 0.0;
   args.probes.standing.at[probe].offset = 0u;
   args.probes.standing.at[probe].placed = 0u;
-  if (args.has_service != 0u) args.service.at[probe] = new_service();
+  if (args.has_variability != 0u) args.variability.at[probe] = new_variability();
 }

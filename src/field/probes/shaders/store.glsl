@@ -33,8 +33,9 @@ vec2 fetch_moments(int probe, vec3 direction) {
 }
 
 vec3 irradiance_at(int texel) {
-  if (kIrradianceFormat == kRgb9e5) return decode_rgb9e5(args.store.irradiance.at[texel]);
-  if (kIrradianceFormat == kR11g11b10f) return decode_r11g11b10f(args.store.irradiance.at[texel]);
+  if (words_of_irradiance(kIrradianceFormat) == 1) {
+    return decode_irradiance(kIrradianceFormat, args.store.irradiance.at[texel]);
+  }
   return vec3(uintBitsToFloat(args.store.irradiance.at[3 * texel]),
               uintBitsToFloat(args.store.irradiance.at[3 * texel + 1]),
               uintBitsToFloat(args.store.irradiance.at[3 * texel + 2]));

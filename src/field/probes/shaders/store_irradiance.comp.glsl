@@ -20,11 +20,10 @@ void main() {
   vec3 light = args.light.at[probe * kIrradianceTexels * kIrradianceTexels + t].xyz;
   int width = kIrradianceTexels + 2;
   int index = (probe * width + t / kIrradianceTexels + 1) * width + t % kIrradianceTexels + 1;
-  if (kIrradianceFormat == kIrradianceFloat32) {
+  if (words_of_irradiance(kIrradianceFormat) == 3) {
     for (int c = 0; c < 3; ++c) args.words.at[3 * index + c] = floatBitsToUint(light[c]);
     return;
   }
   vec3 u = irradiance_dither(uint(index), args.dither_seed);
-  args.words.at[index] =
-      kIrradianceFormat == kRgb9e5 ? encode_rgb9e5(light, u) : encode_r11g11b10f(light, u);
+  args.words.at[index] = encode_irradiance(kIrradianceFormat, light, u);
 }

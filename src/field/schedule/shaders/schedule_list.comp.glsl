@@ -41,6 +41,6 @@ void main() {
 
   ivec2 before = counts[lane] - own + ivec2(higher_before, last_before);
   int of_last = args.state.at[0].of_last_bin;
-  bool served = own.x != 0 || (own.y != 0 && before.y < of_last);
-  if (served) args.list.at[before.x + min(before.y, of_last)] = probe;
+  bool chosen = own.x != 0 || (own.y != 0 && before.y < of_last);
+  if (chosen) args.list.at[before.x + min(before.y, of_last)] = probe;
 }

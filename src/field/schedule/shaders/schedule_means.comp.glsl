@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updates the mean light of all probes from the probes just traced, and their mean noise from the
-// chunks. One workgroup.
+// Updates the mean light of all probes from the probes just traced, and their mean deviation from
+// the chunks. One workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push {
   ScheduleMeansArguments args;
 };
 
-shared vec4 partial[kGroupLanes];  // sum of luminance, probes; sum of noise, probes
+shared vec4 partial[kGroupLanes];  // sum of luminance, probes; sum of deviations, probes
 
 void main() {
   int lane = int(gl_LocalInvocationIndex);
@@ -20,13 +20,13 @@ void main() {
     if (args.blend_weights.at[k] > 0.0) sum += vec4(args.changes.at[k].z, 1.0, 0.0, 0.0);
   }
   for (int c = lane; args.chosen != 0u && c < args.chunk_count; c += kGroupLanes) {
-    sum += vec4(0.0, 0.0, args.chunks.at[c].noise_sum, float(args.chunks.at[c].unsettled));
+    sum += vec4(0.0, 0.0, args.chunks.at[c].deviation_sum, float(args.chunks.at[c].unsettled));
   }
   partial[lane] = sum;
   barrier();
   if (lane != 0) return;
   for (int other = 1; other < kGroupLanes; ++other) sum += partial[other];
-  args.state.at[0].mean_noise = sum.w > 0.0 ? sum.z / sum.w : 0.0;
+  args.state.at[0].mean_deviation = sum.w > 0.0 ? sum.z / sum.w : 0.0;
   if (sum.y == 0.0) return;
   float live = float(args.state.at[0].live);
   args.state.at[0].mean_light =

@@ -11,44 +11,44 @@ layout(push_constant, scalar) uniform Push {
 };
 
 shared uint bins[kPriorityBins];
-shared float noises[kChunkProbes];  // of probes that have not converged, else 0
+shared float deviations[kChunkProbes];  // of probes that have not converged, else 0
 
 bool fetch_live(int probe) { return args.probes.states.at[probe] != kProbeOff; }
-float fetch_noise(int probe) { return args.service.at[probe].known.noise; }
-#include "field/schedule/noise_around.inl.h"
+float fetch_variance(int probe) { return args.variability.at[probe].known.variance; }
+#include "field/schedule/neighbourhood_variance.inl.h"
 
-/// The priority bin of a probe. `noise` receives its noise, or 0 where it has converged.
-int bin_of(int probe, out float noise) {
-  noise = 0.0;
-  uint served = args.service.at[probe].served;
+/// The priority bin of a probe. `deviation` receives its deviation, or 0 where it has converged.
+int bin_of(int probe, out float deviation) {
+  deviation = 0.0;
+  uint last_traced = args.variability.at[probe].last_traced;
   int volume = volume_of(args.grids, probe);
   float reduction = 0.0;
   if (fetch_live(probe)) {
     float samples = args.probes.standing.at[probe].samples;
-    float held =
-        probe_noise(fetch_noise(probe), noise_around(args.grids.at[volume], probe));
+    float mean_around = neighbourhood_variance(args.grids.at[volume], probe);
+    float held = probe_deviation(fetch_variance(probe), mean_around);
     reduction = error_reduction(held, samples, args.longest);
     if (reduction > 0.0) {
-      noise = held;
-      reduction = scheduled_reduction(reduction, error_reduction_per_noise(samples),
-                                      args.state.at[0].mean_noise);
+      deviation = held;
+      reduction = scheduled_reduction(reduction, error_reduction_per_deviation(samples),
+                                      args.state.at[0].mean_deviation);
     }
-  } else if (args.look == 0u || !waits_too_long(served, args.update)) {
+  } else if (args.look == 0u || !waits_too_long(last_traced, args.update)) {
     return kNoPartBin;
   }
   // An engine says nothing of the camera, so that only a cascade's levels weigh
   float weight = level_weight(args.levels.at[volume]);
-  return priority_bin(probe_urgency(reduction, served, args.update, weight));
+  return priority_bin(probe_urgency(reduction, last_traced, args.update, weight));
 }
 
 void main() {
   int lane = int(gl_LocalInvocationIndex);
   int probe = int(gl_GlobalInvocationID.x);
   if (lane < kPriorityBins) bins[lane] = 0u;
-  noises[lane] = 0.0;
+  deviations[lane] = 0.0;
   barrier();
   if (probe < args.count) {
-    int bin = bin_of(probe, noises[lane]);
+    int bin = bin_of(probe, deviations[lane]);
     args.bins.at[probe] = uint(bin);
     atomicAdd(bins[bin], 1u);
   }
@@ -58,9 +58,9 @@ void main() {
   float sum = 0.0;
   uint unsettled = 0u;
   for (int i = 0; i < kChunkProbes; ++i) {
-    sum += noises[i];
-    unsettled += noises[i] > 0.0 ? 1u : 0u;
+    sum += deviations[i];
+    unsettled += deviations[i] > 0.0 ? 1u : 0u;
   }
-  args.chunks.at[gl_WorkGroupID.x].noise_sum = sum;
+  args.chunks.at[gl_WorkGroupID.x].deviation_sum = sum;
   args.chunks.at[gl_WorkGroupID.x].unsettled = unsettled;
 }

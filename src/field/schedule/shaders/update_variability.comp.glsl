@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updates the noise of the probes that were traced, and notes when they were traced. One lane per
-// probe.
+// Updates the variance of the probes that were traced, and notes when they were traced. One lane
+// per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"
@@ -18,12 +18,13 @@ void main() {
   float blend_weight = args.blend_weights.at[k];
   if (blend_weight == 0.0) return;
   int probe = args.list.at[k];
-  ProbeService service = args.service.at[probe];
+  ProbeVariability variability = args.variability.at[probe];
   vec3 change = args.changes.at[k];
   float estimate_square = estimate_relative_square(
       LightChange(change.x, change.y, change.z), kIrradianceTexels * kIrradianceTexels,
       blend_weight, args.state.at[0].mean_light);
-  service.known = learned_noise(service.known, estimate_square, 1.0, 1.0 / blend_weight - 1.0);
-  service.served = args.update;
-  args.service.at[probe] = service;
+  variability.known =
+      learned_variance(variability.known, estimate_square, 1.0, 1.0 / blend_weight - 1.0);
+  variability.last_traced = args.update;
+  args.variability.at[probe] = variability;
 }

@@ -32,10 +32,10 @@ void main() {
     [[unroll]] for (int p = 0; p < kBlockProbes; ++p) means[v][p] = squares[v][p] = 0.0;
   }
   for (int ray = 0; ray < set.rays; ray += kLaneGroupSize) {
-    float seen[kBlockProbes];
+    float distances[kBlockProbes];
     [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
       int k = block.first + min(p, block.count - 1);
-      seen[p] = args.seen.at[k * args.stride + ray + lane_in_group()];
+      distances[p] = args.distances.at[k * args.stride + ray + lane_in_group()];
     }
     [[unroll]] for (int lane = 0; lane < kLaneGroupSize; ++lane) {
       float weights[kDistanceVectors];
@@ -44,7 +44,7 @@ void main() {
         totals[v] += weights[v];
       }
       [[unroll]] for (int p = 0; p < kBlockProbes; ++p) {
-        float mean = from_lane(seen[p], lane);
+        float mean = from_lane(distances[p], lane);
         float square = mean * mean;
         [[unroll]] for (int v = 0; v < kDistanceVectors; ++v) {
           means[v][p] += weights[v] * mean;

@@ -3,7 +3,7 @@
 // probe. From now on, lookups find each probe where its rays started.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "field/schedule/schedule_math.h"
+#include "field/transport/blend_math.h"
 #include "field/vulkan/recorded_arguments.h"
 
 layout(local_size_x = 64) in;

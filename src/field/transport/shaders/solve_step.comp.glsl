@@ -29,11 +29,13 @@ void take_step(Wide sums[kSolveSums], inout SolveState state) {
     float change = sqrt(sums[kChangeSquare].high);
     float image_change = sqrt(sums[kImageChangeSquare].high);
     if (change > 0.0) state.observed = max(state.observed, image_change / change);
-    contraction = min(bound, max(state.observed, kMinContraction));
+    contraction = assumed_contraction(state.observed, bound);
   }
   ++state.iterations;
-  state.error = remaining_error(contraction, state.largest_blend_weight, sums[kResidualSquare].high,
-                                sums[kImageSquare].high);
+  float image_square = sums[kImageSquare].high;
+  float relative_residual =
+      image_square > 0.0 ? sqrt(sums[kResidualSquare].high / image_square) : 0.0;
+  state.error = remaining_error(contraction, state.largest_blend_weight, relative_residual);
 }
 
 void main() {

@@ -3,13 +3,14 @@
 // geometry. One lane group per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "field/placement/classify_math.h"
 #include "field/transport/blend_math.h"
 #include "field/transport/shaders/lane_group.glsl"
 #include "field/probes/shaders/volume_of.glsl"
 
 layout(local_size_x = kGroupLanes) in;
 layout(push_constant, scalar) uniform Push {
-  SeeSurfelsArguments args;
+  SurfelDistancesArguments args;
 };
 
 void main() {
@@ -22,7 +23,7 @@ void main() {
   vec3 origin_ws = placed_position(grid, probe_coords(grid, probe), offset);
   float farthest = max_probe_distance(grid);
   int back_faces = 0;
-  for (int ray = lane_in_group(); ray < args.seen_stride; ray += kLaneGroupSize) {
+  for (int ray = lane_in_group(); ray < args.distance_stride; ray += kLaneGroupSize) {
     float counted = 0.0;
     if (ray < rays) {
       SurfelRecord surfel = args.surfels.at[probe * args.stride + ray];
@@ -32,7 +33,7 @@ void main() {
       counted = counted_distance(seen, back_face, farthest);
       back_faces += int(back_face);
     }
-    args.seen.at[k * args.seen_stride + ray] = counted;
+    args.distances.at[k * args.distance_stride + ray] = counted;
   }
   back_faces = lane_group_sum(back_faces);
   if (lane_in_group() == 0) args.blocked.at[k] = is_inside_geometry(back_faces, rays);
