@@ -46,13 +46,13 @@ constexpr float kMinRoomShare = 0.6f;
 // are made in round numbers, and a place in a wall's own plane would be on either side of it by
 // chance.
 const vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
-// Places of the grid over the whole scene, about.
-constexpr float kScenePlaces = 2048.0f;
+// Places of the grid over the whole scene, and of the one that reaches around it, about.
+constexpr float kScenePlaces = 2048.0f, kPlacesAround = 512.0f;
 // Flat scenes get no more than this along an axis.
 constexpr int kMaxPlacesAlongAxis = 64;
-// A flat scene is looked at from this share of its longest side around it, one without extent from
-// so far [m].
-constexpr float kMinThickness = 0.1f, kSmallestScene = 1e-3f;
+// The scene is looked at from so much of its longest side around it, too, at least so far [m]: what
+// an object is can only be seen from outside.
+constexpr float kAround = 0.1f, kLeastAround = 1e-3f;
 
 /// How often open space saw the front and the back of something.
 struct Sightings {
@@ -267,16 +267,21 @@ class Places {
 };
 
 /// A grid over a box.
-PlaceGrid grid_over(const Bounds& bounds) {
-  const vec3 extent = bounds.max - bounds.min;
-  const float longest = std::max({extent.x, extent.y, extent.z, kSmallestScene});
-  const vec3 size = max(extent, vec3(kMinThickness * longest));
-  const float spacing = std::cbrt(size.x * size.y * size.z / kScenePlaces);
+PlaceGrid grid_over(const Bounds& box, float places) {
+  const vec3 size = box.max - box.min;
+  const float spacing = std::cbrt(size.x * size.y * size.z / places);
   PlaceGrid grid;
   grid.count = clamp(ivec3(size / spacing), ivec3(2), ivec3(kMaxPlacesAlongAxis));
   grid.spacing = size / vec3(grid.count - 1);
-  grid.origin_ws = 0.5f * (bounds.min + bounds.max) - 0.5f * size;
+  grid.origin_ws = box.min;
   return grid;
+}
+
+/// A box with what is around it.
+Bounds widened(const Bounds& box) {
+  const vec3 size = box.max - box.min;
+  const float around = std::max(kAround * std::max({size.x, size.y, size.z}), kLeastAround);
+  return {box.min - around, box.max + around};
 }
 
 /// The sides that bound solid matter if nothing but a surface's winding is known.
@@ -325,7 +330,11 @@ std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t i
 SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids) {
   const Scene& scene = world.scene();
   std::vector<Places> places;
-  places.emplace_back(world, grid_over(world_bounds(scene)));
+  const Bounds bounds = world_bounds(scene), wide = widened(bounds);
+  // A flat scene has nothing within its bounds
+  const bool flat = glm::any(glm::lessThanEqual(bounds.max, bounds.min));
+  places.emplace_back(world, grid_over(flat ? wide : bounds, kScenePlaces));
+  places.emplace_back(world, grid_over(wide, kPlacesAround));
   const bool room = places.front().enclosed_share() >= kMinRoomShare;
   for (const PlaceGrid& grid : grids) places.emplace_back(world, grid);
   const bool some_open =
