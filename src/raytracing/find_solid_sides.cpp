@@ -336,13 +336,17 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   places.emplace_back(world, grid_over(flat ? wide : bounds, kScenePlaces));
   places.emplace_back(world, grid_over(wide, kPlacesAround));
   const bool room = places.front().enclosed_share() >= kMinRoomShare;
+  const std::size_t of_scene = grids.empty() ? 0 : places.size();
   for (const PlaceGrid& grid : grids) places.emplace_back(world, grid);
+  // Where a field is that no light reaches, lamps are out: it was not put into solid matter
+  const std::span<const Places> asked = std::span(places).subspan(of_scene);
   const bool some_open =
-      std::any_of(places.begin(), places.end(), [](const Places& some) { return some.any_open(); });
+      std::any_of(asked.begin(), asked.end(), [](const Places& some) { return some.any_open(); });
+
   // Count what open space sees of each triangle. In a room, what is seen from within tells more
   std::vector<Votes> votes;
   if (!some_open) {
-    votes.emplace_back(scene, places, Voters::all);
+    votes.emplace_back(scene, asked, Voters::all);
   } else if (room) {
     votes.emplace_back(scene, places, Voters::enclosed);
     votes.emplace_back(scene, places, Voters::exposed);

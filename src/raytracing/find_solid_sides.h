@@ -9,12 +9,13 @@
 
 namespace lambent {
 
-/// Finds the sides that bound solid matter from the places of some grids. Open space is
-/// where rays leave the scene or meet emissive surfaces, where a point or spot light shines from,
-/// and whatever a chain of neighbouring places that see each other joins to these. A side of a
-/// triangle bounds solid matter if open space sees the other side only. Triangles that open space
-/// sees too seldom are judged by their instance, and instances by their winding. Where no place is
-/// open, all are taken to be.
+/// Finds the sides that bound solid matter, from places within the scene's bounds, around them, and
+/// in the cells of some grids: those of a field, or none. Open space is where rays leave the scene
+/// or meet emissive surfaces, where a point or spot light shines, and whatever a chain of
+/// neighbouring places that see each other joins to these. A side of a triangle bounds solid matter
+/// if open space sees the other side only. Triangles that open space sees too seldom are judged by
+/// their instance, and instances by their winding. Where no place of the grids is open, all of them
+/// are taken to be. docs/math.md, "What is solid".
 SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids);
 
 }  // namespace lambent
