@@ -44,8 +44,7 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
   const float share = 1.0f / static_cast<float>(samples);
   for (int i = 0; i < samples; ++i) {
     const EmitterDraw draw = draw_emitter(random, i, share);
-    const EmitterPoint emitter =
-        emitter_seen(emissive_of(world).sample(draw.u), point.position_ws);
+    const EmitterPoint emitter = emitter_seen(emissive_of(world).sample(draw.u), point.position_ws);
     const float cosine = glm::dot(point.normal_ws, emitter.to_light);
     if (emitter.radiance == glm::vec3(0.0f) || cosine <= 0.0f) continue;
     const LightCandidate light = emitter_candidate(emitter, point.normal_ws, share);
