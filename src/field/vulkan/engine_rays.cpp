@@ -36,10 +36,10 @@ void RecordedField::State::EngineRays::scroll(Recorder& to) {
 /// Records the matrices of the update's ray sets.
 void RecordedField::State::EngineRays::record_weights(Recorder& to) const {
   const UpdateMemory& m = s_.memory();
-  const int rays = s_.settings.rays_per_probe;
+  const int ray_count = s_.settings.rays_per_probe;
   for (std::size_t set = 0; set < s_.batch.drawn_in.size(); ++set) {
     const RaySetRecord& record = m.sets.as<RaySetRecord>()[set];
-    s_.field.record_weights(to, record.directions, rays, record.irradiance_weights,
+    s_.field.record_weights(to, record.directions, ray_count, record.irradiance_weights,
                             record.distance_weights);
   }
 }
@@ -97,15 +97,15 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
 
 /// Turns the engine's results into surfels and computes the blend weights.
 void RecordedField::State::EngineRays::shade(Recorder& to, int) {
-  const DeviceProbes& list = s_.list();
-  const ProbeBatch& batch = s_.batch;
-  const uint history = batch.retraces           ? kHistoryRetraced
-                       : batch.discards_history ? kHistoryDiscarded
-                                                : kHistoryGrows;
+  const DeviceProbes& probes = s_.list();
+  const ProbeBatch& update_batch = s_.batch;
+  const uint history = update_batch.retraces           ? kHistoryRetraced
+                       : update_batch.discards_history ? kHistoryDiscarded
+                                                       : kHistoryGrows;
   const RecordedBlendWeightsArguments blend_weight = {
       s_.probe_states(),
       {s_.field.offsets().address()},
-      list.index_array(),
+      probes.index_array(),
       {s_.blend_weights.address()},
       s_.chosen(offsetof(ListState, probes)),
       s_.chosen(offsetof(ListState, largest_blend_weight)),
@@ -115,15 +115,15 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
       s_.batch.all ? 1u : 0u,
       history,
       s_.placing_updates};
-  const RecordedSurfelsArguments surfel = {list.index_array(),       {s_.rays.address()},
+  const RecordedSurfelsArguments surfel = {probes.index_array(),     {s_.rays.address()},
                                            {s_.results.address()},   s_.field.surfels(),
                                            s_.batch.count,           s_.settings.rays_per_probe,
                                            s_.field.surfel_stride(), s_.settings.max_albedo};
-  s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, list, kOverLanes);
-  s_.field.run_over(to, s_.kernels.surfels, surfel, list, kOverRays);
+  s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, probes, kOverLanes);
+  s_.field.run_over(to, s_.kernels.surfels, surfel, probes, kOverRays);
   to.barrier();
   // Of rays that are traced again, the distances before and after are compared
-  if (!batch.retraces) s_.field.record_seen_surfels(to, list);
+  if (!update_batch.retraces) s_.field.record_seen_surfels(to, probes);
 }
 
 void RecordedField::State::EngineRays::visibility(Recorder&) {
