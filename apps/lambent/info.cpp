@@ -286,7 +286,7 @@ nlohmann::ordered_json json_of(const Scene& scene, const std::string& name) {
   json["materials"] = scene.materials.size();
   json["textures"] = scene.textures.size();
   json["texture_bytes"] = totals.texture_bytes;
-  const char* const kLists[] = {
+  constexpr const char* kLists[] = {
       "light_names",      "light_types",  "light_intensities",  "light_positions_m",
       "light_directions", "camera_names", "camera_positions_m", "camera_vertical_fovs_rad"};
   json["lights"] = scene.lights.size();

@@ -154,6 +154,7 @@ ViewLight measure_view_light(const World& world, const SeenView& view) {
 float enclosure(const World& world, const Camera& camera) {
   const glm::vec3 eye(camera.world_from_view[3]);
   std::vector<Ray> rays;
+  rays.reserve(kSphereRays);
   for (int i = 0; i < kSphereRays; ++i) {
     rays.push_back({eye, 0.0f, spherical_fibonacci(static_cast<uint>(i), kSphereRays)});
   }

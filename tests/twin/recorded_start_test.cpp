@@ -52,32 +52,32 @@ class RecordedStart : public test::RecordedFieldTest {
   void bake(const FieldSettings& settings, const UpdateRequest& request = {}) {
     IrradianceField field = IrradianceField::make(settings, cornell().bounds()).value();
     for (int i = 0; i < kBakedUpdates; ++i) field.update(cornell().world, request);
-    ASSERT_TRUE(save_field(path_, field, cornell().world));
+    ASSERT_TRUE(save_field(path, field, cornell().world));
   }
   IrradianceField loaded(const FieldSettings& settings) const {
-    return std::move(load_field(path_, settings, cornell().world).value().field);
+    return std::move(load_field(path, settings, cornell().world).value().field);
   }
   RecordedField started(const FieldSettings& settings, const RecordedFieldSettings& recorded = {}) {
     RecordedField field = make(settings, recorded);
-    const Expected<void> fine = field.start_from(path_);
+    const Expected<void> fine = field.start_from(path);
     EXPECT_TRUE(fine) << fine.error().message();
     return field;
   }
   /// Why a field of these settings does not start from the file; empty: it does.
   std::string refusal(const FieldSettings& settings) const {
     RecordedField field = make(settings, {});
-    const Expected<void> fine = field.start_from(path_);
+    const Expected<void> fine = field.start_from(path);
     if (fine) return "";
-    EXPECT_EQ(fine.error().file, path_);
+    EXPECT_EQ(fine.error().file, path);
     EXPECT_EQ(field.updates(), 0u);
     const auto light = download<uint>(field.lookup_buffers().irradiance);
     EXPECT_TRUE(std::all_of(light.begin(), light.end(), [](uint word) { return word == 0; }));
     return fine.error().message();
   }
 
-  test::TemporaryDirectory folder_;
-  std::string path_ = folder_.file("baked.field");
-  std::vector<FieldQuery> queries_ = test::seen_points(cornell());
+  test::TemporaryDirectory folder;
+  std::string path = folder.file("baked.field");
+  std::vector<FieldQuery> queries = test::seen_points(cornell());
 };
 
 TEST_F(RecordedStart, HasTheLightOfTheFileBeforeAnyUpdateAndAddsToItAfterwards) {
@@ -85,16 +85,16 @@ TEST_F(RecordedStart, HasTheLightOfTheFileBeforeAnyUpdateAndAddsToItAfterwards) 
   bake(settings);
   IrradianceField on_cpu = loaded(settings);
   RecordedField field = started(settings);
-  const std::vector<vec3> baked = test::look_up(on_cpu, queries_);
-  EXPECT_LE(difference(look_up(field, queries_), baked), kSameWords);
+  const std::vector<vec3> baked = test::look_up(on_cpu, queries);
+  EXPECT_LE(difference(look_up(field, queries), baked), kSameWords);
   EXPECT_EQ(field.updates(), static_cast<std::uint32_t>(kBakedUpdates));
   // Probes stay where they stand, and average on with the rays that come next
   const auto places = download<uint>(field.lookup_buffers().offsets);
   EXPECT_GT(std::count_if(places.begin(), places.end(), [](uint word) { return word != 0; }), 20);
   update(field);
   on_cpu.update(cornell().world);
-  EXPECT_LE(difference(look_up(field, queries_), test::look_up(on_cpu, queries_)), kSameRays);
-  EXPECT_LE(difference(look_up(field, queries_), baked), kStillThere);
+  EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), kSameRays);
+  EXPECT_LE(difference(look_up(field, queries), baked), kStillThere);
   for (int i = 0; i < 3; ++i) update(field);
   EXPECT_EQ(download<uint>(field.lookup_buffers().offsets), places);
 }
@@ -111,20 +111,20 @@ TEST_F(RecordedStart, LeavesProbesInSolidMatterOff) {
   EXPECT_GT(std::count(states.begin(), states.end(), kProbeOff), 0);
   update(field);
   on_cpu.update(cornell().world);
-  EXPECT_LE(difference(look_up(field, queries_), test::look_up(on_cpu, queries_)), kSameRays);
+  EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), kSameRays);
 }
 
 TEST_F(RecordedStart, KeepsTheLightWhereProbesTakeTurnsOrTheDeviceDecides) {
   const FieldSettings settings = placed_settings();
   bake(settings);
-  const std::vector<vec3> baked = test::look_up(loaded(settings), queries_);
+  const std::vector<vec3> baked = test::look_up(loaded(settings), queries);
   RecordedFieldSettings turns, budget;
   turns.probes_per_update = 24;
   budget.rays_per_update = 24 * settings.rays_per_probe;
   for (const RecordedFieldSettings& recorded : {turns, budget}) {
     RecordedField field = started(settings, recorded);
     for (int i = 0; i < 4; ++i) update(field);
-    EXPECT_LE(difference(look_up(field, queries_), baked), kStillThere);
+    EXPECT_LE(difference(look_up(field, queries), baked), kStillThere);
   }
   EXPECT_TRUE(started(settings, budget).plan().value().on_device);
 }
@@ -161,7 +161,7 @@ TEST_F(RecordedStart, AveragesNothingOfTheFileWhereHistoryIsNone) {
   for (int i = 0; i < kBakedUpdates; ++i) fresh.plan();  // as many random numbers later
   update(fresh, {.history = 0.0f});
   // The same rays; the solve starts from another light
-  EXPECT_LE(difference(look_up(field, queries_), look_up(fresh, queries_)), 0.001);
+  EXPECT_LE(difference(look_up(field, queries), look_up(fresh, queries)), 0.001);
 }
 
 TEST_F(RecordedStart, ScrollsCascadesFromWhereTheFileHasThem) {
@@ -171,7 +171,7 @@ TEST_F(RecordedStart, ScrollsCascadesFromWhereTheFileHasThem) {
   bake(settings, request);
   IrradianceField on_cpu = loaded(settings);
   RecordedField field = started(settings);
-  EXPECT_LE(difference(look_up(field, queries_), test::look_up(on_cpu, queries_)), kSameWords);
+  EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), kSameWords);
   // So far that the finer one scrolls at once, and keeps a part of its probes
   const vec3 there = *request.viewer_ws + vec3(0.34f, 0.0f, 0.0f);
   request.viewer_ws = there;
@@ -195,7 +195,7 @@ TEST_F(RecordedStart, RefusesFilesOfOtherTilesAndVolumes) {
     FieldSettings other = settings;
     change(other);
     const std::string message = refusal(other);
-    EXPECT_THAT(message, HasSubstr(path_ + ": "));
+    EXPECT_THAT(message, HasSubstr(path + ": "));
     EXPECT_THAT(message, HasSubstr(cause));
   };
   expect_refusal([](auto& s) { s.irradiance_format = IrradianceFormat::float32; },
@@ -241,11 +241,11 @@ TEST_F(RecordedStart, RefusesBrokenFilesAndFieldsThatHoldLight) {
   bake(settings);
   RecordedField field = make(settings, {});
   update(field);
-  const Expected<void> late = field.start_from(path_);
+  const Expected<void> late = field.start_from(path);
   ASSERT_FALSE(late);
   EXPECT_THAT(late.error().message(), HasSubstr("holds light already"));
-  const std::uintmax_t bytes = std::filesystem::file_size(path_);
-  std::filesystem::resize_file(path_, bytes - 100);
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  std::filesystem::resize_file(path, bytes - 100);
   EXPECT_THAT(refusal(settings), HasSubstr("is cut short"));
 }
 

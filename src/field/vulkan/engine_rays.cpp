@@ -99,9 +99,9 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
 void RecordedField::State::EngineRays::shade(Recorder& to, int) {
   const DeviceProbes& probes = s_.list();
   const ProbeBatch& update_batch = s_.batch;
-  const uint history = update_batch.retraces           ? kHistoryRetraced
-                       : update_batch.discards_history ? kHistoryDiscarded
-                                                       : kHistoryGrows;
+  const uint weight_of_history = update_batch.retraces           ? kHistoryRetraced
+                                 : update_batch.discards_history ? kHistoryDiscarded
+                                                                 : kHistoryGrows;
   const RecordedBlendWeightsArguments blend_weight = {
       s_.probe_states(),
       {s_.field.offsets().address()},
@@ -113,7 +113,7 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
       s_.batch.on_device ? 1u : 0u,
       longest_average(s_.settings),
       s_.batch.all ? 1u : 0u,
-      history,
+      weight_of_history,
       s_.placing_updates};
   const RecordedSurfelsArguments surfel = {probes.index_array(),     {s_.rays.address()},
                                            {s_.results.address()},   s_.field.surfels(),
