@@ -307,8 +307,9 @@ struct Votes {
   std::vector<Sightings> instances;
 };
 
-/// The sides of a triangle that bound solid matter, by the first votes that know it, or else its
-/// instance; none where nobody saw either.
+/// The sides of a triangle that bound solid matter, by the first votes that know it or at least its
+/// instance; none where nobody saw either. Few triangles of a wall are seen so seldom from within a
+/// room that those outside would tell more.
 std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t instance,
                                    std::uint32_t triangle) {
   for (const Votes& some : votes) {
@@ -316,8 +317,6 @@ std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t i
     if (triangle < seen.size() && seen[triangle].all() >= kMinSightings) {
       return seen[triangle].solid_sides();
     }
-  }
-  for (const Votes& some : votes) {
     if (some.instances[instance].all() >= kMinSightings) {
       return some.instances[instance].solid_sides();
     }
