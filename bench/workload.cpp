@@ -15,6 +15,7 @@
 #include "field/transport/surfels.h"
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/find_solid_sides.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/world_access.h"
 
@@ -58,7 +59,12 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const FieldSettings& settings = work.field.settings();
   const ProbeStore& store = store_of(work.field);
   const RaySet set(settings, settings.rays_per_probe, static_cast<uint>(update));
-  const ShadeHitsSettings shading = surfel_shading(settings, set, nullptr);
+  std::vector<PlaceGrid> places;
+  for (const ProbeGrid& grid : store.grids()) {
+    places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
+  }
+  const SolidSides sides = find_solid_sides(work.world, places);
+  const ShadeHitsSettings shading = surfel_shading(settings, set, &sides);
 
   // Shade each probe's hits for the sake of the shadow rays
   const std::vector<VolumeRole> roles(1);  // the field's own grid alone
