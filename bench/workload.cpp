@@ -8,6 +8,7 @@
 #include "bench/stage.h"
 #include "core/parallel.h"
 #include "field/field_access.h"
+#include "field/placement/relocate.h"
 #include "field/probes/probe_grid.h"
 #include "field/probes/probe_store.h"
 #include "field/schedule/schedule.h"
@@ -59,11 +60,7 @@ UpdateRays record_update_rays(const Workload& work, int update) {
   const FieldSettings& settings = work.field.settings();
   const ProbeStore& store = store_of(work.field);
   const RaySet set(settings, settings.rays_per_probe, static_cast<uint>(update));
-  std::vector<PlaceGrid> places;
-  for (const ProbeGrid& grid : store.grids()) {
-    places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
-  }
-  const SolidSides sides = find_solid_sides(work.world, places);
+  const SolidSides sides = find_solid_sides(work.world, place_grids(store));
   const ShadeHitsSettings shading = surfel_shading(settings, set, &sides);
 
   // Shade each probe's hits for the sake of the shadow rays

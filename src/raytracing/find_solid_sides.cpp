@@ -21,8 +21,6 @@ constexpr int kRays = 32;
 constexpr std::size_t kPlacesPerTask = 64;
 // Neighbours of a place towards larger coordinates: one along each axis.
 constexpr int kAxes = 3;
-// Places around a light: the corners of its cell.
-constexpr int kCorners = 8;
 // Rays that leave a region of joined places for it to be open, and one in how many rays at least:
 // single rays slip through cracks between triangles.
 constexpr std::size_t kMinLeaving = 4;
@@ -208,16 +206,13 @@ class Places {
   void mark_lights() {
     for (const Light& light : world_.scene().lights) {
       if (light.type == Light::Type::directional) continue;
-      const vec3 cells = ((light.position_ws - grid_.origin_ws) * grid_.axes) / grid_.spacing;
-      const ivec3 base = clamp(ivec3(floor(cells)), ivec3(0), grid_.count - 2);
-      for (int corner = 0; corner < kCorners; ++corner) {
-        const ivec3 at = base + ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-        const vec3 from = position(at), way = light.position_ws - from;
+      for (const std::size_t place : grid_.places_around(light.position_ws)) {
+        const vec3 from = position(coords(place)), way = light.position_ws - from;
         const float distance = length(way);
         const bool seen =
             distance == 0.0f ||
             !tracer_of(world_).occluded({from, 0.0f, way / distance, distance, kRayOfProbe});
-        if (seen) leaving_[at.x * stride(0) + at.y * stride(1) + at.z * stride(2)] += kRays;
+        if (seen) leaving_[place] += kRays;
       }
     }
   }

@@ -16,20 +16,26 @@ std::size_t words_of(const Scene& scene, const Instance& instance) {
 
 }  // namespace
 
+std::array<std::size_t, 8> PlaceGrid::places_around(const glm::vec3& point_ws) const {
+  const glm::ivec3 base =
+      glm::clamp(glm::ivec3(glm::floor(cells_at(point_ws))), glm::ivec3(0), count - 2);
+  std::array<std::size_t, 8> places{};
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::ivec3 at = base + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
+    places[corner] = (static_cast<std::size_t>(at.z) * count.y + at.y) * count.x + at.x;
+  }
+  return places;
+}
+
 bool OpenPlaces::reach(const glm::vec3& point_ws) const {
-  const glm::vec3 cells = ((point_ws - grid.origin_ws) * grid.axes) / grid.spacing;
+  const glm::vec3 cells = grid.cells_at(point_ws);
   if (glm::any(glm::lessThan(cells, glm::vec3(-1.0f))) ||
       glm::any(glm::greaterThan(cells, glm::vec3(grid.count)))) {
     return false;
   }
-  const glm::ivec3 base = glm::clamp(glm::ivec3(glm::floor(cells)), glm::ivec3(0), grid.count - 2);
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::ivec3 at = base + glm::ivec3(corner & 1, corner >> 1 & 1, corner >> 2);
-    if (open[(static_cast<std::size_t>(at.z) * grid.count.y + at.y) * grid.count.x + at.x] != 0) {
-      return true;
-    }
-  }
-  return false;
+  const std::array<std::size_t, 8> around = grid.places_around(point_ws);
+  return std::any_of(around.begin(), around.end(),
+                     [&](std::size_t place) { return open[place] != 0; });
 }
 
 bool SolidSides::fits(const Scene& scene) const {

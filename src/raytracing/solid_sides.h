@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,6 +20,13 @@ struct PlaceGrid {
   glm::mat3 axes{1.0f};       ///< Columns: the grid's axes in world space, unit and orthogonal.
   glm::vec3 spacing{1.0f};    ///< Size of a cell along each axis [m], > 0.
   glm::ivec3 count{2};        ///< Places along each axis, >= 2. Cost is in proportion.
+
+  /// A point in cells from the first corner, along the grid's axes.
+  glm::vec3 cells_at(const glm::vec3& point_ws) const {
+    return ((point_ws - origin_ws) * axes) / spacing;
+  }
+  /// The places around a point, or those nearest to it where it is outside.
+  std::array<std::size_t, 8> places_around(const glm::vec3& point_ws) const;
 };
 
 /// A grid of places, and which of them are open.

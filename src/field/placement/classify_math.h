@@ -8,8 +8,8 @@
 
 LAMBENT_BEGIN
 
-/// A probe of whose rays more than this fraction hit back faces stands inside geometry, and lights
-/// nothing. JCGT 10(2) 2021, sec. 4.
+/// A probe of whose rays more than this fraction hit sides that bound solid matter stands inside,
+/// and lights nothing. JCGT 10(2) 2021, sec. 4.
 const float kBackFaceThreshold = 0.25f;
 
 /// Whether a probe stands inside geometry: 1 or 0.

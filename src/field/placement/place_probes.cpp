@@ -27,10 +27,6 @@ constexpr int kRestUpdates = 8;
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
-}  // namespace
-
-namespace {
-
 /// Whether a lamp came to shine where no light could come before.
 bool shines_in_the_dark(const World& world, std::span<const WorldChanges> changes,
                         const SolidSides& sides) {
@@ -61,11 +57,7 @@ void IrradianceField::State::find_solid_sides(const World& world) {
   const bool made = data.solid_sides.fits(world.scene());
   if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides)) return;
   const std::vector<std::uint32_t> before = std::move(data.solid_sides.words);
-  std::vector<PlaceGrid> places;
-  for (const ProbeGrid& grid : data.store.grids()) {
-    places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
-  }
-  data.solid_sides = lambent::find_solid_sides(world, places);
+  data.solid_sides = lambent::find_solid_sides(world, place_grids(data.store));
   backend->push_solid_sides();
   // What was taken for solid matter was a dark room
   if (made && data.solid_sides.words != before) {

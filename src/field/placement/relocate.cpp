@@ -144,6 +144,14 @@ std::vector<std::uint8_t> moving_instances(const Scene& scene) {
   return moving;
 }
 
+std::vector<PlaceGrid> place_grids(const ProbeStore& store) {
+  std::vector<PlaceGrid> places;
+  for (const ProbeGrid& grid : store.grids()) {
+    places.push_back({grid.origin_ws, grid.axes, grid.spacing, grid.count});
+  }
+  return places;
+}
+
 std::size_t viewpoints_of_batch(const RayTracer& tracer) {
   return batch_of(tracer, kFixedRays, kProbesPerTask);
 }

@@ -32,6 +32,9 @@ struct StaticScene {
   std::span<const std::uint8_t> moving;
 };
 
+/// The grids of a store's volumes, as find_solid_sides() takes them.
+std::vector<PlaceGrid> place_grids(const ProbeStore& store);
+
 /// A point from which fixed rays are traced, and the axes of the frame in which their hits are
 /// returned.
 struct Viewpoint {

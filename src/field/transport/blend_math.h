@@ -28,7 +28,7 @@ LAMBENT_FN float ray_weight(vec3 normal, vec3 direction, float cosine_exponent) 
 /// 9.1 % (at 50) to 3.9 %. 200 is no better.
 const float kDistanceExponent = 100.0f;
 
-// The distance of a ray that hits the back of a single-sided surface is scaled by this factor, so
+// The distance of a ray that hits a side that bounds solid matter is scaled by this factor, so
 // that a probe inside something has little weight in its surroundings. JCGT 10(2) 2021, sec. 4.
 const float kBackFaceDistanceScale = 0.2f;
 
