@@ -5,6 +5,7 @@
 
 #include "scene/coverage.h"
 #include "scene/texture.h"
+#include "scene/transmission.h"
 
 namespace lambent {
 

@@ -88,6 +88,17 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
   return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
 }
 
+/// The same, but filtered with weights of full precision where the device's filter is coarse (8
+/// bits, and with some 8 bits in the result, too): for what directions of rays hang on. A mirror
+/// would show the steps.
+LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
+                                   TrianglePointRef p, float cone_share) {
+  if (view.texture < 0) return vec4(1.0f);
+  if (cone_share > 0.0f) return texture_at(scene, mesh, view, p, cone_share);
+  CornerUvs uvs = corner_uvs(mesh, view, p);
+  return filtered_texel(scene, view, interpolate(uvs.a, uvs.b, uvs.c, p.weights));
+}
+
 /// Whether a footprint covers so much of a texture that what it shows of it is all but its mean.
 LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                  TrianglePointRef p, float cone_share) {

@@ -15,6 +15,9 @@ const uint kAlphaBlend = 2u;
 /// Keeps the hits of neighbouring triangles apart: 2^32 over the golden ratio.
 const uint kTriangleHashStep = 0x9E3779B9u;
 
+/// Keeps what decides over glass apart from what decides over coverage.
+const uint kGlassSalt = 0x85EBCA6Bu;
+
 /// A random number in [0, 1) that belongs to this hit alone, so that coverage is decided without
 /// state.
 LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle) {

@@ -8,6 +8,7 @@
 #include "scene/attributes.h"
 #include "scene/emission_map.h"
 #include "shared/color.h"
+#include "shared/random.h"
 #include "shared/sampling.h"
 
 namespace lambent {
@@ -17,23 +18,22 @@ std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
   return (static_cast<std::uint64_t>(instance) << 32) | triangle;
 }
 
-// What emissive_sample.inl.h asks for.
-using EmittersRef = const EmissiveTriangles&;
-
-uint emitter_count(const EmissiveTriangles& emitters) {
-  return static_cast<uint>(emitters.size());
-}
-EmitterRecord fetch_emitter(const EmissiveTriangles& emitters, uint emitter) {
-  return emitters.entries()[emitter];
-}
-float fetch_cumulative(const EmissiveTriangles& emitters, uint emitter) {
-  return emitters.cumulative()[emitter];
-}
-float fetch_pdf_area(const EmissiveTriangles& emitters, uint instance, uint triangle) {
-  return emitters.pdf_area(instance, triangle);
-}
-
 #include "scene/emissive_sample.inl.h"
+
+// A triangle placed in the world; without a probability.
+EmitterRecord in_the_world(const Instance& instance, const Mesh& mesh, std::uint32_t index,
+                           std::uint32_t triangle) {
+  const glm::uvec3& v = mesh.triangles[triangle];
+  const glm::vec3& p0 = mesh.positions[v.x];
+  const glm::mat3 linear(instance.world_from_object);
+  EmitterRecord emitter{index,           triangle,        0.0f,           0.0f,
+                        glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
+  emitter.corner_ws = glm::vec3(instance.world_from_object * glm::vec4(p0, 1.0f));
+  emitter.edge1_ws = linear * (mesh.positions[v.y] - p0);
+  emitter.edge2_ws = linear * (mesh.positions[v.z] - p0);
+  emitter.area = 0.5f * glm::length(glm::cross(emitter.edge1_ws, emitter.edge2_ws));
+  return emitter;
+}
 
 // The brightest vertex colour of a triangle: an unlit surface emits in proportion to it.
 float vertex_color_bound(const Mesh& mesh, const Material& material, const glm::uvec3& v) {
@@ -82,18 +82,17 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
     if (!may_emit(material)) continue;
     Bounds bounds;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const float area = 0.5f * glm::length(world_edge_product(instance, mesh, mesh.triangles[t]));
+      const EmitterRecord emitter = in_the_world(instance, mesh, i, t);
       const float radiance = maps[mesh.material].mean_luminance(mesh, t) *
                              vertex_color_bound(mesh, material, mesh.triangles[t]);
       // Written so that a NaN, too, is left out
-      if (!(area > 0.0f) || !(radiance > 0.0f)) continue;
-      entries_.push_back({i, t, area, 0.0f});
-      powers.push_back(static_cast<double>(area) * radiance);
+      if (!(emitter.area > 0.0f) || !(radiance > 0.0f)) continue;
+      entries_.push_back(emitter);
+      powers.push_back(static_cast<double>(emitter.area) * radiance);
       total += powers.back();
-      for (int corner = 0; corner < 3; ++corner) {
-        const glm::vec3& position = mesh.positions[mesh.triangles[t][corner]];
-        bounds.add(glm::vec3(instance.world_from_object * glm::vec4(position, 1.0f)));
-      }
+      bounds.add(emitter.corner_ws);
+      bounds.add(emitter.corner_ws + emitter.edge1_ws);
+      bounds.add(emitter.corner_ws + emitter.edge2_ws);
     }
     if (!bounds.empty()) bounds_.push_back(bounds);
   }
@@ -112,12 +111,29 @@ EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
 }
 
 EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
-  return sample_emissive(*scene_, *this, u);
+  if (empty()) return {};
+  const EmitterRecord& emitter = entries_[pick(u.x).emitter];
+  const glm::vec2 barycentrics = sample_uniform_triangle({u.y, u.z});
+  EmissiveSample drawn;
+  drawn.position_ws =
+      emitter.corner_ws + barycentrics.x * emitter.edge1_ws + barycentrics.y * emitter.edge2_ws;
+  drawn.normal_ws = glm::cross(emitter.edge1_ws, emitter.edge2_ws) / (2.0f * emitter.area);
+  drawn.radiance = radiance(emitter, barycentrics);
+  drawn.pdf_area = emitter.probability / emitter.area;
+  return drawn;
 }
 
-EmissiveSample EmissiveTriangles::at(std::uint32_t instance, std::uint32_t triangle,
-                                     const glm::vec2& barycentrics) const {
-  return emissive_point(*scene_, *this, instance, triangle, barycentrics);
+EmitterPick EmissiveTriangles::pick(float u) const {
+  const auto found = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, u);
+  const auto emitter = static_cast<std::uint32_t>(found - cumulative_.begin());
+  const float begin = emitter > 0 ? cumulative_[emitter - 1] : 0.0f;
+  const float probability = entries_[emitter].probability;
+  return {emitter, probability, std::clamp((u - begin) / probability, 0.0f, kLargestUniform)};
+}
+
+glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter,
+                                      const glm::vec2& barycentrics) const {
+  return emitted_radiance(*scene_, emitter, barycentrics);
 }
 
 float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle) const {

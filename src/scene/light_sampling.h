@@ -13,6 +13,21 @@
 
 namespace lambent {
 
+/// A point drawn from the emissive triangles.
+struct EmissiveSample {
+  glm::vec3 position_ws{0.0f};
+  glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
+  glm::vec3 radiance{0.0f};   ///< [W/(m^2 sr)].
+  float pdf_area = 0.0f;  ///< Over the area of all emissive triangles [1/m^2]; 0: there are none.
+};
+
+/// An emissive triangle that was picked, and what is left of the uniform number that picked it.
+struct EmitterPick {
+  std::uint32_t emitter;
+  float probability;  ///< Of picking it.
+  float rest;         ///< Uniform again, 0 to 1.
+};
+
 /// A light as formulas see it.
 LightRecord light_record(const Light& light);
 
@@ -30,9 +45,12 @@ class EmissiveTriangles {
   /// A point for three uniform numbers: the first picks the triangle, the others the point on it.
   EmissiveSample sample(const glm::vec3& u) const;
 
-  /// A given point of a triangle, as if it were drawn; of density 0 where it does not emit.
-  EmissiveSample at(std::uint32_t instance, std::uint32_t triangle,
-                    const glm::vec2& barycentrics) const;
+  /// Picks a triangle by power. There must be one.
+  EmitterPick pick(float u) const;
+
+  /// What a point of an emissive triangle sends, as far as its coverage stops rays
+  /// [W/(m^2 sr)].
+  glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics) const;
 
   /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not
   /// emit.
@@ -40,9 +58,6 @@ class EmissiveTriangles {
 
   /// The triangles, by instance and triangle.
   const std::vector<EmitterRecord>& entries() const { return entries_; }
-  /// Upper end of each entry's interval of [0, 1).
-  const std::vector<float>& cumulative() const { return cumulative_; }
-
   /// World-space boxes of the emissive triangles, one an instance [m].
   const std::vector<Bounds>& bounds() const { return bounds_; }
 

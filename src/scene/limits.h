@@ -55,6 +55,14 @@ inline constexpr float kMaxViewExtent = 2.0f * kMaxCoordinate;
 /// Largest ratio of a view's sides, and of its inverse: pictures are 1 to 16384 pixels wide.
 inline constexpr float kMaxAspect = 16384.0f;
 
+/// Range of fog. The densest, 1e6 / m, is opaque within a hair's breadth. Scattering that is any
+/// more one-sided than 0.95 shows in a cone of three degrees, finer than any froxel. Beneath the
+/// least scale height [m] fog is a sheet; above the largest it is constant within all there can be.
+inline constexpr float kMaxFogDensity = 1e6f;
+inline constexpr float kMaxFogAnisotropy = 0.95f;
+inline constexpr float kMinFogScaleHeight = 1e-3f;
+inline constexpr float kMaxFogScaleHeight = 1e9f;
+
 /// Whether a place is one where things can be; false where a coordinate is not a number.
 inline bool is_in_reach(const glm::vec3& position, float largest = kMaxCoordinate) {
   // Written so that NaN fails

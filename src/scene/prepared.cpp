@@ -17,7 +17,7 @@ namespace lambent {
 namespace {
 
 constexpr std::string_view kMagic = "lambent prepared";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 3;
 
 template <class T>
 using Word = std::integral_constant<bool, std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0>;
@@ -207,14 +207,18 @@ void fields(File& file, typename File::template Of<Material>& material) {
   file.number(material.ior);
   file.number(material.specular);
   file.number(material.specular_color);
+  file.number(material.transmission);
+  file.flag(material.bounds_volume);
+  file.number(material.absorption);
   file.choice(material.alpha_mode, AlphaMode::blend);
   file.number(material.alpha_cutoff);
   file.flag(material.double_sided);
   file.flag(material.unlit);
   file.flag(material.lambert);
-  for (auto* view : {&material.base_color_texture, &material.metallic_roughness_texture,
-                     &material.normal_texture, &material.emission_texture,
-                     &material.specular_texture, &material.specular_color_texture}) {
+  for (auto* view :
+       {&material.base_color_texture, &material.metallic_roughness_texture,
+        &material.normal_texture, &material.emission_texture, &material.specular_texture,
+        &material.specular_color_texture, &material.transmission_texture}) {
     fields(file, *view);
   }
 }
@@ -276,6 +280,18 @@ void fields(File& file, typename File::template Of<ProbeVolume>& volume) {
 }
 
 template <class File>
+void fields(File& file, typename File::template Of<FogVolume>& fog) {
+  file.text(fog.name);
+  file.number(fog.centre);
+  file.number(fog.size);
+  file.number(fog.axes);
+  file.number(fog.density);
+  file.number(fog.albedo);
+  file.number(fog.anisotropy);
+  file.number(fog.scale_height);
+}
+
+template <class File>
 void fields(File& file, typename File::template Of<Scene>& scene) {
   file.list("textures", scene.textures);
   file.list("materials", scene.materials);
@@ -290,6 +306,7 @@ void fields(File& file, typename File::template Of<Scene>& scene) {
   file.numbers(scene.environment.map.pixels);
   file.number(scene.environment.rotation);
   file.list("volumes", scene.volumes);
+  file.list("fog", scene.fog);
 }
 
 }  // namespace

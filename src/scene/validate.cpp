@@ -107,10 +107,12 @@ const char* flaw_of(const Material& m, std::size_t textures) {
   if (!within(m.specular_color, 0.0f, kMaxFactor)) {
     return "specular_color is not within 0 to 1e6";
   }
+  if (!in_unit_range(m.transmission)) return "transmission is not within 0 to 1";
+  if (!within(m.absorption, 0.0f, kMaxFactor)) return "absorption is not within 0 to 1e6 1/m";
   if (!finite(m.alpha_cutoff)) return "alpha_cutoff is not finite";
-  for (const TextureView* view :
-       {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-        &m.emission_texture, &m.specular_texture, &m.specular_color_texture}) {
+  for (const TextureView* view : {&m.base_color_texture, &m.metallic_roughness_texture,
+                                  &m.normal_texture, &m.emission_texture, &m.specular_texture,
+                                  &m.specular_color_texture, &m.transmission_texture}) {
     if (const char* flaw = flaw_of(*view, textures)) return flaw;
   }
   return nullptr;
@@ -219,6 +221,31 @@ const char* flaw_of(const Camera& camera) {
   return nullptr;
 }
 
+const char* flaw_of(const FogVolume& fog) {
+  if (!is_in_reach(fog.centre)) return "has a centre that is not within 1e9 m of the origin";
+  if (!within(fog.size, 0.0f, 2.0f * kMaxCoordinate)) return "has a size not within 0 to 2e9 m";
+  for (int axis = 0; axis < 3; ++axis) {
+    const float cosine = glm::dot(fog.axes[axis], fog.axes[(axis + 1) % 3]);
+    // Written so that NaN fails
+    if (!unit(fog.axes[axis]) || !(std::abs(cosine) <= kUnitTolerance)) {
+      return "has axes that are not unit and orthogonal";
+    }
+  }
+  if (!(fog.density >= 0.0f && fog.density <= kMaxFogDensity)) {
+    return "has a density that is not within 0 to 1e6 1/m";
+  }
+  if (!within(fog.albedo, 0.0f, 1.0f)) return "has an albedo that is not within 0 to 1";
+  if (!(std::abs(fog.anisotropy) <= kMaxFogAnisotropy)) {
+    return "has an anisotropy that is not within -0.95 to 0.95";
+  }
+  const bool falls =
+      fog.scale_height >= kMinFogScaleHeight && fog.scale_height <= kMaxFogScaleHeight;
+  if (fog.scale_height != 0.0f && !falls) {
+    return "has a scale height that is neither 0 nor within 1e-3 to 1e9 m";
+  }
+  return nullptr;
+}
+
 const char* flaw_of(const Environment& environment) {
   if (!within(environment.radiance, 0.0f, kMaxRadiance)) {
     return "radiance is not within 0 to 1e10 W/(m^2 sr)";
@@ -268,6 +295,13 @@ Expected<void> check_reach(const Scene& scene) {
 
 }  // namespace
 
+Expected<void> validate_fog(const Scene& scene) {
+  if (scene.fog.size() > kMaxFogVolumes) {
+    return fail(scene.source.path, "fog", "has more than 16 volumes");
+  }
+  return check_array(scene, "fog", scene.fog);
+}
+
 Expected<void> validate(const Scene& scene) {
   const std::size_t textures = scene.textures.size();
   const std::size_t materials = scene.materials.size();
@@ -279,6 +313,7 @@ Expected<void> validate(const Scene& scene) {
   if (result) result = check_reach(scene);
   if (result) result = check_array(scene, "lights", scene.lights);
   if (result) result = check_array(scene, "cameras", scene.cameras);
+  if (result) result = validate_fog(scene);
   if (!result) return result;
   if (const char* flaw = flaw_of(scene.environment)) {
     return fail(scene.source.path, "environment", flaw);

@@ -20,7 +20,11 @@ const char* flaw_of_reach(const Instance& instance, const Bounds& mesh);
 const char* flaw_of(const Light& light);
 const char* flaw_of(const Camera& camera);
 const char* flaw_of(const Environment& environment);
+const char* flaw_of(const FogVolume& fog);
 const char* flaw_of(const Curve& curve);
+
+/// Checks a scene's fog.
+Expected<void> validate_fog(const Scene& scene);
 
 /// Checks a scene's animations and its rig.
 Expected<void> validate_motion(const Scene& scene);

@@ -10,6 +10,7 @@
 #include "scene/animation/pose.h"
 #include "scene/gltf/animations.h"
 #include "scene/gltf/document/accessors.h"
+#include "scene/gltf/fog.h"
 #include "scene/gltf/lights_cameras.h"
 #include "scene/gltf/materials.h"
 #include "scene/gltf/meshes.h"
@@ -63,6 +64,7 @@ class Importer {
       scene_.lights.push_back(std::move(imported));
     }
     place_volume(document_, index, world_from_node, scene_);
+    place_fog(document_, index, world_from_node, scene_);
     if (node.mesh < 0) return {};
     LAMBENT_TRY(joint_from_bind, read_skin(node.skin));
     const Deformation deformation = deformation_of(tree, node, joint_from_bind);
@@ -164,9 +166,9 @@ class Importer {
 
   void warn_of_missing_uvs(const Mesh& mesh, const std::string& place) {
     const Material& m = scene_.materials[mesh.material];
-    for (const TextureView* view :
-         {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-          &m.emission_texture, &m.specular_texture, &m.specular_color_texture}) {
+    for (const TextureView* view : {&m.base_color_texture, &m.metallic_roughness_texture,
+                                    &m.normal_texture, &m.emission_texture, &m.specular_texture,
+                                    &m.specular_color_texture, &m.transmission_texture}) {
       if (view->texture < 0 || !mesh.uvs[view->uv_set].empty()) continue;
       document_.repaired("textured primitives lack texture coordinates and read (0, 0)", 1, place);
       return;

@@ -2,6 +2,7 @@
 #include "scene/gltf/materials.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/limits.h"
 
@@ -29,6 +30,8 @@ class MaterialReader {
     LAMBENT_CHECK(read_metallic_roughness());
     LAMBENT_CHECK(read_emission());
     LAMBENT_CHECK(read_specular());
+    LAMBENT_CHECK(read_transmission());
+    read_volume();
     if (options.normal_maps) {
       LAMBENT_CHECK(take(source_.normalTexture, kData, material_.normal_texture));
       material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
@@ -114,6 +117,33 @@ class MaterialReader {
     }
     LAMBENT_CHECK(take(*specular, "specularTexture", kData, material_.specular_texture));
     return take(*specular, "specularColorTexture", kColor, material_.specular_color_texture);
+  }
+
+  Expected<void> read_transmission() {
+    const auto* transmission = find_extension(source_.extensions, "KHR_materials_transmission");
+    if (!transmission) return {};
+    material_.transmission =
+        static_cast<float>(number_or(*transmission, "transmissionFactor", 0.0));
+    return take(*transmission, "transmissionTexture", kData, material_.transmission_texture);
+  }
+
+  // How thick a volume is, rays find out; the factor tells volumes from panes.
+  void read_volume() {
+    const auto* volume = find_extension(source_.extensions, "KHR_materials_volume");
+    if (!volume || number_or(*volume, "thicknessFactor", 0.0) <= 0.0) return;
+    material_.bounds_volume = true;
+    if (!volume->Has("attenuationDistance") || !volume->Has("attenuationColor")) return;
+    const double distance = number_or(*volume, "attenuationDistance", 0.0);
+    const tinygltf::Value& color = volume->Get("attenuationColor");
+    bool limited = !(distance > 0.0);
+    for (int k = 0; k < 3 && !limited; ++k) {
+      const double left = color.Get(k).GetNumberAsDouble();
+      // Absorption of a color of 0 is infinite
+      const double absorption = left > 0.0 ? -std::log(std::min(left, 1.0)) / distance : kMaxFactor;
+      material_.absorption[k] = static_cast<float>(std::min<double>(absorption, kMaxFactor));
+    }
+    document_.repaired("volumes of attenuation distance 0 were taken for clear", limited ? 1 : 0,
+                       place_);
   }
 
   Expected<void> read_alpha() {

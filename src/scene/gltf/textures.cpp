@@ -66,9 +66,10 @@ Expected<Texture> decode_use(const Document& document, int image, bool srgb) {
 // Material or const Material; likewise their views.
 template <class AMaterial>
 auto views_of(AMaterial& m) {
-  return std::array{&m.base_color_texture, &m.metallic_roughness_texture,
-                    &m.normal_texture,     &m.emission_texture,
-                    &m.specular_texture,   &m.specular_color_texture};
+  return std::array{&m.base_color_texture,  &m.metallic_roughness_texture,
+                    &m.normal_texture,      &m.emission_texture,
+                    &m.specular_texture,    &m.specular_color_texture,
+                    &m.transmission_texture};
 }
 
 // Things named one by one in a warning, few enough to be read; the rest is counted.

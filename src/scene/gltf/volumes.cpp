@@ -3,8 +3,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <type_traits>
 
+#include "scene/gltf/boxes.h"
 #include "scene/limits.h"
 
 namespace lambent::gltf {
@@ -18,28 +18,6 @@ constexpr const char* kKey = "lambent_probe_volume";
 constexpr double kMaxBatchProbes = 1048576.0;
 // Priorities need not be larger, and fit an int.
 constexpr double kMaxPriority = 1e6;
-// Columns of a transform whose cosine is larger are sheared.
-constexpr float kMaxShear = 1e-3f;
-
-/// A number within bounds, or false.
-bool read_number(const json& value, double low, double high, double& number) {
-  if (!value.is_number()) return false;
-  number = value.get<double>();
-  return number >= low && number <= high;
-}
-
-template <class Vector>
-bool read_vector(const json& value, double low, double high, Vector& vector) {
-  if (!value.is_array() || value.size() != 3) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    double number = 0.0;
-    if (!read_number(value[axis], low, high, number)) return false;
-    constexpr bool whole = std::is_integral_v<typename Vector::value_type>;
-    if (whole && number != std::floor(number)) return false;
-    vector[axis] = static_cast<typename Vector::value_type>(number);
-  }
-  return true;
-}
 
 /// Null where all went well, else what is wrong.
 const char* read_volume(const json& extras, ProbeVolume& volume) {
@@ -93,25 +71,8 @@ void place_volume(Document& document, int node, const glm::mat4& world_from_node
   if (asked == document.node_volumes.end()) return;
   ProbeVolume volume = asked->second;
   volume.name = document.model.nodes[node].name;
-  volume.centre = glm::vec3(world_from_node[3]);
-  bool flat = false, sheared = false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const glm::vec3 column(world_from_node[axis]);
-    const float scale = glm::length(column);
-    flat = flat || !(scale > 0.0f);
-    volume.axes[axis] = column / scale;
-    volume.size[axis] *= scale;
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    const float cosine = glm::dot(volume.axes[axis], volume.axes[(axis + 1) % 3]);
-    sheared = sheared || std::abs(cosine) > kMaxShear;
-  }
-  const bool far = !is_in_reach(volume.centre) || !is_in_reach(volume.size);
-  if (flat || sheared || far) {
-    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: " +
-                  (flat      ? "the node is scaled to nothing."
-                   : sheared ? "the node is sheared."
-                             : "it reaches beyond 1e9 m from the origin."));
+  if (const char* flaw = place_box(world_from_node, volume.centre, volume.size, volume.axes)) {
+    document.warn(entry("nodes", node) + ".extras." + kKey + " was ignored: " + flaw);
     return;
   }
   scene.volumes.push_back(std::move(volume));

@@ -10,6 +10,7 @@
 #include "scene/gltf/document/extensions.h"
 #include "scene/gltf/document/meshopt.h"
 #include "scene/gltf/document/schema.h"
+#include "scene/gltf/fog.h"
 #include "scene/gltf/volumes.h"
 #include "scene/limits.h"
 
@@ -309,6 +310,7 @@ Expected<Document> read_document(ByteSpan bytes, const std::string& file, bool f
   read_skies(document, root);
   read_node_flags(document, root);
   read_node_volumes(document, root);
+  read_node_fog(document, root);
   read_channels(document, root);
   remove_extras(root);
   take_out(document, root);

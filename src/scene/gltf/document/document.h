@@ -65,6 +65,7 @@ struct Document {
   std::vector<AnimationSource> animations;  ///< Without channels that make no sense.
   std::vector<NodeFlags> node_flags;        ///< One a node.
   std::map<int, ProbeVolume> node_volumes;  ///< Of nodes that ask for one; not placed yet.
+  std::map<int, FogVolume> node_fog;        ///< Likewise.
   std::vector<std::vector<int>>
       primitive_indices;                  ///< Accessor of each mesh's primitives' indices; or -1.
   std::vector<Bytes> decompressed_views;  ///< Of views with EXT_meshopt_compression; else empty.

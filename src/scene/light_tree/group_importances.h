@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The importance of all nodes of a group at once.
+#pragma once
+
+#include <cstddef>
+
+#include "scene/light_tree/light_tree_math.h"
+
+namespace lambent {
+
+/// Floats of a group: each number of its nodes, one after the other, as struct ClusterNumbers; then
+/// the bits of their links; then nothing, up to the end of a cache line.
+inline constexpr std::size_t kGroupNumbers = 14;
+inline constexpr std::size_t kGroupFloats = 16 * kLightGroupSize;
+
+/// Lays out a node as number `child` of a group.
+void store_in_group(const LightTreeNode& node, std::size_t child, float* group);
+
+/// light_importance of each node of a group for a point with this unit normal; the same bits on all
+/// instruction sets.
+void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
+                       float* importances);
+
+/// LightTreeNode::link of a node of a group.
+inline uint link_in_group(const float* group, uint child) {
+  return floatBitsToUint(group[kGroupNumbers * kLightGroupSize + child]);
+}
+
+}  // namespace lambent

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a cluster of lights may send to a point (for several clusters in C++, a vector's lanes), in
+// the common subset of C++ and GLSL. Without guard. The includer provides
+//   Real             float, or lanes of them with the same operators
+//   LAMBENT_REAL_FN  before a function
+//   Real root(Real), Real max(Real, float), Real abs(Real)
+
+/// LightTreeNode, as far as importance depends on it.
+struct ClusterNumbers {
+  Real center_x, center_y, center_z;
+  Real half_x, half_y, half_z;
+  Real axis_x, axis_y, axis_z;
+  Real cos_spread, sin_spread;
+  Real intensity, cos_emission;
+  Real both_sides;  ///< 1 or 0.
+};
+
+/// See light_importance.
+LAMBENT_REAL_FN Real importance_of(ClusterNumbers node, vec3 position_ws, vec3 normal_ws) {
+  Real x = node.center_x - position_ws.x;
+  Real y = node.center_y - position_ws.y;
+  Real z = node.center_z - position_ws.z;
+  Real outside_x = max(abs(x) - node.half_x, 0.0f);
+  Real outside_y = max(abs(y) - node.half_y, 0.0f);
+  Real outside_z = max(abs(z) - node.half_z, 0.0f);
+  Real nearest = root(outside_x * outside_x + outside_y * outside_y + outside_z * outside_z);
+  Real middle = root(x * x + y * y + z * z);
+  Real squared_size =
+      node.half_x * node.half_x + node.half_y * node.half_y + node.half_z * node.half_z;
+
+  // Compute the largest cosine at the point: how far the box reaches above its horizon, over the
+  // distance to the box
+  vec3 steep = abs(normal_ws);
+  Real height = x * normal_ws.x + y * normal_ws.y + z * normal_ws.z +
+                (node.half_x * steep.x + node.half_y * steep.y + node.half_z * steep.z);
+  // A point in the air has no horizon
+  if (normal_ws == vec3(0.0f)) height = nearest + 1.0f;
+  Real one = x * 0.0f + 1.0f;
+  Real received = height < nearest ? height / nearest : one;
+
+  // Compute the largest cosine at the lights: that of the axis, less the spread of where they face
+  Real along = -(node.axis_x * x + node.axis_y * y + node.axis_z * z);
+  along = node.both_sides > 0.0f ? abs(along) : along;
+  along += abs(node.axis_x) * node.half_x + abs(node.axis_y) * node.half_y +
+           abs(node.axis_z) * node.half_z;
+  Real reach = along >= 0.0f ? nearest : middle + root(squared_size);
+  Real cos_light = along < reach ? along / reach : one;
+  Real sin_light = root(max(one - cos_light * cos_light, 0.0f));
+  Real emitted = cos_light >= node.cos_spread
+                     ? one
+                     : cos_light * node.cos_spread + sin_light * node.sin_spread;
+
+  Real squared_reach =
+      max(nearest * middle + squared_size * kSizeShare, kMinSquaredClusterDistance);
+  Real importance = node.intensity * received * emitted / squared_reach;
+  importance = importance < kMaxImportance ? importance : one * kMaxImportance;
+  Real none = x * 0.0f;
+  importance = height > 0.0f ? importance : none;
+  return emitted > node.cos_emission ? importance : none;
+}

@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting", PACMCGIT 1(2), 2018.
+#include "scene/light_tree/light_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <span>
+
+#include "scene/light_tree/cluster.h"
+#include "shared/constants.h"
+#include "shared/random.h"
+
+namespace lambent {
+namespace {
+
+// Places along each axis at which a cluster may be split.
+constexpr int kBins = 12;
+// Larger clusters face all ways: where their lights face is not looked at, which would take most of
+// the time that building takes.
+constexpr std::size_t kMostLightsWithCones = 256;
+// A fitted tree whose cost has grown by this factor is built again.
+constexpr double kWornOut = 2.0;
+// Of keys of lights without extent.
+constexpr std::uint64_t kPunctualKey = std::uint64_t{1} << 63;
+
+// What light_tree.inl.h asks for.
+using LightTreeRef = const LightTree&;
+
+uint light_tree_size(const LightTree& tree) {
+  return static_cast<uint>(tree.nodes().size());
+}
+uint fetch_group_link(const LightTree& tree, uint group, uint child) {
+  return link_in_group(tree.groups().numbers(group), child);
+}
+void group_importances(const LightTree& tree, uint group, const vec3& position_ws,
+                       const vec3& normal_ws, float* importances) {
+  lambent::group_importances(tree.groups().numbers(group), position_ws, normal_ws, importances);
+}
+
+#include "scene/light_tree/light_tree.inl.h"
+
+bool is_asked(const Light& light, std::size_t local_lights) {
+  return light.type == Light::Type::directional || local_lights <= kMaxLightsAsked;
+}
+
+/// Splits ranges of lights in two.
+class Splitter {
+ public:
+  explicit Splitter(std::span<const LightCluster> lights) : lights_(lights) {
+    middles_.reserve(lights.size());
+    for (const LightCluster& light : lights) {
+      middles_.push_back(0.5f * light.box.min + 0.5f * light.box.max);
+    }
+  }
+
+  /// Orders at least two lights so that the best first and second part follow each other; returns
+  /// the length of the first.
+  std::size_t split(std::span<std::uint32_t> range) {
+    if (range.size() == 2) return 1;
+    Bounds middles;
+    for (const std::uint32_t light : range) middles.add(middles_[light]);
+    const glm::vec3 size = middles.max - middles.min;
+    const float longest = std::max({size.x, size.y, size.z});
+    Best best;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (size[axis] > 0.0f) try_axis(range, middles, axis, longest / size[axis], best);
+    }
+    // Lights in one place are parted anyhow
+    if (best.axis < 0) return range.size() / 2;
+    const auto second = std::partition(range.begin(), range.end(), [&](std::uint32_t light) {
+      return bin_of(middles_[light], middles, best.axis) < best.bin;
+    });
+    return static_cast<std::size_t>(second - range.begin());
+  }
+
+ private:
+  struct Best {
+    double cost = 0.0;
+    int axis = -1;
+    int bin = 0;  // that begins the second part
+  };
+
+  static int bin_of(const glm::vec3& middle, const Bounds& middles, int axis) {
+    const float low = middles.min[axis], size = middles.max[axis] - low;
+    return std::min(static_cast<int>((middle[axis] - low) / size * kBins), kBins - 1);
+  }
+
+  void try_axis(std::span<const std::uint32_t> range, const Bounds& middles, int axis,
+                float thinness, Best& best) {
+    std::array<LightCluster, kBins> bins;
+    const bool with_cones = range.size() <= kMostLightsWithCones;
+    for (const std::uint32_t light : range) {
+      LightCluster& bin = bins[bin_of(middles_[light], middles, axis)];
+      if (with_cones || bin.empty) {
+        bin.add(lights_[light]);
+      } else {
+        bin.box.add(lights_[light].box.min);
+        bin.box.add(lights_[light].box.max);
+        bin.intensity += lights_[light].intensity;
+      }
+    }
+    std::array<double, kBins> cost_from{};
+    LightCluster after;
+    for (int bin = kBins - 1; bin > 0; --bin) {
+      after.add(bins[bin]);
+      cost_from[bin] = after.cost();
+    }
+    LightCluster before;
+    for (int bin = 1; bin < kBins; ++bin) {
+      before.add(bins[bin - 1]);
+      if (before.empty || (bins[bin].empty && cost_from[bin] == 0.0)) continue;
+      // Conty Estevez and Kulla 2018, eq. 2: thin slices of long clusters are discouraged
+      const double cost = thinness * (before.cost() + cost_from[bin]);
+      if (best.axis < 0 || cost < best.cost) best = {cost, axis, bin};
+    }
+  }
+
+  std::span<const LightCluster> lights_;
+  std::vector<glm::vec3> middles_;
+};
+
+}  // namespace
+
+LightTree::LightTree(const Scene& scene, const EmissiveTriangles& emissive) {
+  update(scene, emissive);
+}
+
+void LightTree::update(const Scene& scene, const EmissiveTriangles& emissive) {
+  list_lights(scene);
+  std::vector<std::uint64_t> keys;
+  keys.reserve(emissive.size() + drawn_.size());
+  for (const EmitterRecord& emitter : emissive.entries()) {
+    keys.push_back((std::uint64_t{emitter.instance} << 32) | emitter.triangle);
+  }
+  for (const std::uint32_t light : drawn_) keys.push_back(kPunctualKey | light);
+  const bool same = keys == keys_;
+  keys_ = std::move(keys);
+  if (same && builds_ > 0) {
+    fit(emissive, false);
+    if (cost() <= kWornOut * cost_when_built_) return;
+  }
+  build(emissive);
+  fit(emissive, true);
+  cost_when_built_ = cost();
+}
+
+void LightTree::list_lights(const Scene& scene) {
+  const auto local = static_cast<std::size_t>(
+      std::count_if(scene.lights.begin(), scene.lights.end(),
+                    [](const Light& light) { return light.type != Light::Type::directional; }));
+  lights_.clear();
+  asked_.clear();
+  drawn_.clear();
+  for (const Light& light : scene.lights) {
+    (is_asked(light, local) ? asked_ : drawn_)
+        .push_back(static_cast<std::uint32_t>(lights_.size()));
+    lights_.push_back(light_record(light));
+  }
+}
+
+// Emissive triangles first, then the lights that are drawn.
+std::vector<LightCluster> LightTree::clusters_of_lights(const EmissiveTriangles& emissive) const {
+  std::vector<LightCluster> clusters;
+  clusters.reserve(emissive.size() + drawn_.size());
+  const float whole = emissive.total_power() / kTwoPi;
+  for (const EmitterRecord& emitter : emissive.entries()) {
+    clusters.push_back(cluster_of(emitter, emitter.probability * whole));
+  }
+  for (const std::uint32_t light : drawn_) clusters.push_back(cluster_of(lights_[light]));
+  return clusters;
+}
+
+std::uint32_t LightTree::light_of(std::size_t place, const EmissiveTriangles& emissive) const {
+  const std::size_t emitters = emissive.size();
+  if (place < emitters) return static_cast<std::uint32_t>(place);
+  return static_cast<std::uint32_t>(emitters) + drawn_[place - emitters];
+}
+
+void LightTree::build(const EmissiveTriangles& emissive) {
+  struct Task {
+    std::uint32_t node;
+    std::size_t begin, end;  // of `order`
+  };
+  ++builds_;
+  const std::vector<LightCluster> lights = clusters_of_lights(emissive);
+  const std::size_t count = lights.size();
+  nodes_.assign(count == 0 ? 0 : 1, {});
+  parents_.assign(nodes_.size(), 0);
+  leaves_.assign(emissive.size() + lights_.size(), 0);
+  std::vector<std::uint32_t> order(count);
+  std::iota(order.begin(), order.end(), 0u);
+  Splitter splitter(lights);
+  std::vector<Task> tasks;
+  if (count > 0) tasks.push_back({0, 0, count});
+  while (!tasks.empty()) {
+    const Task task = tasks.back();
+    tasks.pop_back();
+    if (task.end - task.begin == 1) {
+      const std::uint32_t light = light_of(order[task.begin], emissive);
+      nodes_[task.node].link = kLightTreeLeaf | light;
+      leaves_[light] = task.node;
+      continue;
+    }
+    const std::size_t length =
+        splitter.split(std::span(order).subspan(task.begin, task.end - task.begin));
+    const auto first = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[task.node].link = first;
+    nodes_.resize(nodes_.size() + 2);
+    parents_.resize(nodes_.size(), task.node);
+    tasks.push_back({first + 1, task.begin + length, task.end});
+    tasks.push_back({first, task.begin, task.begin + length});
+  }
+}
+
+void LightTree::fit(const EmissiveTriangles& emissive, bool is_new) {
+  const std::vector<LightCluster> lights = clusters_of_lights(emissive);
+  std::vector<LightCluster> clusters(nodes_.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    clusters[leaves_[light_of(i, emissive)]] = lights[i];
+  }
+  // Children come after their parents
+  for (std::size_t i = nodes_.size(); i-- > 0;) {
+    const std::uint32_t link = nodes_[i].link;
+    if ((link & kLightTreeLeaf) == 0) {
+      clusters[i] = clusters[link];
+      clusters[i].add(clusters[link + 1]);
+    }
+    nodes_[i] = node_of(clusters[i]);
+    nodes_[i].link = link;
+  }
+  if (is_new) groups_.build(nodes_);
+  groups_.fit(nodes_);
+}
+
+double LightTree::cost() const {
+  double sum = 0.0;
+  for (const LightTreeNode& node : nodes_) {
+    sum +=
+        double{node.intensity} * glm::dot(node.half_size, node.half_size) * (2.0 - node.cos_spread);
+  }
+  return sum;
+}
+
+LightPick LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, float u) const {
+  LightPicks picks;
+  picks.at[0].rest = u;
+  pick_lights(*this, position_ws, normal_ws, 1, picks);
+  return picks.at[0];
+}
+
+void LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, std::uint32_t count,
+                     LightPicks& picks) const {
+  pick_lights(*this, position_ws, normal_ws, count, picks);
+}
+
+float LightTree::probability(std::uint32_t light, const glm::vec3& position_ws,
+                             const glm::vec3& normal_ws) const {
+  float probability = 1.0f;
+  for (std::uint32_t node = leaves_[light];; node = parents_[node]) {
+    const std::uint32_t place = groups_.place_of(node);
+    if (place != LightGroups::kNowhere) {
+      float importances[kLightGroupSize], sum = 0.0f;
+      lambent::group_importances(groups_.numbers(place / kLightGroupSize), position_ws, normal_ws,
+                                 importances);
+      for (const float importance : importances) sum += importance;
+      const float importance = importances[place % kLightGroupSize];
+      if (!(importance > 0.0f)) return 0.0f;
+      probability *= importance / sum;
+    }
+    if (node == 0) break;
+  }
+  return probability;
+}
+
+}  // namespace lambent

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// All lights of a scene: those that every point asks, and a tree to draw from the others.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/light_sampling.h"
+#include "scene/light_tree/light_groups.h"
+#include "scene/light_tree/light_tree_math.h"
+
+namespace lambent {
+
+struct LightCluster;
+
+/// So many point and spot lights are each asked with a shadow ray by every point: their light is
+/// then without noise. On a processor, so many rays cost about as much as a sample of the tree of
+/// more lights than that (`lambent_lights`). Where there are more, all of them are in the tree.
+inline constexpr std::size_t kMaxLightsAsked = 16;
+
+/// The lights of a scene. Directional lights are always asked: no place is nearer to them than
+/// another. Emissive triangles are always in the tree.
+class LightTree {
+ public:
+  LightTree(const Scene& scene, const EmissiveTriangles& emissive);
+
+  /// Follows edits. Where the same lights are in the tree as before, its nodes are only fitted
+  /// anew, until they have grown so much that it is worth to build it again.
+  void update(const Scene& scene, const EmissiveTriangles& emissive);
+
+  /// Point, spot and directional lights, as in the scene.
+  const std::vector<LightRecord>& lights() const { return lights_; }
+  /// Which of these are asked; the others are in the tree.
+  const std::vector<std::uint32_t>& asked() const { return asked_; }
+
+  /// Node 0 is the root; empty: nothing is in the tree. A leaf's light is the index of an emissive
+  /// triangle or, from their number on, that of one of the lights above.
+  const std::vector<LightTreeNode>& nodes() const { return nodes_; }
+
+  /// The same in groups, from which lights are picked.
+  const LightGroups& groups() const { return groups_; }
+
+  /// Picks a light for a point; probability 0 where none can be seen.
+  LightPick pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, float u) const;
+
+  /// The same for several increasing uniform numbers in LightPick::rest, at most kMostPicks.
+  void pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, std::uint32_t count,
+            LightPicks& picks) const;
+
+  /// The probability with which `pick` finds a light of the tree.
+  float probability(std::uint32_t light, const glm::vec3& position_ws,
+                    const glm::vec3& normal_ws) const;
+
+  /// How often the tree was built rather than fitted.
+  int builds() const { return builds_; }
+
+ private:
+  void list_lights(const Scene& scene);
+  std::vector<LightCluster> clusters_of_lights(const EmissiveTriangles& emissive) const;
+  std::uint32_t light_of(std::size_t place, const EmissiveTriangles& emissive) const;
+  void build(const EmissiveTriangles& emissive);
+  /// `is_new`: the tree was built.
+  void fit(const EmissiveTriangles& emissive, bool is_new);
+  double cost() const;
+
+  std::vector<LightRecord> lights_;
+  std::vector<std::uint32_t> asked_, drawn_;  // of the lights
+  std::vector<LightTreeNode> nodes_;
+  std::vector<std::uint32_t> parents_;  // by node
+  std::vector<std::uint32_t> leaves_;   // by light of the tree
+  std::vector<std::uint64_t> keys_;     // what is in the tree
+  double cost_when_built_ = 0.0;
+  int builds_ = 0;
+  LightGroups groups_;
+};
+
+}  // namespace lambent

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Picks lights from a light tree, in the common subset of C++ and GLSL. The includer provides the
+// type
+//   LightTreeRef  a tree
+// and
+//   uint light_tree_size(LightTreeRef tree)    0: there are no lights
+//   uint fetch_group_link(LightTreeRef tree, uint group, uint child)
+//   void group_importances(LightTreeRef tree, uint group, vec3 position_ws, vec3 normal_ws,
+//                          out float importances[kLightGroupSize])    group 0 is the root's
+// where importances are those of light_importance.
+
+/// Picks lights for a point with this unit normal by what they may send there. The first `count` of
+/// `picks` hold uniform numbers in `rest`, in increasing order: picks that come to the same group
+/// stay neighbours, and look at it once for all of them.
+LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws, uint count,
+                            LAMBENT_INOUT(LightPicks) picks) {
+  float whole = light_tree_size(tree) > 0u ? 1.0f : 0.0f;
+  for (uint i = 0u; i < count; ++i) {
+    picks.at[i].light = whole > 0.0f ? 0u : kLightTreeLeaf;
+    picks.at[i].probability = whole;
+  }
+  uint first = 0u;
+  while (first < count) {
+    uint group = picks.at[first].light;
+    if ((group & kLightTreeLeaf) != 0u) {
+      picks.at[first].light = group & ~kLightTreeLeaf;
+      ++first;
+      continue;
+    }
+    float importances[kLightGroupSize];
+    group_importances(tree, group, position_ws, normal_ws, importances);
+    // Each child has its share of a line, up to its end
+    float ends[kLightGroupSize];
+    float sum = 0.0f;
+    for (uint k = 0u; k < kLightGroupSize; ++k) {
+      sum += importances[k];
+      ends[k] = sum;
+    }
+    for (uint i = first; i < count && picks.at[i].light == group; ++i) {
+      if (!(sum > 0.0f)) {
+        picks.at[i].probability = 0.0f;
+        picks.at[i].light = kLightTreeLeaf;
+        continue;
+      }
+      float place = picks.at[i].rest * sum;
+      uint child = 0u;
+      for (uint k = 0u; k < kLightGroupSize; ++k) child += place >= ends[k] ? 1u : 0u;
+      // Rounding may put the place at the end of all, where the last one is that has a share
+      if (child == kLightGroupSize) {
+        --child;
+        while (child > 0u && ends[child - 1u] >= sum) --child;
+      }
+      float begin = child > 0u ? ends[child - 1u] : 0.0f;
+      float importance = importances[child];
+      picks.at[i].rest = clamp((place - begin) / importance, 0.0f, kLargestUniform);
+      picks.at[i].probability *= importance / sum;
+      picks.at[i].light = fetch_group_link(tree, group, child);
+    }
+  }
+}

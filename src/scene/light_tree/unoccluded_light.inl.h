@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The light of all lights of a light tree at a point if nothing is in the way, in the common subset
+// of C++ and GLSL. The includer provides the type
+//   LightTreeRef  a tree
+// and
+//   uint light_tree_size(LightTreeRef tree)    its nodes; the first one is the root
+//   LightTreeNode fetch_node(LightTreeRef tree, uint node)
+//   uint emitter_count(LightTreeRef tree)      of emissive triangles: the first lights of leaves
+//   EmitterRecord fetch_emitter(LightTreeRef tree, uint emitter)
+//   LightRecord fetch_light(LightTreeRef tree, uint light)
+
+/// What the light of a leaf brings a white Lambert surface with this unit normal, as luminance
+/// [W/(m^2 sr)].
+LAMBENT_FN float light_of_leaf(LightTreeRef tree, LightTreeNode leaf, vec3 position_ws,
+                               vec3 normal_ws) {
+  uint light = leaf.link & ~kLightTreeLeaf;
+  uint emitters = emitter_count(tree);
+  if (light < emitters) {
+    EmitterRecord emitter = fetch_emitter(tree, light);
+    return leaf.intensity / emitter.area *
+           triangle_form_factor(emitter.corner_ws - position_ws, emitter.edge1_ws, emitter.edge2_ws,
+                                normal_ws);
+  }
+  PunctualSample arrived = sample_punctual(fetch_light(tree, light - emitters), position_ws);
+  return luminance(arrived.irradiance) * kInvPi * max(dot(arrived.to_light, normal_ws), 0.0f);
+}
+
+// Nodes that wait while others are opened: more than trees are deep that have two lights anywhere.
+const int kMostWaitingNodes = 48;
+
+/// Luminance that a white Lambert surface with this unit normal gets [W/(m^2 sr)], without noise
+/// and without steps. Clusters that are far away count as one light: Barnes and Hut, "A
+/// Hierarchical O(N log N) Force-Calculation Algorithm", Nature 324, 1986.
+LAMBENT_FN float unoccluded_light(LightTreeRef tree, vec3 position_ws, vec3 normal_ws) {
+  if (light_tree_size(tree) == 0u) return 0.0f;
+  uint waiting[kMostWaitingNodes];
+  float shares[kMostWaitingNodes];
+  int count = 1;
+  waiting[0] = 0u;
+  shares[0] = 1.0f;
+  float sum = 0.0f;
+  while (count > 0) {
+    --count;
+    LightTreeNode node = fetch_node(tree, waiting[count]);
+    float share = shares[count];
+    // Nothing of it is above the horizon
+    vec3 offset = node.center_ws - position_ws;
+    if (dot(normal_ws, offset) + dot(abs(normal_ws), node.half_size) <= 0.0f) continue;
+    float opened = 1.0f;
+    if (node.half_size != vec3(0.0f)) {
+      opened = count + 2 <= kMostWaitingNodes ? opened_share(node, position_ws) : 0.0f;
+    }
+    if (opened < 1.0f) {
+      sum += share * (1.0f - opened) * light_of_cluster(node, position_ws, normal_ws);
+    }
+    if (opened <= 0.0f) continue;
+    if ((node.link & kLightTreeLeaf) != 0u) {
+      sum += share * opened * light_of_leaf(tree, node, position_ws, normal_ws);
+      continue;
+    }
+    waiting[count] = node.link + 1u;
+    waiting[count + 1] = node.link;
+    shares[count] = share * opened;
+    shares[count + 1] = share * opened;
+    count += 2;
+  }
+  return sum;
+}
