@@ -68,6 +68,7 @@ using std::abs;
 using std::acos;
 using std::atan;
 using std::cos;
+using std::exp;
 using std::exp2;
 using std::floor;
 using std::log2;

@@ -33,6 +33,9 @@ LAMBENT_FN float uniform_from_bits(uint bits) {
   return float(bits >> 8u) * (1.0f / 16777216.0f);
 }
 
+/// The largest number that uniform_from_bits gives.
+const float kLargestUniform = 16777215.0f / 16777216.0f;
+
 /// A stream of random numbers; its whole state.
 struct RandomStream {
   uint state;

@@ -10,6 +10,11 @@ LAMBENT_BEGIN
 /// source does not shadow itself.
 const float kShadowRayShortening = 1e-4f;
 
+/// How far along a ray is just before its hit: what is met up to there is in front of it.
+LAMBENT_FN float before_hit(float distance) {
+  return distance * (1.0f - kShadowRayShortening);
+}
+
 /// Coordinates smaller than this [m] are offset by a constant, larger ones by units in the last
 /// place: by this many metres, or by this many units, along the normal.
 const float kRayOffsetOrigin = 1.0f / 32.0f;

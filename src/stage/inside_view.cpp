@@ -77,10 +77,11 @@ std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
     return Ray{from, 0.0f, sample.to_light, sample.distance};
   }
   const vec2 u = next_uniform2(random);
-  const EmitterPoint emitter =
-      emitter_seen(emissive_of(world).sample({u.x, u.y, next_uniform(random)}), from);
-  if (emitter.radiance == glm::vec3(0.0f)) return std::nullopt;
-  return Ray{from, 0.0f, emitter.to_light, emitter.distance * (1.0f - kShadowRayShortening)};
+  const EmissiveSample emitter = emissive_of(world).sample({u.x, u.y, next_uniform(random)});
+  const glm::vec3 way = emitter.position_ws - from;
+  const float distance = glm::length(way);
+  if (emitter.radiance == glm::vec3(0.0f) || distance <= 0.0f) return std::nullopt;
+  return Ray{from, 0.0f, way / distance, distance * (1.0f - kShadowRayShortening)};
 }
 
 /// 1 for each of the rays' hits that a light reaches; all 0 where the scene has no light.

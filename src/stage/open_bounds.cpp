@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a scene's open space ends: its bounds without the walls around it.
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -87,25 +88,30 @@ SideRays rays_at_side(const Bounds& bounds, int axis, bool upper) {
   return {std::move(rays), start};
 }
 
-/// How far the open space keeps from a side of the bounds; negative: it reaches out of them.
+/// Whether surfaces near a side of the bounds face out of it.
+bool faces_out(const World& world, const SideRays& side, float longest) {
+  std::vector<Hit> hits(side.rays.size());
+  tracer_of(world).closest_hits(side.rays, hits);
+  const float deepest = side.start + kMaxFacingDepth * longest;
+  const auto facing =
+      std::count_if(hits.begin(), hits.end(), [&](const Hit& h) { return h.distance <= deepest; });
+  return static_cast<float>(facing) >= kMinFacingShare * static_cast<float>(hits.size());
+}
+
+/// How far the open space keeps from a side of the bounds; negative: it reaches out of them, which
+/// it does in front of what faces a viewer outside.
 float side_inset(const World& world, const SolidSides& sides, bool room, const Bounds& bounds,
-                 int axis, bool upper) {
+                 int axis, bool upper, bool viewed) {
   const glm::vec3 size = bounds.max - bounds.min;
   const float longest = std::max({size.x, size.y, size.z});
   const SideRays side = rays_at_side(bounds, axis, upper);
+  if (viewed && faces_out(world, side, longest)) return -kAirShare * longest;
   std::vector<float> depths = depths_of_wall(world, sides, room, side.rays);
   for (float& depth : depths) depth -= side.start;
   constexpr auto kEnough =
       static_cast<std::size_t>(kMinWalledShare * kRaysAlongEdge * kRaysAlongEdge);
   if (depths.size() < kEnough) {
-    std::vector<Hit> hits(side.rays.size());
-    tracer_of(world).closest_hits(side.rays, hits);
-    const float deepest = side.start + kMaxFacingDepth * longest;
-    const auto facing = std::count_if(hits.begin(), hits.end(),
-                                      [&](const Hit& h) { return h.distance <= deepest; });
-    const bool faces_out =
-        static_cast<float>(facing) >= kMinFacingShare * static_cast<float>(hits.size());
-    return faces_out && !room ? -kAirShare * longest : 0.0f;
+    return !room && faces_out(world, side, longest) ? -kAirShare * longest : 0.0f;
   }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
@@ -114,15 +120,18 @@ float side_inset(const World& world, const SolidSides& sides, bool room, const B
 
 }  // namespace
 
-Bounds open_bounds(const World& world) {
+Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws) {
   const Bounds bounds = world_bounds(world.scene());
   if (bounds.empty()) return bounds;
   const bool room = is_room(world, find_subject(world));
   const SolidSides sides = find_solid_sides(world, {});
+  const glm::vec3 viewer = viewer_ws.value_or(0.5f * (bounds.min + bounds.max));
   Bounds open = bounds;
   for (int axis = 0; axis < 3; ++axis) {
-    open.min[axis] += side_inset(world, sides, room, bounds, axis, false);
-    open.max[axis] -= side_inset(world, sides, room, bounds, axis, true);
+    open.min[axis] += side_inset(world, sides, room, bounds, axis, false,
+                                 /*viewed=*/viewer[axis] < bounds.min[axis]);
+    open.max[axis] -= side_inset(world, sides, room, bounds, axis, true,
+                                 /*viewed=*/viewer[axis] > bounds.max[axis]);
   }
   return open;
 }

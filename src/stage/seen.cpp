@@ -39,15 +39,22 @@ float largest(const glm::vec3& v) {
 /// Irradiance from emissive surfaces, by some samples of them.
 float emitted_irradiance(const World& world, const LitPoint& point, int samples,
                          RandomStream& random) {
-  if (emissive_of(world).empty()) return 0.0f;
+  const EmissiveTriangles& emissive = emissive_of(world);
+  if (emissive.empty()) return 0.0f;
   float sum = 0.0f;
   const float share = 1.0f / static_cast<float>(samples);
   for (int i = 0; i < samples; ++i) {
-    const EmitterDraw draw = draw_emitter(random, i, share);
-    const EmitterPoint emitter = emitter_seen(emissive_of(world).sample(draw.u), point.position_ws);
-    const float cosine = glm::dot(point.normal_ws, emitter.to_light);
-    if (emitter.radiance == glm::vec3(0.0f) || cosine <= 0.0f) continue;
-    const LightCandidate light = emitter_candidate(emitter, point.normal_ws, share);
+    const float u = (static_cast<float>(i) + next_uniform(random)) * share;
+    const EmitterPick pick = emissive.pick(std::min(u, kLargestUniform));
+    const EmitterRecord& emitter = emissive.entries()[pick.emitter];
+    const TrianglePointSeen seen =
+        draw_on_triangle(emitter.corner_ws - point.position_ws, emitter.edge1_ws, emitter.edge2_ws,
+                         next_uniform2(random));
+    const float cosine = glm::dot(point.normal_ws, seen.to_point);
+    if (seen.pdf <= 0.0f || cosine <= 0.0f) continue;
+    const glm::vec3 radiance = emissive.radiance(emitter, seen.barycentrics);
+    const LightCandidate light = {seen.to_point, seen.distance,
+                                  radiance * (share / (seen.pdf * pick.probability)), 0};
     if (tracer_of(world).occluded(
             shadow_ray(point.position_ws, point.geometric_normal_ws, light))) {
       continue;

@@ -36,7 +36,9 @@ Build build_of_triangles(const Device& device, const TriangleGeometry& triangles
   Build build;
   build.geometry.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR;
   build.geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-  if (triangles.opaque) build.geometry.flags = VK_GEOMETRY_OPAQUE_BIT_KHR;
+  // Light that passes a surface is multiplied by its share once
+  build.geometry.flags = triangles.opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR
+                                          : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
   auto& data = build.geometry.geometry.triangles;
   data.sType = VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR;
   data.vertexFormat = VK_FORMAT_R32G32B32_SFLOAT;
