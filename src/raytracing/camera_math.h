@@ -43,9 +43,57 @@ LAMBENT_FN CameraRay camera_ray(CameraRecord camera, vec2 pixel) {
   return ray;
 }
 
+/// Where a picture shows a thing.
+struct ImagePoint {
+  vec2 pixel;   ///< As of camera_ray.
+  float depth;  ///< From the camera's plane [m]; not above 0: nowhere, as it is behind the camera.
+};
+
+/// A vector by its parts along the camera's axes, which need not be at right angles.
+LAMBENT_FN vec3 along_axes(CameraRecord camera, vec3 vector_ws) {
+  vec3 across_right = cross(camera.axes[1], camera.axes[2]);
+  vec3 across_up = cross(camera.axes[2], camera.axes[0]);
+  vec3 across_back = cross(camera.axes[0], camera.axes[1]);
+  return vec3(dot(vector_ws, across_right), dot(vector_ws, across_up),
+              dot(vector_ws, across_back)) /
+         dot(camera.axes[0], across_right);
+}
+
+/// The point of the picture for a point of the image plane whose half height is 1, +Y up.
+LAMBENT_FN vec2 pixel_of_plane(CameraRecord camera, vec2 plane) {
+  return camera.half_size + camera.half_size.y * vec2(plane.x, -plane.y);
+}
+
+/// Where the picture shows a place: camera_ray backwards.
+LAMBENT_FN ImagePoint image_point(CameraRecord camera, vec3 position_ws) {
+  vec3 view = along_axes(camera, position_ws - camera.position_ws);
+  float divisor = camera.half_view * (camera.orthographic != 0u ? 1.0f : -view.z);
+  ImagePoint point = {pixel_of_plane(camera, vec2(view.x, view.y) / divisor), -view.z};
+  return point;
+}
+
+/// Where the picture shows what lies infinitely far away in a direction. A camera of parallel rays
+/// sees one direction in all its pixels: the middle stands for them.
+LAMBENT_FN ImagePoint image_point_of_sky(CameraRecord camera, vec3 direction_ws) {
+  if (camera.orthographic != 0u) {
+    ImagePoint middle = {camera.half_size, infinity()};
+    return middle;
+  }
+  vec3 view = along_axes(camera, direction_ws);
+  ImagePoint point = {pixel_of_plane(camera, vec2(view.x, view.y) / (-view.z * camera.half_view)),
+                      view.z < 0.0f ? infinity() : 0.0f};
+  return point;
+}
+
 /// Distance of a point from the camera's plane, along the axis of view [m].
 LAMBENT_FN float view_depth(CameraRecord camera, vec3 position_ws) {
   return -dot(position_ws - camera.position_ws, normalize(camera.axes[2]));
+}
+
+/// Width of a pixel at a point that the camera sees [m].
+LAMBENT_FN float pixel_width(CameraRecord camera, vec3 position_ws) {
+  float at_unit = camera.half_view / camera.half_size.y;
+  return camera.orthographic != 0u ? at_unit : at_unit * view_depth(camera, position_ws);
 }
 
 LAMBENT_END

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that sources send straight to a point: one candidate a light, and some points of the
-// emissive triangles.
+// Light that sources send straight to a point: one candidate for each light that is asked, and some
+// samples of the light tree.
 #pragma once
 
 #include "lambent/world.h"
@@ -8,7 +8,10 @@
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
+#include "scene/light_tree/light_tree.h"
+#include "scene/media/media.h"
 #include "shared/brdf.h"
+#include "shared/color.h"
 #include "shared/rays.h"
 
 namespace lambent {
@@ -20,52 +23,107 @@ inline Ray shadow_ray(const glm::vec3& position_ws, const glm::vec3& geometric_n
   return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
 }
 
-/// A point on a surface that asks for light, with both its normals on the lit side; unit.
+/// A point on a surface that asks for light, with both its normals on the lit side; unit. A point
+/// in the air has normals of 0.
 struct LitPoint {
   glm::vec3 position_ws;
   glm::vec3 normal_ws;
   glm::vec3 geometric_normal_ws;
 };
 
+/// How a surface reflects light to a viewer.
+struct Reflector {
+  const Reflectance& reflectance;
+  Frame frame;          ///< Of the shading normal.
+  glm::vec3 to_viewer;  ///< Unit, in the frame.
+  /// Share of the coat's light that rays of its own bring, and by how many samples lights are
+  /// found; see sampled_reflection.
+  float coat_share = 0.0f;
+  uint samples = 1;
+};
+
+/// How fog sends light on to a viewer.
+struct FogReceiver {
+  const Media& media;
+  glm::vec3 view_direction_ws;  ///< Unit; of the ray from the viewer.
+};
+
+/// What candidates are drawn for: irradiance at a point, or what a reflector or fog there makes of
+/// it.
+struct LightReceiver {
+  LitPoint point;
+  const Reflector* reflector = nullptr;  ///< Null: irradiance counts, unless there is fog.
+  const FogReceiver* fog = nullptr;
+};
+
 /// What a point's candidates are drawn from.
 struct LightDraws {
   const World& world;
-  int emissive_samples;  ///< Points of emissive triangles, >= 1.
+  int tree_samples;  ///< Of the light tree, >= 1.
 };
 
 // What direct_light.inl.h asks for.
 using LitPointRef = const LitPoint&;
+using ReceiverRef = const LightReceiver&;
 using DrawsRef = const LightDraws&;
 
-inline uint light_count(const LightDraws& draws) {
-  return static_cast<uint>(draws.world.scene().lights.size());
+inline uint asked_lights(const LightDraws& draws) {
+  return static_cast<uint>(lights_of(draws.world).asked().size());
+}
+inline uint fetch_asked(const LightDraws& draws, uint slot) {
+  return lights_of(draws.world).asked()[slot];
 }
 inline LightRecord fetch_light(const LightDraws& draws, uint light) {
-  return light_record(draws.world.scene().lights[light]);
+  return lights_of(draws.world).lights()[light];
 }
-inline uint emitter_samples(const LightDraws& draws) {
-  return emissive_of(draws.world).empty() ? 0u : static_cast<uint>(draws.emissive_samples);
+inline uint tree_samples(const LightDraws& draws) {
+  return lights_of(draws.world).nodes().empty() ? 0u : static_cast<uint>(draws.tree_samples);
 }
-inline EmissiveSample fetch_emissive_sample(const LightDraws& draws, const vec3& u) {
-  return emissive_of(draws.world).sample(u);
+inline void pick_lights(const LightDraws& draws, const vec3& position_ws, const vec3& normal_ws,
+                        uint count, LightPicks& picks) {
+  lights_of(draws.world).pick(position_ws, normal_ws, count, picks);
 }
-/// Traces a ray off the point's surface, and finds the emissive triangle that it meets first, if
-/// any.
-EmitterPoint find_emitter(const LightDraws& draws, const LitPoint& point, uint sample_index,
-                          const vec3& direction);
+inline uint emitter_count(const LightDraws& draws) {
+  return static_cast<uint>(emissive_of(draws.world).size());
+}
+inline const EmitterRecord& fetch_emitter(const LightDraws& draws, uint emitter) {
+  return emissive_of(draws.world).entries()[emitter];
+}
+inline vec3 emitted_radiance(const LightDraws& draws, const EmitterRecord& emitter,
+                             const vec2& barycentrics) {
+  return emissive_of(draws.world).radiance(emitter, barycentrics);
+}
 
 #include "raytracing/direct_light.inl.h"
 
-/// Calls visit(LightCandidate) for every directional, point and spot light that reaches the point
-/// unoccluded, and for `emissive_samples` points of emissive triangles, whose expected sum is what
-/// these send.
+/// Radiance that fog sends on of a candidate's light, over what it extinguishes.
+inline vec3 scattered_light(const FogReceiver& fog, const vec3& position_ws,
+                            const LightCandidate& light) {
+  return light.perpendicular_irradiance *
+         scattering(fog.media, position_ws, fog.view_direction_ws, light.to_light);
+}
+
+inline float target_of(const LightReceiver& receiver, LightCandidate light) {
+  if (receiver.fog != nullptr) {
+    return luminance(scattered_light(*receiver.fog, receiver.point.position_ws, light));
+  }
+  if (receiver.reflector == nullptr) return luminance(unoccluded_irradiance(receiver.point, light));
+  const Reflector& to = *receiver.reflector;
+  const ReflectedPair pair = sampled_reflection(to.reflectance, to.frame, to.to_viewer,
+                                                receiver.point, light, to.coat_share, to.samples);
+  return luminance(pair.diffuse + pair.specular);
+}
+
+/// Calls visit(LightCandidate) for every light that is asked and reaches the receiver unoccluded,
+/// and for `tree_samples` samples of the light tree, whose expected sum is what its lights send.
 template <class Visit>
-void for_each_light(const World& world, const LitPoint& point, int emissive_samples,
+void for_each_light(const World& world, const LightReceiver& receiver, int tree_samples,
                     RandomStream& random, Visit visit) {
-  const LightDraws draws{world, emissive_samples};
+  const LightDraws draws{world, tree_samples};
   const uint slots = slot_count(draws);
+  LightPicks picks;
   for (uint slot = 0; slot < slots; ++slot) {
-    const LightCandidate light = candidate_of_slot(draws, point, slot, random);
+    const LightCandidate light = candidate_of_slot(draws, receiver, slot, picks, random);
     if (light.perpendicular_irradiance != vec3(0.0f)) visit(light);
   }
 }

@@ -1,51 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candidates of direct light at a point, in the common subset of C++ and GLSL. They come in slots:
-// one a light, then one a sample of the emissive triangles. The includer provides the types
-//   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws
-//   DrawsRef     lights and emissive triangles to draw from
+// one a light that is asked, then one a sample of the light tree, which holds emissive triangles
+// and, where they are many, point and spot lights. The includer provides the types
+//   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws;
+//                these are 0 of points in the air, which light reaches from all around
+//   ReceiverRef  what light is to be drawn for: its member `point` is such a point
+//   DrawsRef     lights to draw from
 // and
-//   uint light_count(DrawsRef draws)
+//   uint asked_lights(DrawsRef draws)
+//   uint fetch_asked(DrawsRef draws, uint slot)            which light is asked in a slot
 //   LightRecord fetch_light(DrawsRef draws, uint light)
-//   uint emitter_samples(DrawsRef draws)     samples of emissive triangles; 0: nothing emits
-//   EmissiveSample fetch_emissive_sample(DrawsRef draws, vec3 u)
-//   EmitterPoint find_emitter(DrawsRef draws, LitPointRef point, uint sample_index, vec3 direction)
-//       what the ray of this sample meets; an earlier kernel may have traced it
+//   uint tree_samples(DrawsRef draws)                      0: nothing is in the tree
+//   void pick_lights(DrawsRef draws, vec3 position_ws, vec3 normal_ws, uint count,
+//                    inout LightPicks picks)
+//   uint emitter_count(DrawsRef draws)                     these come first among the tree's lights
+//   EmitterRecord fetch_emitter(DrawsRef draws, uint emitter)
+//   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics)
 
-/// The direction in which a draw by the cosine looks for an emitter; 0 where that is into the
-/// surface.
-LAMBENT_FN vec3 emitter_direction(LitPointRef point, EmitterDraw draw) {
-  vec3 direction = sample_cosine_about(point.normal_ws, vec2(draw.u.y, draw.u.z));
-  return dot(point.geometric_normal_ws, direction) > 0.0f ? direction : vec3(0.0f);
-}
-
-/// Slots of a point.
-LAMBENT_FN uint slot_count(DrawsRef draws) {
-  return light_count(draws) + emitter_samples(draws);
-}
-
-/// The candidate of a slot; slots are asked in their order. What the samples of emissive triangles
-/// bring sums up, on average, to what these send.
-LAMBENT_FN LightCandidate candidate_of_slot(DrawsRef draws, LitPointRef point, uint slot,
-                                            LAMBENT_INOUT(RandomStream) random) {
-  uint lights = light_count(draws);
-  if (slot < lights) {
-    PunctualSample light = sample_punctual(fetch_light(draws, slot), point.position_ws);
-    LightCandidate candidate = {light.to_light, light.distance, light.irradiance};
-    return candidate;
-  }
-  uint sample_index = slot - lights;
-  float share = 1.0f / float(emitter_samples(draws));
-  EmitterDraw draw = draw_emitter(random, int(sample_index), share);
-  EmitterPoint emitter = no_emitter();
-  if (draw.by_cosine != 0u) {
-    vec3 direction = emitter_direction(point, draw);
-    if (direction != vec3(0.0f)) emitter = find_emitter(draws, point, sample_index, direction);
-  } else {
-    emitter = emitter_seen(fetch_emissive_sample(draws, draw.u), point.position_ws);
-  }
-  if (emitter.radiance == vec3(0.0f)) return no_candidate();
-  return emitter_candidate(emitter, point.normal_ws, share);
-}
+/// The light of a candidate that a receiver would send on, as one number. Defined by the includer,
+/// after this file.
+LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
 
 /// Irradiance that a candidate brings to a point unless something is in the way [W/m^2].
 LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
@@ -65,4 +39,96 @@ LAMBENT_FN ReflectedPair unoccluded_reflection(Reflectance reflectance, Frame fr
   reflected.diffuse *= light.perpendicular_irradiance;
   reflected.specular *= light.perpendicular_irradiance;
   return reflected;
+}
+
+/// The same of a surface of whose coat's light rays of its own bring `coat_share`: what they bring
+/// of emitters is left out here, where these are found by so many samples.
+LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame, vec3 to_viewer,
+                                            LitPointRef point, LightCandidate light,
+                                            float coat_share, uint samples) {
+  ReflectedPair reflected = unoccluded_reflection(reflectance, frame, to_viewer, point, light);
+  if (light.from_emitter != 0u) {
+    reflected.specular *= sampled_emitter_weight(
+        reflectance, to_viewer, to_local(frame, light.to_light), coat_share, samples);
+  }
+  return reflected;
+}
+
+/// Slots of a point.
+LAMBENT_FN uint slot_count(DrawsRef draws) {
+  return asked_lights(draws) + tree_samples(draws);
+}
+
+/// A light without extent.
+LAMBENT_FN LightCandidate punctual_candidate(LightRecord light, LitPointRef point) {
+  PunctualSample sampled = sample_punctual(light, point.position_ws);
+  LightCandidate candidate = {sampled.to_light, sampled.distance, sampled.irradiance, 0u};
+  return candidate;
+}
+
+/// A light of the tree that was picked, and a point on it; `second` is uniform.
+LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, LightPick pick,
+                                          float second) {
+  if (pick.probability <= 0.0f) return no_candidate();
+  uint emitters = emitter_count(draws);
+  if (pick.light >= emitters) {
+    LightRecord light = fetch_light(draws, pick.light - emitters);
+    LightCandidate punctual = punctual_candidate(light, point);
+    punctual.perpendicular_irradiance /= pick.probability;
+    return punctual;
+  }
+  EmitterRecord emitter = fetch_emitter(draws, pick.light);
+  TrianglePointSeen seen = draw_on_triangle(emitter.corner_ws - point.position_ws, emitter.edge1_ws,
+                                            emitter.edge2_ws, vec2(pick.rest, second));
+  if (seen.pdf <= 0.0f || dot(point.geometric_normal_ws, seen.to_point) < 0.0f) {
+    return no_candidate();
+  }
+  if (lies_on_triangle(point.position_ws, emitter.corner_ws, emitter.edge1_ws, emitter.edge2_ws,
+                       seen)) {
+    return no_candidate();
+  }
+  vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics);
+  LightCandidate candidate = {seen.to_point, seen.distance,
+                              radiance / (seen.pdf * pick.probability), 1u};
+  return candidate;
+}
+
+/// A sample of the tree: one of several candidates, chosen by what the receiver would make of it.
+/// What all samples of a point bring sums up, on average, to what the tree's lights send.
+LAMBENT_FN LightCandidate resampled_candidate(DrawsRef draws, ReceiverRef receiver,
+                                              uint sample_index, LAMBENT_INOUT(LightPicks) picks,
+                                              LAMBENT_INOUT(RandomStream) random) {
+  uint samples = tree_samples(draws);
+  uint count = candidates_per_sample(samples);
+  // Each candidate of each sample has a stratum of the pick to itself; the second coordinate is
+  // spread evenly over the candidates of a sample
+  float share = 1.0f / float(samples * count);
+  uint per_descent = samples_per_descent(samples);
+  if (sample_index % per_descent == 0u) {
+    uint together = min(per_descent, samples - sample_index) * count;
+    for (uint i = 0u; i < together; ++i) {
+      float place = (float(sample_index * count + i) + next_uniform(random)) * share;
+      picks.at[i].rest = min(place, kLargestUniform);
+    }
+    pick_lights(draws, receiver.point.position_ws, receiver.point.normal_ws, together, picks);
+  }
+  uint first = (sample_index % per_descent) * count;
+  float shift = next_uniform(random);
+  Resampling resampling = begin_resampling(next_uniform(random));
+  for (uint i = 0u; i < count; ++i) {
+    float second = fract(shift + float(i) * (kGoldenRatio - 1.0f));
+    LightCandidate candidate = drawn_candidate(draws, receiver.point, picks.at[first + i], second);
+    offer(resampling, candidate, target_of(receiver, candidate));
+  }
+  return resampled(resampling, share);
+}
+
+/// The candidate of a slot; slots are asked in their order, all with the same `picks`, which are
+/// made here.
+LAMBENT_FN LightCandidate candidate_of_slot(DrawsRef draws, ReceiverRef receiver, uint slot,
+                                            LAMBENT_INOUT(LightPicks) picks,
+                                            LAMBENT_INOUT(RandomStream) random) {
+  uint asked = asked_lights(draws);
+  if (slot >= asked) return resampled_candidate(draws, receiver, slot - asked, picks, random);
+  return punctual_candidate(fetch_light(draws, fetch_asked(draws, slot)), receiver.point);
 }

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emissive triangles as lights: drawn by power or by cosine, weighted by both densities.
+// Emissive triangles as lights: points drawn on them as they are seen from what they light.
 #ifndef LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 #define LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 
+#include "raytracing/coat_share.h"
 #include "raytracing/shadow_rays.h"
-#include "scene/emissive_sample.h"
+#include "scene/light_tree/light_tree_math.h"
 #include "shared/random.h"
 #include "shared/rays.h"
 #include "shared/sampling.h"
+#include "shared/spherical_triangle.h"
 
 LAMBENT_BEGIN
 
@@ -16,11 +18,12 @@ struct LightCandidate {
   vec3 to_light;                  ///< Unit.
   float distance;                 ///< To the source [m]; infinite for directional lights.
   vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
+  uint from_emitter;              ///< 1: an emissive surface sends it, which rays can meet.
 };
 
 /// A candidate that brings nothing.
 LAMBENT_FN LightCandidate no_candidate() {
-  LightCandidate none = {vec3(0.0f), 0.0f, vec3(0.0f)};
+  LightCandidate none = {vec3(0.0f), 0.0f, vec3(0.0f), 0u};
   return none;
 }
 
@@ -37,76 +40,139 @@ LAMBENT_FN RayRecord shadow_ray_record(vec3 position_ws, vec3 geometric_normal_w
   return ray;
 }
 
-/// Share of the samples of emissive surfaces that follow the cosine instead of the sources' power.
-/// Power alone is best for far lamps, but a point near an emitter then gets rare, enormous samples:
-/// the mixed density bounds them by pi / kCosineShare times the radiance.
-const float kCosineShare = 0.1f;
-
-/// An emitter seen edge on subtends nothing: no density is too high for it. Cosines are at least
-/// this.
-const float kMinEmitterCosine = 1e-6f;
-
-/// What is drawn to find a point on an emissive triangle.
-struct EmitterDraw {
-  uint by_cosine;  ///< 1: about the normal, by u.y and u.z; 0: by power.
-  vec3 u;          ///< Uniform; u.x picks the triangle.
-};
-
-/// The draw for sample `i` of 1 / `share` samples of a point.
-LAMBENT_FN EmitterDraw draw_emitter(LAMBENT_INOUT(RandomStream) random, int i, float share) {
-  uint by_cosine = next_uniform(random) < kCosineShare ? 1u : 0u;
-  // Stratify the choice of the triangle over the samples
-  float u = (float(i) + next_uniform(random)) * share;
-  vec2 v = next_uniform2(random);
-  EmitterDraw result = {by_cosine, vec3(u, v.x, v.y)};
-  return result;
-}
-
 /// A direction about a normal, drawn by the cosine.
 LAMBENT_FN vec3 sample_cosine_about(vec3 normal, vec2 u) {
   return to_world(make_frame(normal), sample_cosine_hemisphere(u));
 }
 
-/// Where an emissive triangle was found, and with which density.
-struct EmitterPoint {
-  vec3 to_light;    ///< Unit.
-  float distance;   ///< [m]
-  vec3 radiance;    ///< [W/(m^2 sr)]; 0: nothing was found.
-  float pdf_power;  ///< With which sampling by power finds it [1/sr].
+/// A triangle whose corners lie so close together [rad] is drawn from by area: distance and cosine
+/// vary over it by a few percent, and that is cheaper.
+const float kSmallTriangle = 0.02f;
+
+/// Height of a point over the plane of a triangle that is around it, in the triangle's size, below
+/// which the point counts as lying on it: the corners' rounding is of that order.
+const float kOnTriangle = 1e-6f;
+
+/// A point drawn on a triangle, as seen from another place.
+struct TrianglePointSeen {
+  vec2 barycentrics;
+  vec3 to_point;   ///< Unit.
+  float distance;  ///< [m]
+  float pdf;       ///< Over solid angle [1/sr]; 0: nothing was drawn, the triangle is not seen.
 };
 
-LAMBENT_FN EmitterPoint no_emitter() {
-  EmitterPoint none = {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f};
-  return none;
-}
+/// A point of a triangle given by its corners relative to who looks, for a uniform point of the
+/// unit square: drawn evenly from the solid angle that the triangle subtends, or from its area
+/// where it is small. So what it sends is bounded by its radiance, however near it is.
+LAMBENT_FN TrianglePointSeen draw_on_triangle(vec3 a, vec3 edge1, vec3 edge2, vec2 u) {
+  TrianglePointSeen seen = {vec2(0.0f), vec3(0.0f), 0.0f, 0.0f};
+  vec3 b = a + edge1;
+  vec3 c = a + edge2;
+  vec3 squares = vec3(dot(a, a), dot(b, b), dot(c, c));
+  if (min(squares.x, min(squares.y, squares.z)) <= 0.0f) return seen;
+  vec3 unit_a = a * inversesqrt(squares.x);
+  vec3 unit_b = b * inversesqrt(squares.y);
+  vec3 unit_c = c * inversesqrt(squares.z);
+  vec3 ab = unit_b - unit_a;
+  vec3 ac = unit_c - unit_a;
+  vec3 normal = cross(edge1, edge2);
 
-/// Density over solid angle [1/sr] of a point drawn with a density over area [1/m^2], seen under a
-/// cosine.
-LAMBENT_FN float solid_angle_pdf(float pdf_area, float squared_distance, float cosine) {
-  return pdf_area * squared_distance / max(cosine, kMinEmitterCosine);
-}
-
-/// A point of an emissive triangle, drawn or met by a ray, as seen from `position_ws`.
-LAMBENT_FN EmitterPoint emitter_seen(EmissiveSample drawn, vec3 position_ws) {
-  vec3 offset = drawn.position_ws - position_ws;
+  if (max(dot(ab, ab), dot(ac, ac)) < kSmallTriangle * kSmallTriangle) {
+    seen.barycentrics = sample_uniform_triangle(u);
+  } else {
+    SphericalTriangle triangle = spherical_triangle(unit_a, unit_b, unit_c);
+    bool around = triangle.solid_angle > kPi;
+    if (triangle.solid_angle <= 0.0f || (around && triangle.volume < kOnTriangle)) return seen;
+    // Find the point by the volumes that its direction spans with the triangle's edges
+    vec3 direction = sample_spherical_triangle(triangle, u);
+    float total = dot(direction, normal);
+    if (total == 0.0f) return seen;
+    float weight_b = clamp(dot(direction, cross(c, a)) / total, 0.0f, 1.0f);
+    float weight_c = clamp(dot(direction, cross(a, b)) / total, 0.0f, 1.0f - weight_b);
+    seen.barycentrics = vec2(weight_b, weight_c);
+    seen.pdf = 1.0f / triangle.solid_angle;
+  }
+  vec3 offset = a + seen.barycentrics.x * edge1 + seen.barycentrics.y * edge2;
   float squared = dot(offset, offset);
-  EmitterPoint emitter = no_emitter();
-  if (drawn.pdf_area <= 0.0f || squared <= 0.0f) return emitter;
-  emitter.distance = sqrt(squared);
-  emitter.to_light = offset / emitter.distance;
-  emitter.radiance = drawn.radiance;
-  emitter.pdf_power =
-      solid_angle_pdf(drawn.pdf_area, squared, abs(dot(drawn.normal_ws, emitter.to_light)));
-  return emitter;
+  if (squared <= 0.0f) {
+    seen.pdf = 0.0f;
+    return seen;
+  }
+  seen.distance = sqrt(squared);
+  seen.to_point = offset / seen.distance;
+  if (seen.pdf == 0.0f) {
+    float projected_area = 0.5f * abs(dot(normal, seen.to_point));
+    seen.pdf = projected_area > 0.0f ? squared / projected_area : 0.0f;
+  }
+  return seen;
 }
 
-/// What one of 1 / `share` samples of emitters sends to a point with this normal: the balance
-/// heuristic of one sample. Veach, "Robust Monte Carlo Methods for Light Transport Simulation",
-/// 1997, sec. 9.2.4.
-LAMBENT_FN LightCandidate emitter_candidate(EmitterPoint emitter, vec3 normal_ws, float share) {
-  float pdf_cosine = pdf_cosine_hemisphere(dot(normal_ws, emitter.to_light));
-  float pdf = mix(emitter.pdf_power, pdf_cosine, kCosineShare);
-  LightCandidate candidate = {emitter.to_light, emitter.distance, emitter.radiance * (share / pdf)};
+/// Rounding of a world position over its distance from the world's origin: eight steps of a float,
+/// for what transforms and barycentrics add to the one of the result.
+const float kPositionRounding = 1e-6f;
+
+/// Whether a point from which a triangle fills more than half of a hemisphere lies on it, as far as
+/// the rounding of world positions can tell. A point of an emissive triangle receives nothing from
+/// it; where rounding puts the point above, it would receive all of the triangle's radiance.
+LAMBENT_FN bool lies_on_triangle(vec3 position_ws, vec3 corner_ws, vec3 edge1, vec3 edge2,
+                                 TrianglePointSeen seen) {
+  if (seen.pdf * kPi >= 1.0f) return false;
+  vec3 normal = cross(edge1, edge2);
+  float rounding = kPositionRounding * max(length(position_ws), length(corner_ws));
+  return abs(dot(normal, corner_ws - position_ws)) <= rounding * length(normal);
+}
+
+/// Candidates among which a point's samples of emissive triangles choose, in all and at least for
+/// each sample. Candidates cost no ray; more of them let fewer rays go where little light is.
+const uint kCandidates = 4u;
+const uint kMinCandidates = 2u;
+
+LAMBENT_FN uint candidates_per_sample(uint samples) {
+  return max(kCandidates / samples, kMinCandidates);
+}
+
+/// Samples of a point whose candidates are picked in one descent of the light tree.
+LAMBENT_FN uint samples_per_descent(uint samples) {
+  return max(kMostPicks / candidates_per_sample(samples), 1u);
+}
+
+/// Resampled importance sampling of one out of several candidates that come one after the other.
+/// Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", EGSR 2005; with one
+/// number for all of its choices.
+struct Resampling {
+  LightCandidate chosen;
+  float chosen_target;
+  float sum;  ///< Of the targets so far.
+  float u;    ///< Uniform number that decides.
+};
+
+LAMBENT_FN Resampling begin_resampling(float u) {
+  Resampling resampling = {no_candidate(), 0.0f, 0.0f, u};
+  return resampling;
+}
+
+/// Offers a candidate, which is to be kept in proportion to its target.
+LAMBENT_FN void offer(LAMBENT_INOUT(Resampling) resampling, LightCandidate candidate,
+                      float target) {
+  if (!(target > 0.0f)) return;
+  resampling.sum += target;
+  float share = target / resampling.sum;
+  if (resampling.u < share) {
+    resampling.chosen = candidate;
+    resampling.chosen_target = target;
+    resampling.u = resampling.u / share;
+  } else {
+    resampling.u = (resampling.u - share) / (1.0f - share);
+  }
+}
+
+/// The chosen one, so weighted that it brings on average what all candidates bring together, times
+/// `scale`.
+LAMBENT_FN LightCandidate resampled(Resampling resampling, float scale) {
+  LightCandidate candidate = resampling.chosen;
+  if (resampling.sum > 0.0f) {
+    candidate.perpendicular_irradiance *= scale * resampling.sum / resampling.chosen_target;
+  }
   return candidate;
 }
 

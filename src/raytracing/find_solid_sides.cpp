@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
+#include "scene/transmission.h"
 #include "shared/sampling.h"
 
 namespace lambent {
@@ -38,8 +39,11 @@ constexpr float kMaxWallSlope = 0.5f;
 // window or a door.
 constexpr float kMinEnclosed = 0.75f;
 // Where this share of a scene's open places is enclosed, it is a room or a building seen from
-// within, and what is outside of it does not count.
+// within, and what is seen from outside counts beside that only if the caller says so.
 constexpr float kMinRoomShare = 0.6f;
+// A field is outside of the scene if it has places this far from it [its spacing]: a margin of
+// rounding, or of a box that was given in round numbers, is not.
+constexpr float kLeastBeyond = 0.1f;
 // Places stand off the grid and within its hull, so far from its edge [places]: scenes and grids
 // are made in round numbers, and a place in a wall's own plane would be on either side of it by
 // chance.
@@ -169,9 +173,9 @@ class Places {
                       tracer.closest_hits(rays, {&hits_[begin * kRays], rays.size()});
                     });
     for (std::size_t place = 0; place < count(); ++place) {
-      const auto first = hits_.begin() + static_cast<std::ptrdiff_t>(place * kRays);
+      const std::span<const Hit> seen = std::span(hits_).subspan(place * kRays, kRays);
       leaving_[place] = static_cast<std::uint32_t>(std::count_if(
-          first, first + kRays, [&](const Hit& hit) { return hit.missed() || emits(hit); }));
+          seen.begin(), seen.end(), [&](const Hit& hit) { return hit.missed() || emits(hit); }));
     }
   }
 
@@ -209,10 +213,8 @@ class Places {
       for (const std::size_t place : grid_.places_around(light.position_ws)) {
         const vec3 from = position(coords(place)), way = light.position_ws - from;
         const float distance = length(way);
-        const bool seen =
-            distance == 0.0f ||
-            !tracer_of(world_).occluded({from, 0.0f, way / distance, distance, kRayOfProbe});
-        if (seen) leaving_[place] += kRays;
+        const Ray ray = {from, 0.0f, way / distance, distance, kRayOfProbe};
+        if (distance == 0.0f || !tracer_of(world_).occluded(ray)) leaving_[place] += kRays;
       }
     }
   }
@@ -279,6 +281,17 @@ Bounds widened(const Bounds& box) {
   return {box.min - around, box.max + around};
 }
 
+/// Whether a grid has places outside of a box.
+bool reaches_out_of(const Bounds& box, const PlaceGrid& grid) {
+  const float least = kLeastBeyond * std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+  for (int corner = 0; corner < 8; ++corner) {
+    const ivec3 upper(corner & 1, corner >> 1 & 1, corner >> 2);
+    const vec3 at = grid.origin_ws + grid.axes * (grid.spacing * vec3(upper * (grid.count - 1)));
+    if (glm::any(glm::greaterThan(max(box.min - at, at - box.max), vec3(least)))) return true;
+  }
+  return false;
+}
+
 /// The sides that bound solid matter if nothing but a surface's winding is known.
 std::uint32_t sides_by_winding(const Scene& scene, const Instance& instance) {
   return scene.materials[scene.meshes[instance.mesh].material].double_sided ? 0u : kSolidBack;
@@ -319,9 +332,28 @@ std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t i
   return std::nullopt;
 }
 
+/// The sides of a triangle that both some votes and others leave solid. What the others know of the
+/// instance alone counts only if they see it from one side.
+std::uint32_t solid_in_both(std::uint32_t sides, const Votes& others, std::uint32_t instance,
+                            std::uint32_t triangle) {
+  const std::vector<Sightings>& seen = others.triangles[instance];
+  const bool known = triangle < seen.size() && seen[triangle].all() >= kMinSightings;
+  if (known) return sides & seen[triangle].solid_sides();
+  const Sightings& all = others.instances[instance];
+  const bool one_sided = all.all() >= kMinSightings && all.solid_sides() != 0u;
+  return one_sided ? sides & all.solid_sides() : sides;
+}
+
 }  // namespace
 
-SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids) {
+bool reach_out_of_scene(const World& world, std::span<const PlaceGrid> grids) {
+  const Bounds bounds = world_bounds(world.scene());
+  return std::any_of(grids.begin(), grids.end(),
+                     [&](const PlaceGrid& grid) { return reaches_out_of(bounds, grid); });
+}
+
+SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids,
+                            bool outside_counts) {
   const Scene& scene = world.scene();
   std::vector<Places> places;
   const Bounds bounds = world_bounds(scene), wide = widened(bounds);
@@ -351,9 +383,13 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   SolidSides sides = no_solid_sides(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
+    // There is light inside glass, and on both its sides
+    if (lets_light_through(scene.materials[scene.meshes[instance.mesh].material])) continue;
     const auto count = static_cast<std::uint32_t>(scene.meshes[instance.mesh].triangles.size());
     for (std::uint32_t t = 0; t < count; ++t) {
-      sides.set(i, t, judge(votes, i, t).value_or(sides_by_winding(scene, instance)));
+      std::uint32_t solid = judge(votes, i, t).value_or(sides_by_winding(scene, instance));
+      if (outside_counts && votes.size() > 1) solid = solid_in_both(solid, votes.back(), i, t);
+      sides.set(i, t, solid);
     }
   }
   for (Places& some : places) sides.open_space.push_back(std::move(some).take_open());

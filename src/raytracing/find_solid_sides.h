@@ -16,6 +16,13 @@ namespace lambent {
 /// if open space sees the other side only. Triangles that open space sees too seldom are judged by
 /// their instance, and instances by their winding. Where no place of the grids is open, all of them
 /// are taken to be. docs/math.md, "What is solid".
-SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids);
+///
+/// What sees a room from outside counts for nothing beside what sees it from within, unless
+/// `outside_counts`: the outsides of its walls are then open, too.
+SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids,
+                            bool outside_counts = false);
+
+/// Whether one of the grids has places clearly outside of the scene's bounds.
+bool reach_out_of_scene(const World& world, std::span<const PlaceGrid> grids);
 
 }  // namespace lambent

@@ -11,6 +11,13 @@ LAMBENT_BEGIN
 const uint kRayMeetsAll = 0xFFFFFFFFu;  ///< Cameras, shadows.
 const uint kRayGathers = 1u << 1;       ///< Meets what casts GI.
 const uint kRayOfProbe = 1u << 2;       ///< The same less what probes ignore.
+const uint kRayOfMotion = 1u << 3;      ///< Meets what motion is told of: AlphaMode::blend is not.
+
+/// Whether a ray may cross what lets light through (Material::transmission), by chance; others stop
+/// there.
+LAMBENT_FN bool crosses_glass(uint mask) {
+  return (mask & 1u) == 0u && (mask & (kRayGathers | kRayOfProbe)) != 0u;
+}
 
 /// A ray; as struct Ray of raytracer.h.
 struct RayRecord {
@@ -38,7 +45,7 @@ LAMBENT_FN bool missed(HitRecord hit) {
 }
 
 /// The bits of ray masks that tell instances apart: an instance's mask has all other bits.
-const uint kTellingMaskBits = 0x6u;
+const uint kTellingMaskBits = 0xEu;
 
 /// The mask of a ray or an instance in the eight bits that devices have: those that tell instances
 /// apart, and the lowest for all others.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -18,11 +19,14 @@ namespace lambent {
 
 inline constexpr float kInfiniteDistance = std::numeric_limits<float>::infinity();
 
-/// The rays that meet an instance, by its flags.
-inline std::uint32_t instance_mask(const Instance& instance) {
-  const std::uint32_t direct = kRayMeetsAll & ~(kRayGathers | kRayOfProbe);
+/// The rays that meet an instance, by its flags and its material.
+inline std::uint32_t instance_mask(const Scene& scene, const Instance& instance) {
+  const Material& material = scene.materials[scene.meshes[instance.mesh].material];
+  const bool moves = material.alpha_mode != AlphaMode::blend;
+  const std::uint32_t all = moves ? kRayMeetsAll : kRayMeetsAll & ~kRayOfMotion;
+  const std::uint32_t direct = all & ~(kRayGathers | kRayOfProbe);
   if (!instance.casts_gi) return direct;
-  return instance.ignored_by_probes ? direct | kRayGathers : kRayMeetsAll;
+  return instance.ignored_by_probes ? direct | kRayGathers : all;
 }
 
 struct Ray {
@@ -68,6 +72,8 @@ struct GeometryEdits {
 /// Finds what rays meet. Queries are const, single-threaded and safe to call from many threads at
 /// once. Triangles of AlphaMode::mask let rays through where coverage is below the cutoff; those of
 /// AlphaMode::blend let a ray through with probability 1 - coverage, decided by a hash of the hit.
+/// What lets light through (lets_light_through) stops rays, but for those that cross glass
+/// (crosses_glass): these pass with a probability that is decided by a hash of the ray.
 class RayTracer {
  public:
   virtual ~RayTracer() = default;
@@ -75,8 +81,21 @@ class RayTracer {
   /// The nearest hit of each ray. Both spans have the same length.
   virtual void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const = 0;
 
-  /// 1 for each ray that meets anything between t_min and t_max, else 0.
+  /// 1 for each ray that meets anything between t_min and t_max which lets no light through, else
+  /// 0.
   virtual void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const = 0;
+
+  /// Share of the light along each ray, between t_min and t_max, that passes straight through what
+  /// it meets there, by color; 0 where something lets none through. Of rays that cross glass: over
+  /// the probability with which they do, so that t_max may end just before their hits.
+  /// Asked of tracers that have glass alone.
+  virtual void transmittances(std::span<const Ray> /*rays*/,
+                              std::span<glm::vec3> /*through*/) const {
+    assert(!has_glass());
+  }
+
+  /// Whether some surface lets light through.
+  virtual bool has_glass() const { return false; }
 
   /// Rays a batch should have where the caller can choose: each batch has a price of its own, which
   /// is next to nothing on processors and a round trip on other devices.
@@ -99,6 +118,32 @@ class RayTracer {
     occlusions({&ray, 1}, {&result, 1});
     return result != 0;
   }
+};
+
+/// What reaches the ends of shadow rays; kept between calls to save allocations.
+class ShadowRays {
+ public:
+  /// Traces them.
+  void trace(const RayTracer& tracer, std::span<const Ray> rays) {
+    occluded_.clear();
+    through_.clear();
+    if (tracer.has_glass()) {
+      through_.resize(rays.size());
+      tracer.transmittances(rays, through_);
+    } else {
+      occluded_.resize(rays.size());
+      tracer.occlusions(rays, occluded_);
+    }
+  }
+  /// Share of the light that arrives by a ray, by color.
+  glm::vec3 share(std::size_t ray) const {
+    if (!through_.empty()) return through_[ray];
+    return glm::vec3(occluded_[ray] != 0 ? 0.0f : 1.0f);
+  }
+
+ private:
+  std::vector<std::uint8_t> occluded_;
+  std::vector<glm::vec3> through_;  // empty: nothing lets light through
 };
 
 /// How many things of `rays` rays each make a good batch for a ray tracer: at least `least`.

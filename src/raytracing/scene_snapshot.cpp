@@ -26,9 +26,9 @@ SceneSnapshot::Sky sky_of(const Environment& e) {
           e.map.width, e.map.height, e.map.empty() ? nullptr : e.map.pixels.data()};
 }
 
-Placement placement_of(const Instance& instance) {
+Placement placement_of(const Scene& scene, const Instance& instance) {
   return {instance.mesh, instance.world_from_object, instance.receives_gi, instance.dynamic,
-          instance_mask(instance)};
+          instance_mask(scene, instance)};
 }
 
 std::size_t hash_of(const Placement& placement) {
@@ -43,24 +43,25 @@ std::size_t hash_of(const Placement& placement) {
 }
 
 bool uses_texture(const Material& m, const std::vector<std::uint8_t>& edited) {
-  for (const TextureView* view :
-       {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
-        &m.emission_texture, &m.specular_texture, &m.specular_color_texture}) {
+  for (const TextureView* view : {&m.base_color_texture, &m.metallic_roughness_texture,
+                                  &m.normal_texture, &m.emission_texture, &m.specular_texture,
+                                  &m.specular_color_texture, &m.transmission_texture}) {
     if (view->texture >= 0 && edited[view->texture] != 0) return true;
   }
   return false;
 }
 
-/// Whether rays that one lets pass are stopped by the other.
+/// Whether rays that one lets pass are stopped by the other, or light that passes is another.
 bool coverage_differs(const Material& a, const Material& b, bool texture_edited) {
   if (a.alpha_mode != b.alpha_mode) return true;
+  if (lets_light_through(a) || lets_light_through(b)) return true;
   if (a.alpha_mode == AlphaMode::opaque) return false;
   return texture_edited || a.base_color.a != b.base_color.a || a.alpha_cutoff != b.alpha_cutoff ||
          a.base_color_texture != b.base_color_texture;
 }
 
 bool opaque(const SceneSnapshot& snapshot, int material) {
-  return snapshot.materials[material].alpha_mode == AlphaMode::opaque;
+  return stops_all_rays(snapshot.materials[material]);
 }
 
 class Comparison {
@@ -246,7 +247,7 @@ Expected<void> check_reach(const Scene& scene, const SceneSnapshot& before) {
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const bool still = bent[instance.mesh] == 0 && i < before.placements.size() &&
-                       before.placements[i] == placement_of(instance);
+                       before.placements[i] == placement_of(scene, instance);
     const char* flaw = still ? nullptr : flaw_of_reach(instance, bounds[instance.mesh]);
     if (flaw != nullptr) return fail(scene.source.path, place("instances", i), flaw);
   }
@@ -272,7 +273,7 @@ SceneSnapshot take_snapshot(const Scene& scene, const SceneSnapshot* before) {
   SceneSnapshot snapshot;
   snapshot.placements.reserve(scene.instances.size());
   for (const Instance& instance : scene.instances) {
-    snapshot.placements.push_back(placement_of(instance));
+    snapshot.placements.push_back(placement_of(scene, instance));
   }
   snapshot.shapes.reserve(scene.meshes.size());
   for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -317,9 +318,9 @@ Expected<void> validate_edits(const Scene& scene, const SceneSnapshot& before) {
   }
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    const bool known = i < before.placements.size() &&
-                       before.placements[i] == placement_of(instance) &&
-                       static_cast<std::size_t>(instance.mesh) < scene.meshes.size();
+    const bool known = i < before.placements.size() && instance.mesh >= 0 &&
+                       static_cast<std::size_t>(instance.mesh) < scene.meshes.size() &&
+                       before.placements[i] == placement_of(scene, instance);
     if (known) continue;
     const char* flaw = flaw_of(instance, scene.meshes.size());
     if (flaw != nullptr) return fail(file, place("instances", i), flaw);

@@ -16,12 +16,25 @@ void queue_direct_light(const World& world, const DirectLightQuery& query, std::
   const LitPoint& point = query.point;
   RandomStream random =
       make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
-  for_each_light(world, point, settings.emissive_samples, random, [&](const LightCandidate& light) {
-    const glm::vec3 irradiance = unoccluded_irradiance(point, light);
-    if (irradiance == glm::vec3(0.0f)) return;
-    scratch.pending.push_back({place, irradiance});
-    scratch.shadow_rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));
-  });
+  for_each_light(world, {point}, settings.emissive_samples, random,
+                 [&](const LightCandidate& light) {
+                   const glm::vec3 irradiance = unoccluded_irradiance(point, light);
+                   if (irradiance == glm::vec3(0.0f)) return;
+                   scratch.pending.push_back({place, irradiance});
+                   scratch.shadow_rays.push_back(
+                       shadow_ray(point.position_ws, point.geometric_normal_ws, light));
+                 });
+}
+
+/// Finds what is left of light on its way along rays that may cross glass.
+void find_what_passes(const RayTracer& tracer, std::span<const Ray> rays, std::span<const Hit> hits,
+                      ShadeHitsScratch& scratch) {
+  scratch.to_hits.assign(rays.begin(), rays.end());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    scratch.to_hits[i].t_max = before_hit(hits[i].distance);
+  }
+  scratch.through.resize(rays.size());
+  tracer.transmittances(scratch.to_hits, scratch.through);
 }
 
 }  // namespace
@@ -37,11 +50,10 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
     queue_direct_light(world, queries[i], i, settings, scratch);
   }
   // Add the light that does reach
-  scratch.occluded.resize(scratch.shadow_rays.size());
-  tracer_of(world).occlusions(scratch.shadow_rays, scratch.occluded);
+  scratch.shadows.trace(tracer_of(world), scratch.shadow_rays);
   for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
     const ShadeHitsScratch::PendingLight& light = scratch.pending[i];
-    if (scratch.occluded[i] == 0) irradiance[light.query] += light.irradiance;
+    irradiance[light.query] += scratch.shadows.share(i) * light.irradiance;
   }
   return scratch.shadow_rays.size();
 }
@@ -54,6 +66,8 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
   scratch.queries.clear();
   scratch.hits.clear();
   prefetch_surfaces(scene, hits);
+  const bool glass = tracer_of(world).has_glass();
+  if (glass) find_what_passes(tracer_of(world), rays, hits, scratch);
 
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ShadedHit& result = shaded[i];
@@ -61,6 +75,9 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     result = {{rays[i].origin, -direction, -direction}, {}, glm::vec3(0.0f)};
     if (hits[i].missed()) {
       result.surface = shaded_sky(sky_radiance(scene.environment, direction));
+      if (glass) {
+        result.surface = seen_through_glass(result.surface, scratch.through[i], 1.0f, 1.0f);
+      }
       continue;
     }
 
@@ -71,6 +88,18 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     const bool from_inside =
         settings.solid_sides != nullptr && settings.solid_sides->is_solid(hits[i]);
     result.surface = shaded_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u);
+
+    if (glass) {
+      // Rays that a pane stopped stand for those that it let pass, too
+      float weight = 1.0f;
+      if (lets_light_through(surface.transmission) && crosses_glass(rays[i].mask)) {
+        const SeenTriangle seen{hits[i].instance, hits[i].triangle, hits[i].barycentrics,
+                                hits[i].front_face};
+        weight = weight_of_stopped(straight_share_of(scene, seen, direction));
+      }
+      result.surface =
+          seen_through_glass(result.surface, scratch.through[i], weight, settings.max_albedo);
+    }
 
     // Ask for the light that may reach it
     if (result.surface.albedo_over_pi == glm::vec3(0.0f)) continue;

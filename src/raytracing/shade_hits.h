@@ -51,7 +51,9 @@ struct ShadeHitsScratch {
   std::vector<glm::vec3> direct;  // their answers
   std::vector<Ray> shadow_rays;
   std::vector<PendingLight> pending;
-  std::vector<std::uint8_t> occluded;
+  ShadowRays shadows;
+  std::vector<Ray> to_hits;        // the rays, each up to its hit
+  std::vector<glm::vec3> through;  // share of light that passes along these
 };
 
 /// Direct irradiance [W/m^2] at points, as shade_hits finds it for a hit of the same index. Spans

@@ -24,6 +24,9 @@ bool is_lambert(const Material& material) {
 bool receives_gi(const Instance& instance) {
   return instance.receives_gi;
 }
+bool bounds_volume(const Material& material) {
+  return material.bounds_volume;
+}
 
 #include "raytracing/surface.inl.h"
 
@@ -31,6 +34,16 @@ bool receives_gi(const Instance& instance) {
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint) {
   return surface_at(scene, ray.direction, hit, footprint);
+}
+
+vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen, const vec3& direction_ws) {
+  return straight_share_at(scene, seen.instance, seen.triangle, seen.barycentrics, seen.from_front,
+                           direction_ws);
+}
+
+bool passes_glass_at(const Scene& scene, const SeenTriangle& seen, const Ray& ray) {
+  const vec3 share = straight_share_of(scene, seen, ray.direction);
+  return passes_glass(share, seen.triangle, ray.origin, ray.direction);
 }
 
 void prefetch_surfaces(const Scene& scene, std::span<const Hit> hits) {

@@ -14,6 +14,22 @@ namespace lambent {
 /// there [m] and picks the textures' nearest MIP level, read bilinearly; 0 reads full resolution.
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint = 0.0f);
 
+/// A point of a triangle.
+struct SeenTriangle {
+  std::uint32_t instance;
+  std::uint32_t triangle;
+  glm::vec2 barycentrics;
+  bool from_front;
+};
+
+/// Share of the light along a straight ray that passes a triangle whose material lets light
+/// through.
+glm::vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen,
+                            const glm::vec3& direction_ws);
+
+/// Whether a ray that crosses glass passes it.
+bool passes_glass_at(const Scene& scene, const SeenTriangle& seen, const Ray& ray);
+
 /// Has the mesh data of surfaces that will be asked for under way to the caches. Calling it for a
 /// batch of hits before surface_at hides most of the wait for memory.
 void prefetch_surfaces(const Scene& scene, std::span<const Hit> hits);

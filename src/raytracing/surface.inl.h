@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // From a hit to the surface that shading sees, in the common subset of C++ and GLSL. Included after
 // attributes.inl.h. The includer provides, besides what that asks for, the type
-//   HitRef  with instance, triangle and barycentrics
+//   HitRef  with instance, triangle, barycentrics and front_face
 // and
 //   vec3 fetch_normal(MeshRef mesh, uint vertex)
 //   vec4 fetch_tangent(MeshRef mesh, uint vertex)
 //   bool has_tangents(MeshRef mesh)
 //   bool is_lambert(MaterialRef material)
 //   bool receives_gi(InstanceRef instance)
+//   bool lets_light_through(MaterialRef material)
+//   bool bounds_volume(MaterialRef material)
 
 /// Tangent with handedness, in object space, that a texture is laid out by.
 LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p, vec3 edge1,
@@ -28,23 +30,34 @@ LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, MaterialRef material
   TextureViewRef view = material.normal_texture;
   vec4 texel = mean_alone
                    ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
-                   : texture_at(scene, mesh, view, p, cone_share);
+                   : precise_texture_at(scene, mesh, view, p, cone_share);
   return map_vector(vec3(texel), material.normal_scale);
 }
 
-LAMBENT_FN Reflectance reflectance_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                      TrianglePointRef p, float cone_share) {
-  if (is_unlit(material)) return lambert_reflectance(vec3(0.0f));
+/// What a surface makes of light from outside, and the share of what enters that passes.
+struct Optics {
+  Reflectance reflectance;
+  vec3 tint;
+};
+
+LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
+                            float cone_share) {
+  Optics optics = {lambert_reflectance(vec3(0.0f)), vec3(0.0f)};
+  if (is_unlit(material)) return optics;
   vec3 base = clamp(base_color_at(scene, mesh, material, p, cone_share), 0.0f, 1.0f);
   float metallic = material.metallic;
   float roughness = material.roughness;
   bool needs_texel = !is_lambert(material) || metallic > 0.0f;
   if (needs_texel && material.metallic_roughness_texture.texture >= 0) {
-    vec4 texel = texture_at(scene, mesh, material.metallic_roughness_texture, p, cone_share);
+    vec4 texel =
+        precise_texture_at(scene, mesh, material.metallic_roughness_texture, p, cone_share);
     roughness *= texel.y;
     metallic *= texel.z;
   }
-  if (is_lambert(material)) return lambert_reflectance(base * (1.0f - metallic));
+  if (is_lambert(material)) {
+    optics.reflectance = lambert_reflectance(base * (1.0f - metallic));
+    return optics;
+  }
 
   float specular = material.specular;
   if (material.specular_texture.texture >= 0) {
@@ -54,7 +67,63 @@ LAMBENT_FN Reflectance reflectance_at(SceneRef scene, MeshRef mesh, MaterialRef 
   if (material.specular_color_texture.texture >= 0) {
     specular_color *= vec3(texture_at(scene, mesh, material.specular_color_texture, p, cone_share));
   }
-  return coated_reflectance(base, metallic, roughness, specular, specular_color, material.ior);
+  optics.reflectance =
+      coated_reflectance(base, metallic, roughness, specular, specular_color, material.ior);
+  if (lets_light_through(material)) {
+    float transmission = material.transmission;
+    if (material.transmission_texture.texture >= 0) {
+      transmission *= texture_at(scene, mesh, material.transmission_texture, p, cone_share).x;
+    }
+    optics.tint = transmission * optics.reflectance.diffuse;
+    optics.reflectance.diffuse *= 1.0f - transmission;
+  }
+  return optics;
+}
+
+/// Share of the light along a straight ray that passes a triangle which lets light through. What
+/// the far side of a volume reflects inwards leaves it elsewhere: nothing is lost there, so that a
+/// volume reflects and lets pass all light together.
+LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint triangle,
+                                  vec2 barycentrics, bool from_front, vec3 direction_ws) {
+  InstanceRef instance = fetch_instance(scene, instance_index);
+  MeshRef mesh = fetch_mesh(scene, instance.mesh);
+  MaterialRef material = fetch_material(scene, mesh.material);
+  TrianglePoint p = triangle_point(mesh, triangle, barycentrics);
+  vec3 p0 = fetch_position(mesh, p.vertices.x);
+  vec3 face_normal =
+      cross(fetch_position(mesh, p.vertices.y) - p0, fetch_position(mesh, p.vertices.z) - p0);
+  vec3 normal_ws = normalize_or(cofactors(instance.world_from_object) * face_normal, -direction_ws);
+  Optics optics = optics_at(scene, mesh, material, p, 0.0f);
+  if (bounds_volume(material) && !from_front) return optics.tint;
+  return straight_share(optics.tint, optics.reflectance, dot(normal_ws, direction_ws));
+}
+
+/// A random number in [0, 1) that belongs to a ray at a triangle. It hangs on no hit's rounding, so
+/// that rays of probes, which start at the same places everywhere, are decided alike on all
+/// devices.
+LAMBENT_FN float uniform_of_ray(vec3 origin_ws, vec3 direction_ws, uint triangle) {
+  uint salt = kGlassSalt ^ (triangle * kTriangleHashStep);
+  uvec3 from = hash_pcg3d(uvec3(floatBitsToUint(origin_ws.x) ^ salt, floatBitsToUint(origin_ws.y),
+                                floatBitsToUint(origin_ws.z)));
+  uvec3 mixed = hash_pcg3d(uvec3(floatBitsToUint(direction_ws.x) ^ from.x,
+                                 floatBitsToUint(direction_ws.y) ^ from.y,
+                                 floatBitsToUint(direction_ws.z) ^ from.z));
+  return uniform_from_bits(mixed.x);
+}
+
+/// Whether a ray that crosses glass passes a triangle that lets this share of light through.
+LAMBENT_FN bool passes_glass(vec3 share, uint triangle, vec3 origin_ws, vec3 direction_ws) {
+  return passing_probability(share) > uniform_of_ray(origin_ws, direction_ws, triangle);
+}
+
+/// How a surface lets light through that a ray sees from its front or its back.
+LAMBENT_FN Transmission transmission_of(MaterialRef material, Optics optics, bool from_outside) {
+  Transmission through = {optics.tint, kCrossesPane, vec3(0.0f), 1.0f, optics.reflectance.alpha};
+  if (optics.tint == vec3(0.0f) || !bounds_volume(material)) return through;
+  through.kind = from_outside ? kEntersVolume : kLeavesVolume;
+  through.eta = from_outside ? 1.0f / material.ior : material.ior;
+  if (!from_outside) through.absorption = material.absorption;
+  return through;
 }
 
 /// The surface at a hit (not a miss) of a ray along a direction. `footprint` is the width that the
@@ -103,12 +172,19 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   surface.normal_ws = normal_towards_viewer(normal, along_winding, from_front, direction_ws,
                                             surface.geometric_normal_ws);
 
-  surface.reflectance = reflectance_at(scene, mesh, material, p, cone_share);
+  Optics optics = optics_at(scene, mesh, material, p, cone_share);
+  surface.reflectance = optics.reflectance;
+  surface.transmission = transmission_of(material, optics, bool(hit.front_face));
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   surface.material = uint(mesh.material);
   surface.gi_share =
       receives_gi(instance)
           ? horizon_share(mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
           : 0.0f;
+  if (surface.transmission.kind == kLeavesVolume) {
+    // Inner reflection is a matter of rays that go on; no light of the room is in there
+    surface.reflectance.diffuse = surface.reflectance.f0 = vec3(0.0f);
+    surface.reflectance.f90 = surface.gi_share = 0.0f;
+  }
   return surface;
 }

@@ -7,12 +7,27 @@
 
 LAMBENT_BEGIN
 
+// Transmission::kind
+const uint kCrossesPane = 0u;   ///< The surface is thin: light goes straight on.
+const uint kEntersVolume = 1u;  ///< The ray comes from outside of a volume that refracts,
+const uint kLeavesVolume = 2u;  ///< and from inside, where reflection is inner reflection alone.
+
+/// How a surface lets light through.
+struct Transmission {
+  vec3 tint;        ///< Share of the light that enters which passes, by color; 0: none does.
+  uint kind;        ///< kCrossesPane, ...
+  vec3 absorption;  ///< Of the volume that the ray came through [1/m].
+  float eta;        ///< Index of refraction of the ray's side over that of the other one.
+  float alpha;      ///< GGX width of the surface.
+};
+
 /// A point of a surface as seen along a ray. Surfaces are two-sided: normals face the ray's origin.
 struct Surface {
   vec3 position_ws;          ///< On the triangle [m].
   vec3 normal_ws;            ///< Shading normal: interpolated, normal-mapped; unit.
   vec3 geometric_normal_ws;  ///< Of the triangle; unit.
-  Reflectance reflectance;
+  Reflectance reflectance;   ///< Nothing where the ray comes from inside a volume.
+  Transmission transmission;
   vec3 emission;  ///< Radiance [W/(m^2 sr)].
   uint material;  ///< Index into Scene::materials.
   /// Share of the field's irradiance that it receives, 0 to 1: see horizon_share(). 0: it receives
@@ -95,6 +110,33 @@ LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from
 /// their mean does, with its length: `length` is that of the mean, `cosine` dot(n, n_g).
 LAMBENT_FN float horizon_share(float length, float cosine) {
   return 0.5f + 0.5f * min(length, 1.0f) * cosine;
+}
+
+/// Of a surface that lets no light through.
+LAMBENT_FN Transmission no_transmission() {
+  Transmission none = {vec3(0.0f), kCrossesPane, vec3(0.0f), 1.0f, 1.0f};
+  return none;
+}
+
+LAMBENT_FN bool lets_light_through(Transmission transmission) {
+  return transmission.tint != vec3(0.0f);
+}
+
+/// Share of light that crosses a surface straight on, by color. Volumes are crossed straight by
+/// shadow rays and rays of probes: where light enters at this angle, it also leaves.
+LAMBENT_FN vec3 straight_share(vec3 tint, Reflectance from_outside, float cosine) {
+  return tint * (vec3(1.0f) - fresnel(from_outside, abs(cosine)));
+}
+
+/// Probability with which a ray that crosses glass passes what lets this share through.
+LAMBENT_FN float passing_probability(vec3 share) {
+  return clamp(max(share.x, max(share.y, share.z)), 0.0f, 1.0f);
+}
+
+/// Weight of rays that were stopped although they might have passed. A pane of glass stops few.
+const float kLeastStopping = 1e-4f;
+LAMBENT_FN float weight_of_stopped(vec3 share) {
+  return 1.0f / max(1.0f - passing_probability(share), kLeastStopping);
 }
 
 /// What reflects as Lambert says, exactly.

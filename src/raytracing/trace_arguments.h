@@ -13,8 +13,18 @@ struct TraceArguments {
   RayArray rays;       ///< `count` of them.
   HitArray hits;       ///< Of closest hits: one a ray.
   UintArray occluded;  ///< Of occlusion: a word a ray, 1 or 0.
+  Vec3Array through;   ///< Of light that passes: a share a ray.
   SceneArray scene;    ///< Of what is see-through.
   uint count;
+  uint to_hits;  ///< Of light that passes: 1: rays end at their hits.
+};
+
+/// What a ray's light has become of, as far as it is known.
+struct LightOnItsWay {
+  vec3 through;        ///< Share of it that passes surfaces.
+  vec3 optical_depth;  ///< Of the volumes on the way.
+  uint crosses;        ///< 1: see crosses_glass().
+  uint stopped;        ///< 1: something lets none through.
 };
 
 /// Rays go on for ever; device rays are asked no farther than this [m].

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "core/stopwatch.h"
+#include "raytracing/motion/scene_pose.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/scene_snapshot.h"
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
+#include "scene/light_tree/light_tree.h"
 #if LAMBENT_VULKAN
 #include "raytracing/vulkan/device_world.h"
 #endif
@@ -21,9 +23,10 @@ namespace {
 
 std::shared_ptr<DeviceWorld> make_device_world(const Scene& scene,
                                                const EmissiveTriangles& emissive,
+                                               const LightTree& lights,
                                                std::shared_ptr<vulkan::Device> device) {
   if (device == nullptr) return nullptr;
-  return std::make_shared<DeviceWorld>(scene, emissive, std::move(device));
+  return std::make_shared<DeviceWorld>(scene, emissive, lights, std::move(device));
 }
 
 std::shared_ptr<RayTracer> shared_tracer(const std::shared_ptr<DeviceWorld>& world) {
@@ -35,9 +38,9 @@ std::shared_ptr<vulkan::Device> shared_device(const DeviceWorld& world) {
 }
 
 void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& edits,
-                   const EmissiveTriangles& emissive) {
+                   const EmissiveTriangles& emissive, const LightTree& lights) {
   if (on_device != nullptr) {
-    on_device->update(edits, emissive);
+    on_device->update(edits, emissive, lights);
   } else if (edits.geometry_differs) {
     tracer.update(edits.geometry);
   }
@@ -47,7 +50,7 @@ void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& 
 
 // No device can be opened then
 std::shared_ptr<DeviceWorld> make_device_world(const Scene&, const EmissiveTriangles&,
-                                               std::shared_ptr<vulkan::Device>) {
+                                               const LightTree&, std::shared_ptr<vulkan::Device>) {
   return nullptr;
 }
 std::shared_ptr<RayTracer> shared_tracer(const std::shared_ptr<DeviceWorld>&) {
@@ -57,7 +60,7 @@ std::shared_ptr<vulkan::Device> shared_device(const DeviceWorld&) {
   return nullptr;
 }
 void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits,
-                   const EmissiveTriangles&) {
+                   const EmissiveTriangles&, const LightTree&) {
   if (edits.geometry_differs) tracer.update(edits.geometry);
 }
 
@@ -73,9 +76,11 @@ struct World::State::History {
 
 World::State::State(const Scene& scene, std::shared_ptr<vulkan::Device> lent)
     : emissive(std::make_unique<EmissiveTriangles>(scene)),
-      on_device(make_device_world(scene, *emissive, std::move(lent))),
+      lights(std::make_unique<LightTree>(scene, *emissive)),
+      on_device(make_device_world(scene, *emissive, *lights, std::move(lent))),
       tracer(on_device != nullptr ? shared_tracer(on_device) : make_embree_raytracer(scene)),
-      history(std::make_unique<History>()) {
+      history(std::make_unique<History>()),
+      pose(first_pose(scene)) {
   history->snapshot = take_snapshot(scene, nullptr);
 }
 
@@ -99,7 +104,14 @@ Expected<WorldChanges> World::update() {
   SceneSnapshot now = take_snapshot(*scene_, &history.snapshot);
   SceneEdits edits = compare(history.snapshot, now);
   if (edits.emitters_differ) state_->emissive = std::make_unique<EmissiveTriangles>(*scene_);
-  update_tracer(state_->on_device.get(), *state_->tracer, edits, *state_->emissive);
+  if (edits.emitters_differ || !edits.changes.lights.empty()) {
+    state_->lights->update(*scene_, *state_->emissive);
+  }
+  update_tracer(state_->on_device.get(), *state_->tracer, edits, *state_->emissive,
+                *state_->lights);
+  if (edits.geometry_differs) {
+    state_->pose = next_pose(*scene_, edits.geometry, *state_->pose);
+  }
   history.snapshot = std::move(now);
 
   edits.changes.revision = history.revision;

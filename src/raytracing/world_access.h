@@ -10,7 +10,9 @@ namespace lambent {
 
 class DeviceWorld;
 class EmissiveTriangles;
+class LightTree;
 class RayTracer;
+struct ScenePose;
 
 struct World::State {
   /// Builds everything; on the device, where it is not null.
@@ -19,9 +21,11 @@ struct World::State {
 
   struct History;
   std::unique_ptr<EmissiveTriangles> emissive;
+  std::unique_ptr<LightTree> lights;
   std::shared_ptr<DeviceWorld> on_device;  ///< Null on the processor.
   std::shared_ptr<RayTracer> tracer;       ///< The device's, where there is one.
   std::unique_ptr<History> history;
+  std::shared_ptr<const ScenePose> pose;
 };
 
 /// Opens a world to the functions below.
@@ -37,6 +41,16 @@ inline const RayTracer& tracer_of(const World& world) {
 /// What draws points on emissive surfaces. Lives until the world's next update.
 inline const EmissiveTriangles& emissive_of(const World& world) {
   return *WorldAccess::state_of(world).emissive;
+}
+
+/// All lights, and the tree that points draw them from. Lives as long as the world.
+inline const LightTree& lights_of(const World& world) {
+  return *WorldAccess::state_of(world).lights;
+}
+
+/// Where everything is. Another object after each update that found geometry to differ.
+inline const std::shared_ptr<const ScenePose>& pose_of(const World& world) {
+  return WorldAccess::state_of(world).pose;
 }
 
 /// The world as passes on its device find it; null on the processor. Lives as long as the world.

@@ -10,22 +10,39 @@
 
 namespace lambent::embree {
 
-inline void intersect(RTCScene scene, RTCRayHit& ray_hit) {
 #if LAMBENT_EMBREE_MAJOR >= 4
-  rtcIntersect1(scene, &ray_hit);
+using Context = RTCRayQueryContext;
 #else
-  RTCIntersectContext context;
+using Context = RTCIntersectContext;
+#endif
+
+inline void start(Context& context) {
+#if LAMBENT_EMBREE_MAJOR >= 4
+  rtcInitRayQueryContext(&context);
+#else
   rtcInitIntersectContext(&context);
+#endif
+}
+
+/// Filters are handed the context, which has been started.
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
+#if LAMBENT_EMBREE_MAJOR >= 4
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  rtcIntersect1(scene, &ray_hit, &arguments);
+#else
   rtcIntersect1(scene, &context, &ray_hit);
 #endif
 }
 
-inline void occluded(RTCScene scene, RTCRay& ray) {
+inline void occluded(RTCScene scene, Context& context, RTCRay& ray) {
 #if LAMBENT_EMBREE_MAJOR >= 4
-  rtcOccluded1(scene, &ray);
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
 #else
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
   rtcOccluded1(scene, &context, &ray);
 #endif
 }

@@ -11,6 +11,7 @@
 #include "raytracing/embree/geometry.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/refit.h"
+#include "scene/transmission.h"
 
 namespace lambent {
 namespace {
@@ -33,6 +34,8 @@ class EmbreeRayTracer final : public RayTracer {
 
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
+  void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
+  bool has_glass() const override { return has_glass_; }
   AccelerationStatistics statistics() const override { return statistics_; }
   void update(const GeometryEdits& edits) override;
 
@@ -76,6 +79,7 @@ class EmbreeRayTracer final : public RayTracer {
   SceneHandle still_;  // what stands still, where something else moves
   SceneHandle world_;
   bool two_levels_ = false;
+  bool has_glass_ = false;
   AccelerationStatistics statistics_;
 };
 
@@ -103,7 +107,8 @@ void EmbreeRayTracer::fail_to_build() {
 void EmbreeRayTracer::check_masks() const {
   if (rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0) return;
   for (const Placement& placement : placements_) {
-    if (placement.used && placement.mask != kRayMeetsAll) {
+    // Where rays of motion meet what is see-through, its motion is unknown: nobody needs to be told
+    if (placement.used && (placement.mask | kRayOfMotion) != kRayMeetsAll) {
       throw std::runtime_error(
           "this Embree was built without ray masks, which instances that cast no GI or that probes "
           "ignore need");
@@ -115,6 +120,7 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) fail_to_build();
   check_masks();
   const Scene& scene = *slots_.scene;
+  has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(), lets_light_through);
   statistics_.triangles = triangle_count(scene);
   statistics_.instances = scene.instances.size();
   statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));
@@ -183,7 +189,7 @@ void EmbreeRayTracer::make_mesh_scene(std::size_t mesh) {
 void EmbreeRayTracer::place(std::uint32_t slot, RTCScene into) {
   Placement& placement = placements_[slot];
   const Instance& instance = instance_at(slot);
-  placement.mask = instance_mask(instance);
+  placement.mask = instance_mask(*slots_.scene, instance);
   placement.mirrored = glm::determinant(glm::mat3(instance.world_from_object)) < 0.0f;
   if (placement.baked) {
     placement.geometry = embree::make_mesh(device_.get(), slots_.scene->meshes[instance.mesh],
@@ -266,6 +272,8 @@ void EmbreeRayTracer::update(const GeometryEdits& edits) {
   if (in_place) {
     refit(edits, bent);
   } else {
+    // Hierarchies of meshes are kept, but for those of vertices that are gone
+    for (const std::uint32_t mesh : edits.deformed) meshes_[mesh].scene.reset();
     build();
   }
   finish(&statistics_.refit_ms, watch);
@@ -322,7 +330,8 @@ void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
     query.ray = to_embree(rays[i]);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    embree::intersect(world_.get(), query);
+    embree::Query asked(embree::Query::Kind::closest, rays[i]);
+    embree::intersect(world_.get(), asked, query);
 
     Hit& hit = hits[i];
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
@@ -353,9 +362,23 @@ void EmbreeRayTracer::occlusions(std::span<const Ray> rays,
   assert(rays.size() == occluded.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     RTCRay query = to_embree(rays[i]);
-    embree::occluded(world_.get(), query);
+    embree::Query asked(embree::Query::Kind::occlusion, rays[i]);
+    embree::occluded(world_.get(), asked, query);
     // Embree marks an occluded ray by a far end of minus infinity.
     occluded[i] = query.tfar < 0.0f ? 1 : 0;
+  }
+}
+
+void EmbreeRayTracer::transmittances(std::span<const Ray> rays,
+                                     std::span<glm::vec3> through) const {
+  assert(rays.size() == through.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    RTCRay query = to_embree(rays[i]);
+    embree::Query asked(embree::Query::Kind::transmittance, rays[i]);
+    embree::occluded(world_.get(), asked, query);
+    const bool stopped = query.tfar < 0.0f;
+    through[i] =
+        stopped ? glm::vec3(0.0f) : asked.through * exp(-max(asked.optical_depth, glm::vec3(0.0f)));
   }
 }
 

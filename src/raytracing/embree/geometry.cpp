@@ -5,13 +5,35 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "raytracing/raytracer.h"
+#include "raytracing/surface.h"
 #include "scene/attributes.h"
 
 namespace lambent::embree {
 namespace {
 
+/// Whether a ray ends at a triangle that lets light through. Where it is asked what passes, the
+/// share is taken note of.
+bool stops_at_glass(const Scene& scene, const SeenTriangle& seen, float distance, Query& query) {
+  const vec3& direction_ws = query.ray.direction;
+  const bool crosses = crosses_glass(query.ray.mask);
+  if (query.kind == Query::Kind::closest) {
+    return !crosses || !passes_glass_at(scene, seen, query.ray);
+  }
+  const vec3 share = straight_share_of(scene, seen, direction_ws);
+  if (share == vec3(0.0f)) return true;
+  if (query.kind == Query::Kind::occlusion) return false;
+  query.through *= crosses ? share / passing_probability(share) : share;
+  // A volume is entered and left: the difference of the distances is the way through it
+  const Material& material =
+      scene.materials[scene.meshes[scene.instances[seen.instance].mesh].material];
+  if (material.bounds_volume) {
+    query.optical_depth += material.absorption * (seen.from_front ? -distance : distance);
+  }
+  return false;
+}
+
 /// Embree asks of each candidate hit on a triangle that may be see-through: does it count?
-void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
+void filter_see_through(const RTCFilterFunctionNArguments* args) {
   const auto& slots = *static_cast<const Slots*>(args->geometryUserPtr);
   const Scene& scene = *slots.scene;
   for (unsigned lane = 0; lane < args->N; ++lane) {
@@ -21,9 +43,19 @@ void filter_by_coverage(const RTCFilterFunctionNArguments* args) {
     const std::uint32_t instance =
         slots.instance_of[Slots::slot_of(hit.geomID, hit.instID[0], baked)];
     const float distance = RTCRayN_tfar(args->ray, args->N, lane);
-    if (!stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance)) {
-      args->valid[lane] = 0;
+    bool stops = stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance);
+    const Instance& placed = scene.instances[instance];
+    if (stops && lets_light_through(scene.materials[scene.meshes[placed.mesh].material])) {
+      const vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+      const vec3 direction(RTCRayN_dir_x(args->ray, args->N, lane),
+                           RTCRayN_dir_y(args->ray, args->N, lane),
+                           RTCRayN_dir_z(args->ray, args->N, lane));
+      const bool turned = baked && glm::determinant(mat3(placed.world_from_object)) < 0.0f;
+      const bool from_front = (dot(normal, direction) < 0.0f) != turned;
+      stops = stops_at_glass(scene, {instance, hit.primID, {hit.u, hit.v}, from_front}, distance,
+                             *static_cast<Query*>(args->context));
     }
+    if (!stops) args->valid[lane] = 0;
   }
 }
 
@@ -48,10 +80,10 @@ Geometry make_mesh(RTCDevice device, const Mesh& mesh, const Slots& slots,
                       : mesh.positions[v];
   }
   std::copy(mesh.triangles.begin(), mesh.triangles.end(), triangles);
-  if (slots.scene->materials[mesh.material].alpha_mode != AlphaMode::opaque) {
+  if (!stops_all_rays(slots.scene->materials[mesh.material])) {
     rtcSetGeometryUserData(geometry.get(), const_cast<Slots*>(&slots));
-    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_by_coverage);
-    rtcSetGeometryOccludedFilterFunction(geometry.get(), filter_by_coverage);
+    rtcSetGeometryIntersectFilterFunction(geometry.get(), filter_see_through);
+    rtcSetGeometryOccludedFilterFunction(geometry.get(), filter_see_through);
   }
   rtcSetGeometryMask(geometry.get(), kRayMeetsAll);
   return geometry;

@@ -9,6 +9,7 @@
 
 #include "lambent/scene.h"
 #include "raytracing/embree/api.h"
+#include "raytracing/raytracer.h"
 
 namespace lambent::embree {
 
@@ -28,6 +29,18 @@ inline constexpr unsigned kStillId = 0;
 inline unsigned id_of_slot(std::uint32_t slot) {
   return slot + 1;
 }
+
+/// What a ray is traced for, which the filter of see-through surfaces asks.
+struct Query : Context {
+  enum class Kind : std::uint8_t { closest, occlusion, transmittance };
+  Query(Kind asked, const Ray& traced) : kind(asked), ray(traced) { start(*this); }
+
+  Kind kind;
+  const Ray& ray;
+  // Of transmittance: the product of shares so far, and the sum of absorption times distance
+  glm::vec3 through{1.0f};
+  glm::vec3 optical_depth{0.0f};
+};
 
 /// Which instance of the scene stands in which slot, for hits and for the filter of see-through
 /// surfaces.

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/vulkan/shading_records.h"
+#include "shared/demodulate.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -14,12 +15,31 @@ void main() {
   if (i >= args.count) return;
   vec3 diffuse = vec3(0.0f);
   vec3 specular = vec3(0.0f);
+  vec3 drawn = vec3(0.0f);
+  float squares = 0.0f;
   for (uint slot = 0u; slot < args.slots; ++slot) {
     uint at = slot * args.count + i;
-    if (args.occluded.at[at] != 0u) continue;
-    diffuse += args.pairs.at[at].diffuse;
-    specular += args.pairs.at[at].specular;
+    if (args.has_glass == 0u && args.occluded.at[at] != 0u) continue;
+    ReflectedPair pair = args.pairs.at[at];
+    if (args.has_glass != 0u) {
+      vec3 share = args.through.at[at];
+      pair.diffuse *= share;
+      pair.specular *= share;
+    }
+    specular += pair.specular;
+    if (slot < args.exact_slots) {
+      diffuse += pair.diffuse;
+      continue;
+    }
+    vec3 albedo = filtered_albedo(args.surfaces.at[args.first + i].reflectance);
+    float level = luminance(pair.diffuse / albedo);
+    drawn += pair.diffuse;
+    squares += level * level;
   }
   args.diffuse.at[args.first + i] = diffuse;
   args.specular.at[args.first + i] = specular;
+  if (args.exact_slots < args.slots) {
+    args.drawn.at[args.first + i] = drawn;
+    args.drawn_squares.at[args.first + i] = squares;
+  }
 }

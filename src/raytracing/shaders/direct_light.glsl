@@ -1,53 +1,60 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to lights and emissive triangles in a device's memory, as direct_light.inl.h requires it.
-// Samples that ask for a ray of their own have it from an earlier kernel, and its hit is read.
+// Whoever includes it names ReceiverRef first, and defines target_of afterwards.
 #ifndef LAMBENT_RAYTRACING_SHADERS_DIRECT_LIGHT_GLSL
 #define LAMBENT_RAYTRACING_SHADERS_DIRECT_LIGHT_GLSL
 
 #include "raytracing/emitter_sampling.h"
 #include "raytracing/shaders/scene_fetch.glsl"
 #include "raytracing/vulkan/shading_records.h"
+#include "shared/color.h"
 
-#define EmittersRef SceneArray
+#define LightTreeRef SceneArray
 #define LitPointRef LitPointRecord
 #define DrawsRef LightDrawsArguments
 
-uint emitter_count(SceneArray scene) {
-  return scene.at[0].emitter_count;
-}
-EmitterRecord fetch_emitter(SceneArray scene, uint emitter) {
-  return scene.at[0].emitters.at[emitter];
-}
-float fetch_cumulative(SceneArray scene, uint emitter) {
-  return scene.at[0].emitter_cumulative.at[emitter];
-}
-float fetch_pdf_area(SceneArray scene, uint instance, uint triangle) {
-  uint first = scene.at[0].instances.at[instance].first_emitter_pdf;
-  return first == kEmitsNothing ? 0.0f : scene.at[0].emitter_pdfs.at[first + triangle];
-}
-
 #include "scene/emissive_sample.inl.h"
 
-uint light_count(LightDrawsArguments draws) {
-  return draws.scene.at[0].light_count;
+uint light_tree_size(SceneArray scene) {
+  return scene.at[0].light_tree_size;
+}
+uint fetch_group_link(SceneArray scene, uint group, uint child) {
+  return scene.at[0].light_groups.at[group * kLightGroupSize + child].link;
+}
+void group_importances(SceneArray scene, uint group, vec3 position_ws, vec3 normal_ws,
+                       out float importances[kLightGroupSize]) {
+  for (uint k = 0u; k < kLightGroupSize; ++k) {
+    importances[k] = light_importance(scene.at[0].light_groups.at[group * kLightGroupSize + k],
+                                      position_ws, normal_ws);
+  }
+}
+
+#include "scene/light_tree/light_tree.inl.h"
+
+uint asked_lights(LightDrawsArguments draws) {
+  return draws.scene.at[0].asked_count;
+}
+uint fetch_asked(LightDrawsArguments draws, uint slot) {
+  return draws.scene.at[0].asked.at[slot];
 }
 LightRecord fetch_light(LightDrawsArguments draws, uint light) {
   return draws.scene.at[0].lights.at[light];
 }
-uint emitter_samples(LightDrawsArguments draws) {
-  return emitter_count(draws.scene) > 0u ? draws.emissive_samples : 0u;
+uint tree_samples(LightDrawsArguments draws) {
+  return light_tree_size(draws.scene) > 0u ? draws.tree_samples : 0u;
 }
-EmissiveSample fetch_emissive_sample(LightDrawsArguments draws, vec3 u) {
-  return sample_emissive(draws.scene, draws.scene, u);
+void pick_lights(LightDrawsArguments draws, vec3 position_ws, vec3 normal_ws, uint count,
+                 inout LightPicks picks) {
+  pick_lights(draws.scene, position_ws, normal_ws, count, picks);
 }
-/// What the ray met that emitter_rays.comp.glsl wrote.
-EmitterPoint find_emitter(LightDrawsArguments draws, LitPointRecord point, uint sample_index,
-                          vec3 direction) {
-  HitRecord hit = draws.emitter_hits.at[sample_index * draws.count + gl_GlobalInvocationID.x];
-  if (missed(hit)) return no_emitter();
-  return emitter_seen(
-      emissive_point(draws.scene, draws.scene, hit.instance, hit.triangle, hit.barycentrics),
-      point.position_ws);
+uint emitter_count(LightDrawsArguments draws) {
+  return draws.scene.at[0].emitter_count;
+}
+EmitterRecord fetch_emitter(LightDrawsArguments draws, uint emitter) {
+  return draws.scene.at[0].emitters.at[emitter];
+}
+vec3 emitted_radiance(LightDrawsArguments draws, EmitterRecord emitter, vec2 barycentrics) {
+  return emitted_radiance(draws.scene, emitter, barycentrics);
 }
 
 #include "raytracing/direct_light.inl.h"

@@ -27,8 +27,10 @@ void main() {
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
   if (missed(hit)) {
     args.points.at[i] = point;
-    args.shaded.at[i] =
+    ShadedHitRecord sky =
         shaded_sky(sky_radiance(args.scene.at[0].environment, ray.direction_ws));
+    if (args.has_glass != 0u) sky = seen_through_glass(sky, args.through.at[i], 1.0f, 1.0f);
+    args.shaded.at[i] = sky;
     return;
   }
 
@@ -40,6 +42,17 @@ void main() {
   bool from_inside = args.discounts_solid_sides != 0u && is_solid_side(hit);
   ShadedHitRecord shaded =
       shaded_surface(surface, ray.direction_ws, args.max_albedo, from_inside ? 1u : 0u);
+
+  if (args.has_glass != 0u) {
+    // Rays that a pane stopped stand for those that it let pass, too
+    float weight = 1.0f;
+    if (lets_light_through(surface.transmission) && crosses_glass(ray.mask)) {
+      weight = weight_of_stopped(straight_share_at(args.scene, hit.instance, hit.triangle,
+                                                   hit.barycentrics, hit.front_face != 0u,
+                                                   ray.direction_ws));
+    }
+    shaded = seen_through_glass(shaded, args.through.at[i], weight, args.max_albedo);
+  }
 
   // Ask for the light that may reach it
   if (shaded.albedo_over_pi != vec3(0.0f)) {

@@ -2,7 +2,19 @@
 // Candidates of direct light as irradiance: shadow rays, and what arrives where they do.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "raytracing/vulkan/shading_records.h"
+
+/// What light is drawn for.
+struct IrradianceReceiver {
+  LitPointRecord point;
+};
+#define ReceiverRef IrradianceReceiver
+
 #include "raytracing/shaders/direct_light.glsl"
+
+float target_of(IrradianceReceiver receiver, LightCandidate light) {
+  return luminance(unoccluded_irradiance(receiver.point, light));
+}
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -16,12 +28,14 @@ void main() {
   bool asks = point.random_index != kAsksForNoLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
+  LightPicks picks;
   uint rays = 0u;
   for (uint slot = 0u; slot < slots; ++slot) {
     RayRecord ray = no_ray();
     vec3 unoccluded = vec3(0.0f);
     if (asks) {
-      LightCandidate light = candidate_of_slot(args, point, slot, random);
+      LightCandidate light =
+          candidate_of_slot(args, IrradianceReceiver(point), slot, picks, random);
       unoccluded = unoccluded_irradiance(point, light);
       if (unoccluded != vec3(0.0f)) ray = shadow_ray(point, light);
     }

@@ -3,7 +3,42 @@
 // worth.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "raytracing/coat_share.h"
+#include "raytracing/vulkan/shading_records.h"
+#include "shared/sampling.h"
+
+/// What light is drawn for.
+struct ReflectingReceiver {
+  LitPointRecord point;
+  Reflectance reflectance;
+  Frame frame;
+  vec3 to_viewer;  ///< In the frame.
+  float coat_share;  ///< As in sampled_reflection, as are:
+  uint samples;
+};
+#define ReceiverRef ReflectingReceiver
+
 #include "raytracing/shaders/direct_light.glsl"
+
+ReflectedPair reflection(ReflectingReceiver to, LightCandidate light) {
+  return sampled_reflection(to.reflectance, to.frame, to.to_viewer, to.point, light, to.coat_share,
+                            to.samples);
+}
+
+float target_of(ReflectingReceiver receiver, LightCandidate light) {
+  ReflectedPair pair = reflection(receiver, light);
+  return luminance(pair.diffuse + pair.specular);
+}
+
+#define MediaRef LightDrawsArguments
+uint media_count(LightDrawsArguments draws) {
+  return draws.media_count;
+}
+MediumRecord fetch_medium(LightDrawsArguments draws, uint medium) {
+  return draws.media.at[medium];
+}
+
+#include "scene/media/media.inl.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -16,17 +51,23 @@ void main() {
   LitPointRecord point = args.points.at[args.first + i];
   PixelSurfaceRecord surface = args.surfaces.at[args.first + i];
   Frame frame = make_frame(point.normal_ws);
-  vec3 to_viewer = to_local(frame, surface.to_viewer_ws);
+  ReflectingReceiver receiver =
+      ReflectingReceiver(point, surface.reflectance, frame, to_local(frame, surface.to_viewer_ws),
+                         surface.coat_share, args.tree_samples);
   bool asks = point.random_index != kAsksForNoLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
+  LightPicks picks;
   uint rays = 0u;
   for (uint slot = 0u; slot < slots; ++slot) {
     RayRecord ray = no_ray();
     ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
     if (asks) {
-      LightCandidate light = candidate_of_slot(args, point, slot, random);
-      pair = unoccluded_reflection(surface.reflectance, frame, to_viewer, point, light);
+      LightCandidate light = candidate_of_slot(args, receiver, slot, picks, random);
+      pair = reflection(receiver, light);
+      float passed = transmittance(args, point.position_ws, light.to_light, light.distance);
+      pair.diffuse *= passed;
+      pair.specular *= passed;
       if (pair.diffuse + pair.specular != vec3(0.0f)) ray = shadow_ray(point, light);
     }
     args.pairs.at[slot * args.count + i] = pair;

@@ -2,6 +2,7 @@
 // What a camera's rays met.
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "raytracing/coat_share.h"
 #include "raytracing/shaders/sky.glsl"
 #include "raytracing/shaders/surface_at.glsl"
 #include "raytracing/vulkan/shading_records.h"
@@ -19,7 +20,8 @@ void main() {
   LitPointRecord point =
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
-                                                -ray.direction_ws, kSurfaceMissed, 0.0f);
+                                                -ray.direction_ws, no_transmission(),
+                                                kSurfaceMissed, 0.0f, 0.0f);
   if (missed(hit)) {
     pixel.emission = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
   } else {
@@ -28,8 +30,12 @@ void main() {
                            args.first_index + i);
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
+    pixel.transmission = surface.transmission;
     pixel.flags = 0u;
     pixel.gi_share = surface.gi_share;
+    if (args.traces_coats != 0u && surface.gi_share > 0.0f) {
+      pixel.coat_share = traced_coat_share(surface.reflectance);
+    }
   }
   args.points.at[i] = point;
   args.surfaces.at[i] = pixel;

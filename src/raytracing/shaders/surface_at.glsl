@@ -20,6 +20,12 @@ bool has_tangents(MeshRecord mesh) {
 bool is_lambert(MaterialRecord material) {
   return (material.flags & kMaterialLambert) != 0u;
 }
+bool lets_light_through(MaterialRecord material) {
+  return (material.flags & kMaterialLetsThrough) != 0u;
+}
+bool bounds_volume(MaterialRecord material) {
+  return (material.flags & kMaterialBoundsVolume) != 0u;
+}
 bool receives_gi(InstanceRecord instance) {
   return (instance.flags & kInstanceReceivesGi) != 0u;
 }

@@ -6,6 +6,7 @@
 #include "raytracing/vulkan/mesh_layout.h"
 #include "scene/attributes.h"
 #include "scene/light_sampling.h"
+#include "scene/light_tree/light_tree.h"
 #include "scene/texture.h"
 
 namespace lambent {
@@ -38,16 +39,21 @@ MaterialRecord record_of(const Scene& scene, const Material& m) {
   record.ior = m.ior;
   record.specular = m.specular;
   record.specular_color = m.specular_color;
+  record.transmission = m.transmission;
+  record.absorption = m.absorption;
   record.alpha_cutoff = m.alpha_cutoff;
   record.alpha_mode = static_cast<uint>(m.alpha_mode);
   record.flags = (m.double_sided ? kMaterialDoubleSided : 0) | (m.unlit ? kMaterialUnlit : 0) |
-                 (m.lambert ? kMaterialLambert : 0) | (may_emit(m) ? kMaterialMayEmit : 0);
+                 (m.lambert ? kMaterialLambert : 0) | (may_emit(m) ? kMaterialMayEmit : 0) |
+                 (m.bounds_volume ? kMaterialBoundsVolume : 0) |
+                 (lets_light_through(m) ? kMaterialLetsThrough : 0);
   record.base_color_texture = record_of(scene, m.base_color_texture);
   record.metallic_roughness_texture = record_of(scene, m.metallic_roughness_texture);
   record.normal_texture = record_of(scene, m.normal_texture);
   record.emission_texture = record_of(scene, m.emission_texture);
   record.specular_texture = record_of(scene, m.specular_texture);
   record.specular_color_texture = record_of(scene, m.specular_color_texture);
+  record.transmission_texture = record_of(scene, m.transmission_texture);
   return record;
 }
 
@@ -63,18 +69,18 @@ vulkan::Texture upload_texture(const vulkan::Device& device, const Texture& text
 }  // namespace
 
 DeviceScene::DeviceScene(const vulkan::Device& device, const Scene& scene,
-                         const EmissiveTriangles& emissive)
+                         const EmissiveTriangles& emissive, const LightTree& lights)
     : device_(device), texture_set_(device) {
-  update(scene, emissive);
+  update(scene, emissive, lights);
 }
 
-void DeviceScene::update(const Scene& scene, const EmissiveTriangles& emissive) {
+void DeviceScene::update(const Scene& scene, const EmissiveTriangles& emissive,
+                         const LightTree& lights) {
   update_textures(scene);
   update_materials(scene);
   update_meshes(scene);
-  update_emitters(scene, emissive);
+  update_lights(emissive, lights);
   update_instances(scene);
-  update_lights(scene);
   update_sky(scene.environment);
   update_record(scene.environment);
 }
@@ -151,42 +157,26 @@ void DeviceScene::update_meshes(const Scene& scene) {
   meshes_.set(device_, mesh_records_, "mesh records");
 }
 
-void DeviceScene::update_emitters(const Scene& scene, const EmissiveTriangles& emissive) {
-  first_emitter_pdfs_.assign(scene.instances.size(), kEmitsNothing);
-  std::vector<float> pdfs;
-  for (const EmitterRecord& entry : emissive.entries()) {
-    std::uint32_t& first = first_emitter_pdfs_[entry.instance];
-    if (first == kEmitsNothing) {
-      first = static_cast<std::uint32_t>(pdfs.size());
-      const Mesh& mesh = scene.meshes[scene.instances[entry.instance].mesh];
-      pdfs.resize(pdfs.size() + mesh.triangles.size(), 0.0f);
-    }
-    pdfs[first + entry.triangle] = entry.probability / entry.area;
-  }
-  emitter_count_ = emissive.size();
+void DeviceScene::update_lights(const EmissiveTriangles& emissive, const LightTree& lights) {
+  emitter_count_ = static_cast<std::uint32_t>(emissive.size());
+  asked_lights_ = static_cast<std::uint32_t>(lights.asked().size());
+  tree_size_ = static_cast<std::uint32_t>(lights.nodes().size());
   emitters_.set(device_, emissive.entries(), "emitters");
-  emitter_cumulative_.set(device_, emissive.cumulative(), "cumulative power of emitters");
-  emitter_pdfs_.set(device_, std::move(pdfs), "densities of emitters");
+  lights_.set(device_, lights.lights(), "lights");
+  asked_.set(device_, lights.asked(), "lights asked");
+  light_tree_.set(device_, lights.nodes(), "light tree");
+  light_groups_.set(device_, lights.groups().nodes(), "light groups");
 }
 
 void DeviceScene::update_instances(const Scene& scene) {
   std::vector<InstanceRecord> records;
   records.reserve(scene.instances.size());
-  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
+  for (const Instance& instance : scene.instances) {
     const uint flags = (instance.receives_gi ? kInstanceReceivesGi : 0) |
                        (instance.casts_gi ? kInstanceCastsGi : 0);
-    records.push_back({instance.world_from_object, static_cast<uint>(instance.mesh), flags,
-                       first_emitter_pdfs_[i]});
+    records.push_back({instance.world_from_object, static_cast<uint>(instance.mesh), flags});
   }
   instances_.set(device_, std::move(records), "instances");
-}
-
-void DeviceScene::update_lights(const Scene& scene) {
-  std::vector<LightRecord> records;
-  for (const Light& light : scene.lights) records.push_back(light_record(light));
-  light_count_ = records.size();
-  lights_.set(device_, std::move(records), "lights");
 }
 
 void DeviceScene::update_sky(const Environment& environment) {
@@ -213,12 +203,14 @@ void DeviceScene::update_record(const Environment& environment) {
   record.meshes.address = meshes_.address();
   record.materials.address = materials_.address();
   record.lights.address = lights_.address();
+  record.asked.address = asked_.address();
   record.emitters.address = emitters_.address();
-  record.emitter_cumulative.address = emitter_cumulative_.address();
-  record.emitter_pdfs.address = emitter_pdfs_.address();
+  record.light_tree.address = light_tree_.address();
+  record.light_groups.address = light_groups_.address();
   record.environment.map.texels.address = sky_map_.address();
-  record.light_count = static_cast<uint>(light_count_);
-  record.emitter_count = static_cast<uint>(emitter_count_);
+  record.asked_count = asked_lights_;
+  record.emitter_count = emitter_count_;
+  record.light_tree_size = tree_size_;
   record.environment.radiance = environment.radiance;
   record.environment.rotation = environment.rotation;
   record.environment.map.width = sky_data_.width;
@@ -228,8 +220,8 @@ void DeviceScene::update_record(const Environment& environment) {
 
 std::size_t DeviceScene::bytes() const {
   std::size_t sum = sky_map_.bytes() + materials_.bytes() + meshes_.bytes() + instances_.bytes() +
-                    lights_.bytes() + emitters_.bytes() + emitter_cumulative_.bytes() +
-                    emitter_pdfs_.bytes() + record_.bytes();
+                    lights_.bytes() + emitters_.bytes() + asked_.bytes() + light_tree_.bytes() +
+                    light_groups_.bytes() + record_.bytes();
   for (const MeshData& data : mesh_data_) sum += data.bytes;
   for (const TextureData& data : texture_data_) sum += data.texture.bytes();
   return sum;

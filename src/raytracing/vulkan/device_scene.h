@@ -19,6 +19,7 @@
 namespace lambent {
 
 class EmissiveTriangles;
+class LightTree;
 
 /// An array of records on a device, of which only what differs is written again.
 template <class Record>
@@ -52,14 +53,15 @@ class DeviceTable {
 
 class DeviceScene {
  public:
-  /// Brings a scene and its table of emitters to the device, which must outlive it. Throws
-  /// std::runtime_error where memory runs out or the device takes no more textures.
-  DeviceScene(const vulkan::Device& device, const Scene& scene, const EmissiveTriangles& emissive);
+  /// Brings a scene and its lights to the device, which must outlive it. Throws std::runtime_error
+  /// where memory runs out or the device takes no more textures.
+  DeviceScene(const vulkan::Device& device, const Scene& scene, const EmissiveTriangles& emissive,
+              const LightTree& lights);
 
   /// Follows edits: records are compared; of meshes, textures and the environment's map the
   /// `revision` is, and their size. Not to be called while the device works with the scene. Command
   /// buffers recorded before are void. Throws as the constructor does.
-  void update(const Scene& scene, const EmissiveTriangles& emissive);
+  void update(const Scene& scene, const EmissiveTriangles& emissive, const LightTree& lights);
 
   /// What kernels take. The same after an update.
   SceneArray address() const { return {record_.address()}; }
@@ -69,8 +71,10 @@ class DeviceScene {
   /// (VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR).
   const MeshRecord& mesh(std::size_t index) const { return mesh_records_[index]; }
 
-  std::uint32_t lights() const { return static_cast<std::uint32_t>(light_count_); }
-  bool has_emitters() const { return emitter_count_ > 0; }
+  /// Lights that each point asks.
+  std::uint32_t asked_lights() const { return asked_lights_; }
+  /// Whether there are more, from which points draw.
+  bool has_light_tree() const { return tree_size_ > 0; }
   const vulkan::Device& device() const { return device_; }
   /// Memory held on the device.
   std::size_t bytes() const;
@@ -97,9 +101,8 @@ class DeviceScene {
   void update_textures(const Scene& scene);
   void update_materials(const Scene& scene);
   void update_meshes(const Scene& scene);
-  void update_emitters(const Scene& scene, const EmissiveTriangles& emissive);
+  void update_lights(const EmissiveTriangles& emissive, const LightTree& lights);
   void update_instances(const Scene& scene);
-  void update_lights(const Scene& scene);
   void update_sky(const Environment& environment);
   void update_record(const Environment& environment);
 
@@ -108,8 +111,7 @@ class DeviceScene {
   vulkan::TextureSet texture_set_;
   std::vector<MeshData> mesh_data_;
   std::vector<MeshRecord> mesh_records_;
-  std::vector<std::uint32_t> first_emitter_pdfs_;  // by instance
-  std::size_t light_count_ = 0, emitter_count_ = 0;
+  std::uint32_t asked_lights_ = 0, emitter_count_ = 0, tree_size_ = 0;
   SkyData sky_data_;
   vulkan::Buffer sky_map_;
   DeviceTable<MaterialRecord> materials_;
@@ -117,7 +119,8 @@ class DeviceScene {
   DeviceTable<InstanceRecord> instances_;
   DeviceTable<LightRecord> lights_;
   DeviceTable<EmitterRecord> emitters_;
-  DeviceTable<float> emitter_cumulative_, emitter_pdfs_;
+  DeviceTable<std::uint32_t> asked_;
+  DeviceTable<LightTreeNode> light_tree_, light_groups_;
   DeviceTable<SceneRecord> record_;
 };
 

@@ -2,6 +2,7 @@
 // What passes on a device ask of a ray tracer: acceleration structures of ours, or an engine's.
 #pragma once
 
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 
@@ -41,6 +42,17 @@ class DeviceTracer {
   /// there is, else 0, which it is for rays that are not traced, too.
   virtual void occlusions(vulkan::Recorder& recorder, const RayBatch& batch,
                           UintArray occluded) const = 0;
+
+  /// As RayTracer::has_glass.
+  virtual bool has_glass() const { return false; }
+
+  /// Records the search for what light passes, as RayTracer::transmittances; of tracers that have
+  /// glass. `hits`: rays end just before these; of address 0: at their own ends. `through`: a share
+  /// a ray, 1 for rays that are not traced.
+  virtual void transmittances(vulkan::Recorder& /*recorder*/, const RayBatch& /*batch*/,
+                              HitArray /*hits*/, Vec3Array /*through*/) const {
+    assert(!has_glass());
+  }
 };
 
 }  // namespace lambent

@@ -13,17 +13,18 @@
 namespace lambent {
 
 class EmissiveTriangles;
+class LightTree;
 
 class DeviceWorld {
  public:
-  /// Brings a scene, which must outlive it, and its emitters to the device. Throws
+  /// Brings a scene, which must outlive it, and its lights to the device. Throws
   /// std::runtime_error where the device's memory runs out.
-  DeviceWorld(const Scene& scene, const EmissiveTriangles& emissive,
+  DeviceWorld(const Scene& scene, const EmissiveTriangles& emissive, const LightTree& lights,
               std::shared_ptr<vulkan::Device> device);
 
-  /// Follows edits of the scene and of its table of emitters. Not to be called while the device
-  /// works on the world; command buffers recorded before are void.
-  void update(const SceneEdits& edits, const EmissiveTriangles& emissive);
+  /// Follows edits of the scene and of its lights. Not to be called while the device works on the
+  /// world; command buffers recorded before are void.
+  void update(const SceneEdits& edits, const EmissiveTriangles& emissive, const LightTree& lights);
 
   const vulkan::Device& device() const { return *device_; }
   std::shared_ptr<vulkan::Device> shared_device() const { return device_; }

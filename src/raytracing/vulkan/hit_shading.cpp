@@ -6,7 +6,6 @@
 
 #include "shaders/collect_irradiance_comp.h"
 #include "shaders/collect_reflected_comp.h"
-#include "shaders/emitter_rays_comp.h"
 #include "shaders/hit_surfaces_comp.h"
 #include "shaders/light_irradiance_comp.h"
 #include "shaders/light_reflected_comp.h"
@@ -26,7 +25,6 @@ constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
 HitShadingKernels::HitShadingKernels(const vulkan::Device& device)
     : hit_surfaces(device, shaders::hit_surfaces_comp(), "hit surfaces"),
       pixel_surfaces(device, shaders::pixel_surfaces_comp(), "pixel surfaces"),
-      emitter_rays(device, shaders::emitter_rays_comp(), "emitter rays"),
       light_irradiance(device, shaders::light_irradiance_comp(), "light as irradiance"),
       light_reflected(device, shaders::light_reflected_comp(), "light as reflected"),
       collect_irradiance(device, shaders::collect_irradiance_comp(), "collect irradiance"),
@@ -43,8 +41,9 @@ template <class Work>
 void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
                                 const ShadeHitsSettings& settings, Work work) {
   Chunk chunk{};
-  chunk.samples = scene.has_emitters() ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
-  chunk.slots = scene.lights() + chunk.samples;
+  chunk.samples =
+      scene.has_light_tree() ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
+  chunk.slots = scene.asked_lights() + chunk.samples;
   const std::uint32_t most = std::clamp(kMaxSlots / std::max(chunk.slots, 1u), 1u, kMaxInvocations);
   chunk.count = std::min(most, count);
   reserve(chunk);
@@ -64,30 +63,10 @@ void HitShading::grow(std::size_t bytes, const char* name, vulkan::Buffer& buffe
 }
 
 void HitShading::reserve(const Chunk& chunk) {
-  const std::size_t samples = std::size_t{chunk.count} * chunk.samples;
   const std::size_t slots = std::size_t{chunk.count} * chunk.slots;
-  grow(samples * sizeof(RayRecord), "emitter rays", emitter_ray_memory_);
-  grow(samples * sizeof(HitRecord), "emitter hits", emitter_hit_memory_);
   grow(slots * sizeof(RayRecord), "shadow rays", shadow_ray_memory_);
   grow(slots * sizeof(ReflectedPair), "unoccluded light of shadow rays", unoccluded_memory_);
-  grow(slots * sizeof(uint), "occlusions", occlusion_memory_);
-}
-
-void HitShading::find_emitters(vulkan::Recorder& recorder, const DeviceStage& stage,
-                               LitPointArray points, const Chunk& chunk,
-                               const ShadeHitsSettings& settings) {
-  if (chunk.samples == 0) return;
-  const RayArray rays = {emitter_ray_memory_.address()};
-  const EmitterRaysArguments arguments = {stage.scene.address(), points,        rays,
-                                          chunk.first,           chunk.count,   chunk.samples,
-                                          settings.salt,         settings.seed, 0};
-  recorder.run(kernels_.emitter_rays, arguments, chunk.count);
-  recorder.barrier();
-  RayBatch batch;
-  batch.rays = rays;
-  batch.count = chunk.count * chunk.samples;
-  stage.tracer.closest_hits(recorder, batch, {emitter_hit_memory_.address()});
-  recorder.barrier();
+  grow(slots * sizeof(vec3), "what arrives of shadow rays", occlusion_memory_);
 }
 
 LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray points,
@@ -95,15 +74,15 @@ LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray po
   LightDrawsArguments arguments{};
   arguments.scene = stage.scene.address();
   arguments.points = points;
-  arguments.emitter_rays.address = emitter_ray_memory_.address();
-  arguments.emitter_hits.address = emitter_hit_memory_.address();
   arguments.shadow_rays.address = shadow_ray_memory_.address();
   arguments.ray_count.address = ray_count_.address();
   arguments.first = chunk.first;
   arguments.count = chunk.count;
-  arguments.emissive_samples = chunk.samples;
+  arguments.tree_samples = chunk.samples;
   arguments.salt = settings.salt;
   arguments.seed = settings.seed;
+  arguments.media = stage.media.records;
+  arguments.media_count = stage.media.count;
   return arguments;
 }
 
@@ -121,16 +100,21 @@ void HitShading::trace_shadows(vulkan::Recorder& recorder, const DeviceStage& st
   RayBatch batch;
   batch.rays.address = shadow_ray_memory_.address();
   batch.count = chunk.count * chunk.slots;
-  stage.tracer.occlusions(recorder, batch, {occlusion_memory_.address()});
+  if (stage.tracer.has_glass()) {
+    stage.tracer.transmittances(recorder, batch, {}, {occlusion_memory_.address()});
+  } else {
+    stage.tracer.occlusions(recorder, batch, {occlusion_memory_.address()});
+  }
   recorder.barrier();
 }
 
-CollectArguments HitShading::collecting(const Chunk& chunk) const {
+CollectArguments HitShading::collecting(const DeviceStage& stage, const Chunk& chunk) const {
   CollectArguments arguments{};
-  arguments.occluded.address = occlusion_memory_.address();
+  arguments.has_glass = stage.tracer.has_glass() ? 1 : 0;
+  arguments.occluded.address = arguments.through.address = occlusion_memory_.address();
   arguments.first = chunk.first;
   arguments.count = chunk.count;
-  arguments.slots = chunk.slots;
+  arguments.slots = arguments.exact_slots = chunk.slots;
   return arguments;
 }
 
@@ -138,6 +122,13 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
                             const DeviceHits& hits, UintArray first_indices,
                             std::uint32_t rays_per_index, const ShadeHitsSettings& settings,
                             const DeviceShadedHits& out) {
+  const bool glass = stage.tracer.has_glass();
+  if (glass) {
+    grow(hits.count * sizeof(vec3), "what passes along rays", through_memory_);
+    stage.tracer.transmittances(recorder, {hits.rays, hits.count}, hits.hits,
+                                {through_memory_.address()});
+    recorder.barrier();
+  }
   recorder.bind_textures(stage.scene.textures());
   for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
     HitSurfacesArguments arguments{};
@@ -155,6 +146,8 @@ void HitShading::shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage
     arguments.solid_first_words = stage.solid_sides.first_words;
     arguments.solid_words = stage.solid_sides.words;
     arguments.discounts_solid_sides = stage.solid_sides.words.address != 0 ? 1 : 0;
+    arguments.has_glass = glass ? 1 : 0;
+    if (glass) arguments.through.address = through_memory_.address();
     recorder.run(kernels_.hit_surfaces, arguments, arguments.count);
   }
   recorder.barrier();
@@ -166,12 +159,11 @@ void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage
                                    const ShadeHitsSettings& settings, Vec3Array irradiance) {
   recorder.bind_textures(stage.scene.textures());
   for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
-    find_emitters(recorder, stage, points, chunk, settings);
     LightDrawsArguments arguments = draws(stage, points, chunk, settings);
     arguments.unoccluded_irradiance.address = unoccluded_memory_.address();
     recorder.run(kernels_.light_irradiance, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
-    CollectArguments collect = collecting(chunk);
+    CollectArguments collect = collecting(stage, chunk);
     collect.unoccluded_irradiance.address = unoccluded_memory_.address();
     collect.irradiance = irradiance;
     recorder.run(kernels_.collect_irradiance, collect, chunk.count);
@@ -181,7 +173,7 @@ void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage
 
 void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage,
                                 const DeviceHits& hits, std::uint32_t first_index,
-                                const DevicePixels& out) {
+                                bool traces_coats, const DevicePixels& out) {
   recorder.bind_textures(stage.scene.textures());
   for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
     PixelSurfacesArguments arguments{};
@@ -193,6 +185,7 @@ void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& s
     arguments.first = first;
     arguments.count = std::min(kMaxInvocations, hits.count - first);
     arguments.first_index = first_index;
+    arguments.traces_coats = traces_coats ? 1 : 0;
     recorder.run(kernels_.pixel_surfaces, arguments, arguments.count);
   }
   recorder.barrier();
@@ -204,16 +197,21 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
                                  const DeviceReflectedLight& out) {
   recorder.bind_textures(stage.scene.textures());
   for_each_chunk(stage.scene, count, settings, [&](const Chunk& chunk) {
-    find_emitters(recorder, stage, pixels.points, chunk, settings);
     LightDrawsArguments arguments = draws(stage, pixels.points, chunk, settings);
     arguments.pairs.address = unoccluded_memory_.address();
     arguments.surfaces = pixels.surfaces;
     recorder.run(kernels_.light_reflected, arguments, chunk.count);
     trace_shadows(recorder, stage, chunk);
-    CollectArguments collect = collecting(chunk);
+    CollectArguments collect = collecting(stage, chunk);
     collect.pairs.address = unoccluded_memory_.address();
     collect.diffuse = out.diffuse;
     collect.specular = out.specular;
+    if (out.drawn.address != 0) {
+      collect.exact_slots = chunk.slots - chunk.samples;
+      collect.drawn = out.drawn;
+      collect.drawn_squares = out.drawn_squares;
+      collect.surfaces = pixels.surfaces;
+    }
     recorder.run(kernels_.collect_reflected, collect, chunk.count);
     recorder.barrier();
   });

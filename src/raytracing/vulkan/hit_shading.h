@@ -23,11 +23,18 @@ struct DeviceSolidSides {
   UintArray words = {};
 };
 
+/// Fog on a device.
+struct DeviceMedia {
+  MediumArray records = {};
+  std::uint32_t count = 0;
+};
+
 /// What passes read: the scene, and what traces rays through it.
 struct DeviceStage {
   const DeviceScene& scene;
   const DeviceTracer& tracer;
   DeviceSolidSides solid_sides = {};  ///< Where none are given, all rays count.
+  DeviceMedia media = {};             ///< Fog that dims light on its way to pixels.
 };
 
 /// Rays that were traced.
@@ -54,12 +61,16 @@ struct DevicePixels {
 struct DeviceReflectedLight {
   Vec3Array diffuse;
   Vec3Array specular;
+  /// The diffuse light that is drawn at random, and sums of squares of luminance of the draws,
+  /// without albedo. Addresses of 0: it is part of `diffuse`.
+  Vec3Array drawn = {};
+  FloatArray drawn_squares = {};
 };
 
 /// Kept by the device (Device::kept).
 struct HitShadingKernels {
   explicit HitShadingKernels(const vulkan::Device& device);
-  vulkan::Kernel hit_surfaces, pixel_surfaces, emitter_rays;
+  vulkan::Kernel hit_surfaces, pixel_surfaces;
   vulkan::Kernel light_irradiance, light_reflected, collect_irradiance, collect_reflected;
 };
 
@@ -82,8 +93,9 @@ class HitShading {
                          Vec3Array irradiance);
 
   /// The surfaces that a camera's rays met; ray 0 is pixel `first_index` of the image.
+  /// `traces_coats`: rays of their own bring coats' light, see coat_share.h.
   void pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage, const DeviceHits& hits,
-                      std::uint32_t first_index, const DevicePixels& out);
+                      std::uint32_t first_index, bool traces_coats, const DevicePixels& out);
 
   /// As shade_direct. Of the settings, the emissive samples, the salt (the frame's sample) and the
   /// seed count.
@@ -99,24 +111,21 @@ class HitShading {
   /// Points that are worked on at once, so that their slots fit into memory of a fixed size.
   struct Chunk {
     std::uint32_t first, count;
-    std::uint32_t samples, slots;  // of emitters, and of all, a point
+    std::uint32_t samples, slots;  // of the light tree, and of all, a point
   };
   template <class Work>
   void for_each_chunk(const DeviceScene& scene, std::uint32_t count,
                       const ShadeHitsSettings& settings, Work work);
   void reserve(const Chunk& chunk);
   void grow(std::size_t bytes, const char* name, vulkan::Buffer& buffer);
-  void find_emitters(vulkan::Recorder& recorder, const DeviceStage& stage, LitPointArray points,
-                     const Chunk& chunk, const ShadeHitsSettings& settings);
   LightDrawsArguments draws(const DeviceStage& stage, LitPointArray points, const Chunk& chunk,
                             const ShadeHitsSettings& settings) const;
   void trace_shadows(vulkan::Recorder& recorder, const DeviceStage& stage, const Chunk& chunk);
-  CollectArguments collecting(const Chunk& chunk) const;
+  CollectArguments collecting(const DeviceStage& stage, const Chunk& chunk) const;
 
   const vulkan::Device& device_;
   const HitShadingKernels& kernels_;
-  vulkan::Buffer emitter_ray_memory_, emitter_hit_memory_;
-  vulkan::Buffer shadow_ray_memory_, unoccluded_memory_, occlusion_memory_;
+  vulkan::Buffer shadow_ray_memory_, unoccluded_memory_, occlusion_memory_, through_memory_;
   vulkan::Buffer ray_count_;
   std::vector<vulkan::Buffer> outgrown_;  // commands may still refer to them
 };

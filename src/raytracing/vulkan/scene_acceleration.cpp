@@ -6,6 +6,7 @@
 #include "core/checksum.h"
 #include "raytracing/ray_records.h"
 #include "raytracing/refit.h"
+#include "scene/transmission.h"
 #include "vulkan/device.h"
 
 namespace lambent {
@@ -30,7 +31,7 @@ SceneAcceleration::SceneAcceleration(const vulkan::Device& device, const Scene& 
 
 vulkan::TriangleGeometry SceneAcceleration::geometry(std::size_t mesh) const {
   vulkan::TriangleGeometry geometry = geometry_of_(mesh);
-  geometry.opaque = scene_.materials[scene_.meshes[mesh].material].alpha_mode == AlphaMode::opaque;
+  geometry.opaque = stops_all_rays(scene_.materials[scene_.meshes[mesh].material]);
   geometry.deforms = shapes_[mesh].deforms;
   return geometry;
 }
@@ -66,7 +67,7 @@ void SceneAcceleration::place_instances(vulkan::Recorder& recorder) {
   for (const Instance& instance : scene_.instances) {
     placed.push_back({instance.world_from_object, shapes_[instance.mesh].structure.address(),
                       static_cast<std::uint32_t>(placed.size()),
-                      static_cast<std::uint8_t>(device_mask(instance_mask(instance)))});
+                      static_cast<std::uint8_t>(device_mask(instance_mask(scene_, instance)))});
   }
   instances_.build(recorder, placed);
 }

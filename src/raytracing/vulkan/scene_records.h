@@ -5,6 +5,7 @@
 
 #include "raytracing/ray_records.h"
 #include "scene/emissive_sample.h"
+#include "scene/light_tree/light_tree_math.h"
 #include "scene/punctual_light.h"
 
 LAMBENT_BEGIN
@@ -41,6 +42,8 @@ const uint kMaterialDoubleSided = 1u;
 const uint kMaterialUnlit = 2u;
 const uint kMaterialLambert = 4u;
 const uint kMaterialMayEmit = 8u;  ///< Some point of it may.
+const uint kMaterialBoundsVolume = 16u;
+const uint kMaterialLetsThrough = 32u;  ///< Light; see lets_light_through().
 
 /// As struct Material of scene.h.
 struct MaterialRecord {
@@ -52,6 +55,8 @@ struct MaterialRecord {
   float ior;
   float specular;
   vec3 specular_color;
+  float transmission;
+  vec3 absorption;  ///< [1/m]
   float alpha_cutoff;
   uint alpha_mode;  ///< kAlphaOpaque, ...
   uint flags;
@@ -61,6 +66,7 @@ struct MaterialRecord {
   TextureViewRecord emission_texture;
   TextureViewRecord specular_texture;
   TextureViewRecord specular_color_texture;
+  TextureViewRecord transmission_texture;
 };
 
 // MeshRecord::attributes: which arrays there are besides positions, normals and triangles.
@@ -85,16 +91,12 @@ struct MeshRecord {
 // InstanceRecord::flags
 const uint kInstanceReceivesGi = 1u;
 const uint kInstanceCastsGi = 2u;
-/// InstanceRecord::first_emitter_pdf where nothing emits.
-const uint kEmitsNothing = 0xFFFFFFFFu;
 
 /// As struct Instance of scene.h.
 struct InstanceRecord {
   mat4 world_from_object;
   uint mesh;
   uint flags;
-  /// Where the densities of its triangles begin in SceneRecord::emitter_pdfs.
-  uint first_emitter_pdf;
 };
 
 LAMBENT_DEVICE_ARRAY(MaterialArray, MaterialRecord, 4)
@@ -102,6 +104,7 @@ LAMBENT_DEVICE_ARRAY(MeshArray, MeshRecord, 8)
 LAMBENT_DEVICE_ARRAY(InstanceArray, InstanceRecord, 4)
 LAMBENT_DEVICE_ARRAY(LightArray, LightRecord, 4)
 LAMBENT_DEVICE_ARRAY(EmitterArray, EmitterRecord, 4)
+LAMBENT_DEVICE_ARRAY(LightTreeArray, LightTreeNode, 4)
 
 /// A latitude-longitude map of radiance.
 struct EnvironmentMapRecord {
@@ -123,13 +126,14 @@ struct SceneRecord {
   MeshArray meshes;
   MaterialArray materials;
   LightArray lights;
+  UintArray asked;  ///< Lights that every point asks.
   EmitterArray emitters;
-  FloatArray emitter_cumulative;  ///< Upper end of each emitter's interval of [0, 1).
-  /// Density with which points of a triangle are drawn [1/m^2], for all triangles of instances that
-  /// emit.
-  FloatArray emitter_pdfs;
-  uint light_count;
+  LightTreeArray light_tree;
+  LightTreeArray light_groups;  ///< The same, as struct LightGroups has it.
+  uint asked_count;
   uint emitter_count;
+  uint light_tree_size;
+  uint padding;
   EnvironmentRecord environment;
 };
 LAMBENT_DEVICE_ARRAY(SceneArray, SceneRecord, 8)

@@ -5,6 +5,7 @@
 
 #include "raytracing/shaded_hit.h"
 #include "raytracing/vulkan/scene_records.h"
+#include "scene/media/medium.h"
 
 LAMBENT_BEGIN
 
@@ -25,8 +26,10 @@ struct PixelSurfaceRecord {
   Reflectance reflectance;
   vec3 emission;      ///< [W/(m^2 sr)]; of a ray that left the scene, the sky's radiance.
   vec3 to_viewer_ws;  ///< Unit; back along the ray.
+  Transmission transmission;
   uint flags;
-  float gi_share;  ///< As in Surface.
+  float gi_share;    ///< As in Surface.
+  float coat_share;  ///< As in GBuffer; 0: no rays bring the coat's light.
 };
 
 LAMBENT_DEVICE_ARRAY(LitPointArray, LitPointRecord, 4)
@@ -45,12 +48,15 @@ struct HitSurfacesArguments {
   ShadedHitArray shaded;
   /// As in SolidSides. Read only where discounts_solid_sides is 1.
   UintArray solid_first_words, solid_words;
-  uint first;  ///< Ray that the kernel's first invocation takes.
-  uint count;  ///< Rays from there on.
+  Vec3Array through;  ///< Share of light that passes along the rays; read where has_glass is 1.
+  uint first;         ///< Ray that the kernel's first invocation takes.
+  uint count;         ///< Rays from there on.
   uint rays_per_index;
   float cone_width;  ///< As in ShadeHitsSettings, and so on.
   float max_albedo;
   uint discounts_solid_sides;  ///< 1: rays that meet a side that bounds solid matter do not count.
+  uint has_glass;              ///< 1: some surface lets light through.
+  uint padding;
 };
 
 /// The same for rays of a camera, at full resolution of textures.
@@ -62,55 +68,49 @@ struct PixelSurfacesArguments {
   PixelSurfaceArray surfaces;
   uint first;
   uint count;
-  uint first_index;  ///< Of ray 0 among all pixels.
-  uint padding;
+  uint first_index;   ///< Of ray 0 among all pixels.
+  uint traces_coats;  ///< 1: rays bring coats' light.
 };
 
-/// Draws of direct light. Rays, hits and stakes are in slots: slot s of point i is at s * count +
-/// i.
-struct EmitterRaysArguments {
-  SceneArray scene;
-  LitPointArray points;
-  RayArray
-      emitter_rays;  ///< A slot a sample of emitters; mask 0 where none is drawn by the cosine.
-  uint first;        ///< Point that slots begin with.
-  uint count;        ///< Points from there on.
-  uint emissive_samples;
-  uint salt;
-  uint seed;
-  uint padding;
-};
-
-/// Slots of a point: one a light, then one a sample of emitters.
+/// Draws of direct light, in slots: slot s of point i is at s * count + i. A point has one for each
+/// light that is asked, then one for each sample of the light tree.
 struct LightDrawsArguments {
   SceneArray scene;
   LitPointArray points;
-  RayArray emitter_rays;
-  HitArray emitter_hits;
   RayArray shadow_rays;             ///< Mask 0 where nothing is to be had.
   Vec3Array unoccluded_irradiance;  ///< Irradiance [W/m^2] that arrives where the ray does.
   ReflectedPairArray pairs;         ///< The same as reflected to the viewer [W/(m^2 sr)].
   PixelSurfaceArray surfaces;
   UintArray ray_count;  ///< Shadow rays drawn so far: one number.
-  uint first;
-  uint count;
-  uint emissive_samples;
+  MediumArray media;    ///< Fog that dims what `pairs` reflect.
+  uint first;           ///< Point that slots begin with.
+  uint count;           ///< Points from there on.
+  uint tree_samples;
   uint salt;
   uint seed;
-  uint padding;
+  uint media_count;
 };
 
 /// Sums what arrives, slot after slot.
 struct CollectArguments {
   UintArray occluded;
+  Vec3Array
+      through;  ///< Share of a slot's light that arrives, in place of that where has_glass is 1.
   Vec3Array unoccluded_irradiance;
   ReflectedPairArray pairs;
   Vec3Array irradiance;  ///< A point each, from point `first` on.
   Vec3Array diffuse;
   Vec3Array specular;
+  /// Diffuse light of slots from `exact_slots` on, and sums of squares of what each of them brings
+  /// without albedo; written where there are such slots.
+  Vec3Array drawn;
+  FloatArray drawn_squares;
+  PixelSurfaceArray surfaces;  ///< Read there.
   uint first;
   uint count;
   uint slots;
+  uint exact_slots;  ///< Whose light goes into `diffuse`: the first so many.
+  uint has_glass;
   uint padding;
 };
 

@@ -11,12 +11,17 @@
 #include "core/parallel.h"
 #include "core/stopwatch.h"
 #include "raytracing/trace_arguments.h"
+#include "scene/transmission.h"
+#include "shaders/closest_rahit.h"
 #include "shaders/closest_rchit.h"
 #include "shaders/closest_rgen.h"
 #include "shaders/closest_rmiss.h"
-#include "shaders/coverage_rahit.h"
+#include "shaders/occlusion_rahit.h"
 #include "shaders/occlusion_rgen.h"
 #include "shaders/occlusion_rmiss.h"
+#include "shaders/transmittance_rahit.h"
+#include "shaders/transmittance_rgen.h"
+#include "shaders/transmittance_rmiss.h"
 #include "vulkan/device.h"
 #include "vulkan/recorder.h"
 
@@ -99,19 +104,25 @@ class VulkanRayTracer::Borrowed {
   std::unique_ptr<Staging> staging_;
 };
 
-/// The two pipelines, which all worlds on a device share.
+/// The pipelines, which all worlds on a device share.
 struct VulkanRayTracer::Kernels {
   explicit Kernels(const vulkan::Device& device)
       : closest(device,
                 {shaders::closest_rgen(), shaders::closest_rmiss(), shaders::closest_rchit(),
-                 shaders::coverage_rahit()},
+                 shaders::closest_rahit()},
                 "closest hits"),
         occlusion(
             device,
-            {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, shaders::coverage_rahit()},
-            "occlusions") {}
+            {shaders::occlusion_rgen(), shaders::occlusion_rmiss(), {}, shaders::occlusion_rahit()},
+            "occlusions"),
+        transmittance(device,
+                      {shaders::transmittance_rgen(),
+                       shaders::transmittance_rmiss(),
+                       {},
+                       shaders::transmittance_rahit()},
+                      "transmittances") {}
 
-  vulkan::RayKernel closest, occlusion;
+  vulkan::RayKernel closest, occlusion, transmittance;
 };
 
 VulkanRayTracer::VulkanRayTracer(const Scene& scene, const DeviceScene& device_scene)
@@ -139,6 +150,7 @@ void VulkanRayTracer::tell_sizes() {
   statistics_.triangles = triangle_count(scene_);
   statistics_.instances = scene_.instances.size();
   statistics_.bytes = acceleration_->bytes();
+  has_glass_ = std::any_of(scene_.materials.begin(), scene_.materials.end(), lets_light_through);
 }
 
 void VulkanRayTracer::update(const GeometryEdits& edits) {
@@ -153,17 +165,19 @@ std::size_t VulkanRayTracer::batch_rays() const {
 }
 
 void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel& kernel,
-                            const RayBatch& batch, HitArray hits, UintArray occluded) const {
+                            const RayBatch& batch, const Answers& answers) const {
   if (batch.count == 0) return;
   recorder.bind_textures(device_scene_.textures());
   const VkDeviceAddress structure = acceleration_->address();
   const TraceArguments arguments = {
       uvec2(static_cast<uint>(structure), static_cast<uint>(structure >> 32)),
       batch.rays,
-      hits,
-      occluded,
+      answers.hits,
+      answers.occluded,
+      answers.through,
       device_scene_.address(),
-      batch.count};
+      batch.count,
+      answers.to_hits ? 1u : 0u};
   if (batch.indirect != nullptr) {
     recorder.trace_indirect(kernel, arguments, *batch.indirect, batch.indirect_offset);
     return;
@@ -173,12 +187,18 @@ void VulkanRayTracer::trace(vulkan::Recorder& recorder, const vulkan::RayKernel&
 
 void VulkanRayTracer::closest_hits(vulkan::Recorder& recorder, const RayBatch& batch,
                                    HitArray hits) const {
-  trace(recorder, kernels_.closest, batch, hits, {});
+  trace(recorder, kernels_.closest, batch, {.hits = hits});
 }
 
 void VulkanRayTracer::occlusions(vulkan::Recorder& recorder, const RayBatch& batch,
                                  UintArray occluded) const {
-  trace(recorder, kernels_.occlusion, batch, {}, occluded);
+  trace(recorder, kernels_.occlusion, batch, {.occluded = occluded});
+}
+
+void VulkanRayTracer::transmittances(vulkan::Recorder& recorder, const RayBatch& batch,
+                                     HitArray hits, Vec3Array through) const {
+  trace(recorder, kernels_.transmittance, batch,
+        {.hits = hits, .through = through, .to_hits = hits.address != 0});
 }
 
 void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
@@ -213,6 +233,20 @@ void VulkanRayTracer::occlusions(std::span<const Ray> rays,
       std::memcpy(&word, results + (i - begin) * sizeof(word), sizeof(word));
       occluded[i] = static_cast<std::uint8_t>(word);
     }
+  });
+}
+
+void VulkanRayTracer::transmittances(std::span<const Ray> rays,
+                                     std::span<glm::vec3> through) const {
+  assert(rays.size() == through.size());
+  parallel_chunks(rays.size(), kBatchRays, [&](std::size_t begin, std::size_t end) {
+    const Borrowed staging(*this);
+    const std::byte* results = staging->carry(
+        device_, rays.subspan(begin, end - begin), sizeof(glm::vec3),
+        [&](vulkan::Recorder& recorder, const RayBatch& batch, VkDeviceAddress address) {
+          transmittances(recorder, batch, {}, {address});
+        });
+    std::memcpy(&through[begin], results, (end - begin) * sizeof(glm::vec3));
   });
 }
 

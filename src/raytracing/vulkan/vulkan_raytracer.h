@@ -26,6 +26,8 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
   // Of the host: rays go up, hits come down; callers take turns on the device.
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
+  void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
+  bool has_glass() const override { return has_glass_; }
   std::size_t batch_rays() const override;
   AccelerationStatistics statistics() const override { return statistics_; }
   /// After the device's scene has been updated.
@@ -36,14 +38,22 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
                     HitArray hits) const override;
   void occlusions(vulkan::Recorder& recorder, const RayBatch& batch,
                   UintArray occluded) const override;
+  void transmittances(vulkan::Recorder& recorder, const RayBatch& batch, HitArray hits,
+                      Vec3Array through) const override;
 
  private:
   struct Kernels;
   class Staging;
   class Borrowed;
 
+  struct Answers {
+    HitArray hits{};
+    UintArray occluded{};
+    Vec3Array through{};
+    bool to_hits = false;
+  };
   void trace(vulkan::Recorder& recorder, const vulkan::RayKernel& kernel, const RayBatch& batch,
-             HitArray hits, UintArray occluded) const;
+             const Answers& answers) const;
   void tell_sizes();
 
   const Scene& scene_;
@@ -52,6 +62,7 @@ class VulkanRayTracer final : public RayTracer, public DeviceTracer {
   const Kernels& kernels_;
   std::unique_ptr<SceneAcceleration> acceleration_;
   AccelerationStatistics statistics_;
+  bool has_glass_ = false;
   mutable std::mutex staging_mutex_;
   mutable std::vector<std::unique_ptr<Staging>> idle_staging_;
 };

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lets rays through what is see-through, as the host does: what lets light through hides nothing.
+// Opaque triangles never ask.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_ray_tracing : require
+#include "raytracing/shaders/surface_at.glsl"
+#include "raytracing/trace_arguments.h"
+
+layout(push_constant, scalar) uniform Push {
+  TraceArguments args;
+};
+hitAttributeEXT vec2 barycentrics;
+
+void main() {
+  uint instance = uint(gl_InstanceCustomIndexEXT);
+  uint triangle = uint(gl_PrimitiveID);
+  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT)) {
+    ignoreIntersectionEXT;
+  }
+  if (!lets_light_through(material_of(args.scene, instance))) return;
+  bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
+  vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,
+                                 gl_WorldRayDirectionEXT);
+  if (share != vec3(0.0f)) ignoreIntersectionEXT;
+}

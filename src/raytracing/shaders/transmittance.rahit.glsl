@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes note of the share of light that passes what a ray meets, as the host does. Opaque triangles
+// never ask.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_ray_tracing : require
+#include "raytracing/shaders/surface_at.glsl"
+#include "raytracing/trace_arguments.h"
+
+layout(push_constant, scalar) uniform Push {
+  TraceArguments args;
+};
+layout(location = 0) rayPayloadInEXT LightOnItsWay light;
+hitAttributeEXT vec2 barycentrics;
+
+void main() {
+  uint instance = uint(gl_InstanceCustomIndexEXT);
+  uint triangle = uint(gl_PrimitiveID);
+  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT)) {
+    ignoreIntersectionEXT;
+  }
+  MaterialRecord material = material_of(args.scene, instance);
+  if (!lets_light_through(material)) return;
+  bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
+  vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,
+                                 gl_WorldRayDirectionEXT);
+  if (share == vec3(0.0f)) return;
+  light.through *= light.crosses != 0u ? share / passing_probability(share) : share;
+  // A volume is entered and left: the difference of the distances is the way through it
+  if (bounds_volume(material)) {
+    light.optical_depth += material.absorption * (from_front ? -gl_HitTEXT : gl_HitTEXT);
+  }
+  ignoreIntersectionEXT;
+}

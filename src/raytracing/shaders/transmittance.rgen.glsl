@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The share of light along each ray that passes what it meets.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_ray_tracing : require
+#include "raytracing/trace_arguments.h"
+#include "shared/rays.h"
+
+layout(push_constant, scalar) uniform Push {
+  TraceArguments args;
+};
+layout(location = 0) rayPayloadEXT LightOnItsWay light;
+
+void main() {
+  uint i = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
+  if (i >= args.count) return;
+  RayRecord ray = args.rays.at[i];
+  if (args.to_hits != 0u) ray.t_max = before_hit(args.hits.at[i].distance);
+  light = LightOnItsWay(vec3(1.0f), vec3(0.0f), crosses_glass(ray.mask) ? 1u : 0u, 0u);
+  uint mask = device_mask(ray.mask);
+  if (mask != 0u && ray.t_min <= ray.t_max) {
+    // Until a ray is known to have missed, it has met something: no shader runs at hits
+    light.stopped = 1u;
+    uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;
+    traceRayEXT(accelerationStructureEXT(args.structure), flags, mask, 0, 0, 0, ray.origin_ws,
+                ray.t_min, ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);
+  }
+  vec3 through = light.through * exp(-max(light.optical_depth, vec3(0.0f)));
+  args.through.at[i] = light.stopped != 0u ? vec3(0.0f) : through;
+}

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_ray_tracing : require
+#include "raytracing/trace_arguments.h"
+
+layout(location = 0) rayPayloadInEXT LightOnItsWay light;
+
+void main() {
+  light.stopped = 0u;
+}
