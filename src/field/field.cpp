@@ -80,7 +80,7 @@ void IrradianceField::reset() {
 void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                                  const World* world) const {
   assert(queries.size() == result.size());
-  state_->backend->irradiance(queries, world, result);
+  state_->backend->irradiance(queries, world, CorrectionUse::corrected, result);
 }
 
 std::span<const FieldGrid> IrradianceField::grids() const {
@@ -110,6 +110,13 @@ const ProbeStore& store_of(const IrradianceField& field) {
   const FieldAccess::State& state = FieldAccess::state_of(field);
   state.backend->fetch_store();
   return state.data.store;
+}
+
+void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
+                            std::span<glm::vec3> result, const World& world) {
+  assert(queries.size() == result.size());
+  FieldAccess::state_of(field).backend->irradiance(queries, &world, CorrectionUse::uncorrected,
+                                                   result);
 }
 
 std::span<const ProbeStatus> statuses_of(const IrradianceField& field) {

@@ -23,6 +23,11 @@ struct FieldAccess {
 /// The probes' store, brought to the processor's memory where a device holds a newer one.
 const ProbeStore& store_of(const IrradianceField& field);
 
+/// IrradianceField::irradiance without corrections: as smooth as the probes are, for light that is
+/// combined with what other means find of the same pixels.
+void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
+                            std::span<glm::vec3> result, const World& world);
+
 /// The state and history of each probe.
 std::span<const ProbeStatus> statuses_of(const IrradianceField& field);
 

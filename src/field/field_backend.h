@@ -31,13 +31,15 @@ struct ProbeUpdate {
   std::vector<int> probes;           ///< The probes of all groups, group after group.
   std::vector<float> blend_weights;  ///< How much each probe's new light counts, 0 to 1.
   SolveSettings solve;
+  uint number = 0;       ///< Of the update, from 0.
+  bool learns = false;   ///< Corrections of lookups are learned.
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 
 /// What an update of probes did.
 struct ProbeUpdateResult {
   std::vector<LightChange> changes;  ///< One per probe, in the order of ProbeUpdate::probes.
-  std::uint64_t probe_rays = 0, shadow_rays = 0;
+  std::uint64_t probe_rays = 0, shadow_rays = 0, correction_rays = 0;
   int iterations = 0;            ///< Iterations of the solve.
   double error = 0.0;            ///< See SolveResult::error.
   double change = 0.0;           ///< See SolveResult::change.
@@ -54,7 +56,8 @@ class DeviceLookups {
   /// Records the lookup of `count` queries. `queries` and `irradiance` are addresses of QueryRecord
   /// and vec3 [W/m^2]. Binds the world's textures.
   virtual void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
-                              std::uint32_t count, std::uint64_t irradiance) const = 0;
+                              std::uint32_t count, CorrectionUse use,
+                              std::uint64_t irradiance) const = 0;
 };
 
 class FieldBackend {
@@ -74,6 +77,8 @@ class FieldBackend {
   virtual void fetch_light() = 0;
   /// Reads the store's tiles back where the device's are newer.
   virtual void fetch_store() = 0;
+  /// Reads the corrections of lookups back where the device's are newer.
+  virtual void fetch_corrections() = 0;
   /// Uploads the light and the last irradiance estimates.
   virtual void push_light() = 0;
   /// Uploads the grids and the probes' offsets. Drops the surfels of the probes that moved, and
@@ -116,12 +121,15 @@ class FieldBackend {
   /// Encodes the light of some probes into the store.
   virtual void store_light(std::span<const int> probes, uint dither_seed) = 0;
 
+  /// CorrectionTable::forget() of what the field has learned of how far its lookups are off.
+  virtual void forget_corrections(std::span<const float> kept) = 0;
+
   /// See ImportanceScatter in importance.h.
   virtual std::vector<float> scatter_importance(std::span<const float> received, float least) = 0;
   /// Irradiance for each query [W/m^2]. `world` is the world in which visibility rays are traced.
   /// Where it is null or not on the field's device, visibility is by distances.
   virtual void irradiance(std::span<const FieldQuery> queries, const World* world,
-                          std::span<vec3> result) const = 0;
+                          CorrectionUse use, std::span<vec3> result) const = 0;
 
   /// Bytes that surfels and their lookups take.
   virtual std::size_t surfel_bytes() const = 0;

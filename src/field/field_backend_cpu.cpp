@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "core/pass_times.h"
+#include "field/correction/train_corrections.h"
 #include "field/edits/history_ratio.h"
 #include "field/field_backend.h"
 #include "field/lookup/lookup_volumes.h"
@@ -19,8 +20,10 @@ namespace {
 constexpr std::size_t kProbesPerTask = 64;
 constexpr std::size_t kQueriesPerTask = 4096;
 
+/// How surfels see probes.
 VisibilityRays visibility_in(const World& world, const ProbeData& data) {
-  return {data.settings.visibility, &tracer_of(world), &data.cell_visibility};
+  return {data.settings.visibility, &tracer_of(world), &data.cell_visibility, &data.correction,
+          CorrectionRead::picked};
 }
 
 void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& data) {
@@ -70,6 +73,13 @@ class FieldPassesCpu final : public FieldPasses {
   void visibility() override {
     result.shadow_rays += data_.cell_visibility.update(tracer_of(update_.world), data_.store,
                                                        cells_around(data_.store, update_.probes));
+  }
+
+  bool learns() const override { return update_.learns; }
+
+  void corrections() override {
+    result.correction_rays += train_corrections(
+        update_.world, update_.probes, visibility_in(update_.world, data_), update_.number, data_);
   }
 
   void lookups() override {
@@ -132,6 +142,7 @@ class FieldBackendCpu final : public FieldBackend {
 
   void fetch_light() override {}
   void fetch_store() override {}
+  void fetch_corrections() override {}
   void push_light() override {}
   void push_solid_sides() override {}
   void push_places(std::span<const int>) override {}
@@ -179,14 +190,20 @@ class FieldBackendCpu final : public FieldBackend {
     store_irradiance(probes, dither_seed, data_);
   }
 
+  void forget_corrections(std::span<const float> kept) override {
+    if (!data_.correction.empty()) data_.correction.forget(data_.store.grids(), kept);
+  }
+
   std::vector<float> scatter_importance(std::span<const float> received, float least) override {
     return scatter_from_surfels(data_.store, data_.traces, received, least);
   }
 
-  void irradiance(std::span<const FieldQuery> queries, const World* world,
+  void irradiance(std::span<const FieldQuery> queries, const World* world, CorrectionUse use,
                   std::span<vec3> result) const override {
     const RayTracer* tracer = world != nullptr ? &tracer_of(*world) : nullptr;
-    const VisibilityRays by = {data_.settings.visibility, tracer, &data_.cell_visibility};
+    const VisibilityRays by = {data_.settings.visibility, tracer, &data_.cell_visibility,
+                               use == CorrectionUse::corrected ? &data_.correction : nullptr,
+                               CorrectionRead::smooth};
     parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
       lookup_irradiance(data_.store, by, queries.subspan(begin, end - begin),
                         result.subspan(begin, end - begin));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "field/field_memory.h"
 
+#include "field/correction/correction_table.h"
 #include "field/field_state.h"
 #include "field/probes/probe_store.h"
 #include "field/probes/volumes.h"
@@ -31,6 +32,7 @@ FieldMemory field_memory(const FieldSettings& s, std::uint64_t probes) {
                            tile_bytes(s.distance_texels, distance_texel) +
                            kLightCopies * texels * sizeof(vec4) + sizeof(ProbeTrace) +
                            sizeof(ProbeStatus) + sizeof(ClassificationInput);
+  if (s.corrections) memory.bytes_per_probe += CorrectionTable::bytes_per_probe();
   memory.bytes_per_ray = sizeof(Surfel) + sizeof(SurfelLookup) + sizeof(Hit);
   return memory;
 }

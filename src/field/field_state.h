@@ -54,6 +54,8 @@ struct IrradianceField::State {
 
   /// Finds which sides of surfaces bound solid matter, unless that is known of this scene.
   void find_solid_sides(const World& world);
+  /// Whether one of the volumes moves with the viewer.
+  bool follows_viewer() const;
   void place_all(const World& world, const std::optional<vec3>& viewer_ws,
                  UpdateStatistics& statistics);
   /// Relocates some probes, starting from their places on the grid, and updates their
@@ -94,6 +96,8 @@ struct IrradianceField::State {
   void apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
                             std::span<const int> probes, std::span<const int> all,
                             UpdateStatistics& statistics);
+  /// Lets what averages and corrections learned of light that pending edits changed count less.
+  void reduce_history();
   void solve_edited(UpdateStatistics& statistics);
   /// Stores solved light where it differs visibly from the light before, and restores the old light
   /// elsewhere. Returns the number of probes whose light changed.
@@ -102,12 +106,14 @@ struct IrradianceField::State {
   /// Brings some of the stale sleeping probes up to date.
   void apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
                                std::span<const int> all, UpdateStatistics& statistics);
+  /// Whether an update that traces these probes learns how far lookups are off.
+  bool learns_corrections(std::span<const TraceGroup> groups) const;
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
   /// Solves for the light of all traced probes, from what their last rays met.
   void solve_warm_up(UpdateStatistics& statistics);
   /// Replaces all light by what a file holds.
-  void restore(const FieldFile& file, const World& world);
+  void restore(const FieldFile& file, const World& world, float correction_weight);
   /// A volume as a file stores it.
   FieldVolume volume_for_file(int volume, const World& world) const;
 };

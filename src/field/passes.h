@@ -22,6 +22,7 @@ inline constexpr const char* kTrace = "trace";
 inline constexpr const char* kShade = "shade";
 inline constexpr const char* kBlendDistances = "blend_distances";
 inline constexpr const char* kVisibility = "visibility";
+inline constexpr const char* kCorrections = "corrections";
 inline constexpr const char* kLookups = "lookups";
 inline constexpr const char* kSolve = "solve";
 inline constexpr const char* kVariability = "variability";
@@ -54,6 +55,10 @@ class FieldPasses {
   virtual void blend_distances() = 0;
   /// Finds which probes of the cells around the update's probes see each other.
   virtual void visibility() = 0;
+  /// Whether the executor learns how far lookups are off.
+  virtual bool learns() const = 0;
+  /// Learns how far lookups are off, from the light of the update before.
+  virtual void corrections() = 0;
   /// Finds which probes light each surfel, and by how much.
   virtual void lookups() = 0;
   /// Solves for the light of all bounces, and blends it into what the probes hold.

@@ -12,6 +12,7 @@ ProbeData::ProbeData(std::span<const ProbeGrid> volumes, const FieldSettings& fi
       store(volumes, field_settings),
       tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
       traces(store.probes()),
+      correction(store.probes()),
       cell_visibility(store.probes()),
       light(static_cast<std::size_t>(store.probes()) * tile_texels(), vec4(0.0f)),
       last_irradiance_estimate(light.size(), vec4(0.0f)),
@@ -27,6 +28,7 @@ std::vector<int> ProbeData::traced_probes() const {
 
 void ProbeData::clear() {
   store.clear();
+  correction = CorrectionTable(store.probes());
   cell_visibility = CellVisibility(store.probes());
   std::fill(traces.begin(), traces.end(), ProbeTrace{});
   std::fill(light.begin(), light.end(), vec4(0.0f));

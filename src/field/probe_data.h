@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "field/correction/correction_table.h"
 #include "field/lookup/visibility.h"
 #include "field/probes/probe_store.h"
 #include "field/transport/blend.h"
@@ -28,8 +29,9 @@ struct ProbeData {
   /// Of the world that the field follows; made before its first probe is placed.
   SolidSides solid_sides;
   std::vector<ProbeTrace> traces;  ///< Where a device holds the field, their ray sets only.
-  CellVisibility cell_visibility;  ///< Only hybrid visibility keeps it up to date.
-  WorkingIrradiance light;         ///< The irradiance that the store encodes.
+  CorrectionTable correction;
+  CellVisibility cell_visibility;              ///< Only hybrid visibility keeps it up to date.
+  WorkingIrradiance light;                     ///< The irradiance that the store encodes.
   WorkingIrradiance last_irradiance_estimate;  ///< What each probe's last rays alone estimated.
   /// 1 where a probe's last estimate comes from a solve that stopped at its tolerance, so that it
   /// is less exact than what edits are compared by.

@@ -45,6 +45,9 @@ void light_probes(FieldPasses& passes) {
   if (passes.settings().visibility == Visibility::hybrid) {
     run(passes, field_pass::kVisibility, [&] { passes.visibility(); });
   }
+  if (passes.learns()) {
+    run(passes, field_pass::kCorrections, [&] { passes.corrections(); });
+  }
   run(passes, field_pass::kLookups, [&] { passes.lookups(); });
   solve_light(passes);
 }
@@ -103,6 +106,25 @@ uint IrradianceField::State::dither_seed() const {
   return store_dither_seed(static_cast<uint>(updates), settings.seed);
 }
 
+bool IrradianceField::State::follows_viewer() const {
+  return std::any_of(volumes.roles.begin(), volumes.roles.end(),
+                     [](const VolumeRole& role) { return role.follows_viewer; });
+}
+
+/// Whether an update learns how far lookups are off. An exact number of bounces is carried without:
+/// gathers tell of light of any number. So are volumes that follow the viewer: where one hands over
+/// to another that scrolled there and has learned nothing yet, light would step.
+bool IrradianceField::State::learns_corrections(std::span<const TraceGroup> groups) const {
+  if (!settings.corrections || settings.max_bounces >= 0 || follows_viewer()) return false;
+  // What is gathered can be compared with light of the same world alone
+  std::size_t lit = 0, all = 0;
+  for (const TraceGroup& group : groups) {
+    all += group.probes.size();
+    for (const int probe : group.probes) lit += statuses[probe].samples > 0.0f ? 1 : 0;
+  }
+  return 2 * lit > all;
+}
+
 void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> groups,
                                    UpdateStatistics& statistics) {
   for (const TraceGroup& group : groups) {
@@ -114,16 +136,18 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
       }
     }
   }
+  const bool learns = learns_corrections(groups);
   const TracedProbes traced = blend_weights_of(groups, settings, statuses);
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) data.traces[probe].rays = group.rays;
   }
   for (const int probe : traced.probes) data.last_estimate_is_coarse[probe] = 1;
-  const ProbeUpdateResult found =
-      backend->update_probes({world, std::move(groups), traced.probes, traced.blend_weights,
-                              solve_settings(settings), dither_seed()});
+  const ProbeUpdateResult found = backend->update_probes(
+      {world, std::move(groups), traced.probes, traced.blend_weights, solve_settings(settings),
+       static_cast<uint>(updates), learns, dither_seed()});
   statistics.probe_rays += found.probe_rays;
   statistics.shadow_rays += found.shadow_rays;
+  statistics.correction_rays += found.correction_rays;
   statistics.solve_iterations += found.iterations;
   statistics.residual = found.error;
   statistics.change = found.change;
@@ -153,6 +177,7 @@ void IrradianceField::State::move_to(const World& world, UpdateStatistics& stati
   if (backend->suits(world)) return;
   backend->fetch_light();
   backend->fetch_store();
+  backend->fetch_corrections();
   // Surfels are not transferred. Probes that had some are traced again; averages of an older
   // revision of the world cannot be corrected without surfels and start again
   for (std::size_t probe = 0; probe < statuses.size(); ++probe) {

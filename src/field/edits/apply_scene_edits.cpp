@@ -75,19 +75,24 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
   return slice;
 }
 
-/// Lowers the sample counts of probes whose light the pending edits changed.
-void reduce_history(const PendingEdits& pending, const WorkingIrradiance& light, int tile_texels,
-                    std::span<ProbeStatus> statuses, ProbeScheduler& scheduler) {
+/// Lowers the sample counts of probes whose light the pending edits changed. Returns, for each
+/// probe of the field, the share that counts still of what its light taught.
+std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrradiance& light,
+                                  int tile_texels, std::span<ProbeStatus> statuses,
+                                  ProbeScheduler& scheduler) {
   const auto texels = static_cast<std::size_t>(tile_texels);
+  std::vector<float> counts(statuses.size(), 1.0f);
   for (const int probe : pending.updated) {
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
     // The more the distribution of the light changed, the fewer samples the average is worth
     const float kept = likeness(found, held);
+    counts[probe] = kept * kept;
     statuses[probe].samples = samples_after_edit(statuses[probe].samples, kept);
     scheduler.mark_changed(probe);
   }
+  return counts;
 }
 
 /// Sorts stale probes by how urgently they must be brought up to date: overdue ones come first, so
@@ -258,6 +263,13 @@ StaleProbes IrradianceField::State::find_stale_probes(const World& world) {
   return stale;
 }
 
+/// Lets what averages and corrections have learned of light that the pending edits changed count
+/// less.
+void IrradianceField::State::reduce_history() {
+  backend->forget_corrections(lambent::reduce_history(edits.pending, data.light, data.tile_texels(),
+                                                      statuses, scheduling.scheduler));
+}
+
 /// Keeps the light before the edits, while light and surfels still belong to the same world.
 void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const int> traced) {
   if (!edits.pending.before.empty() && edits.pending.revision == revision) return;
@@ -265,7 +277,7 @@ void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const
     refine_last_estimates(traced, *backend, data);
   } else {
     // The averages of probes that earlier edits changed are of the light before those edits
-    reduce_history(edits.pending, data.light, data.tile_texels(), statuses, scheduling.scheduler);
+    reduce_history();
   }
   edits.pending.before = data.light;
   edits.pending.history_ratio.resize(data.light.size());
@@ -341,8 +353,7 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
     watch.finish(field_pass::kSolve);
     if (!stale.waiting.empty()) return EditProgress::partial;
   }
-  if (!edits.pending.before.empty())
-    reduce_history(edits.pending, data.light, data.tile_texels(), statuses, scheduling.scheduler);
+  if (!edits.pending.before.empty()) reduce_history();
   edits.pending = {};
   edits.applied_revision = revision;
   apply_edits_to_sleeping(world, ray_budget, stale.traced, statistics);

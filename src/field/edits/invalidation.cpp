@@ -125,13 +125,17 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     Surfel& surfel = trace.surfels[i];
     const vec3& direction = trace.rays->directions[i];
-    if (surfel.kind == SurfelKind::sky && edits_.sky) {
+    const bool sky = surfel.kind == SurfelKind::sky;
+    // The sky may be seen through glass, whose tint the surfel's light has
+    const bool other_sky = sky && edits_.sky;
+    const bool tinted = other_sky && tracer_of(world_).has_glass();
+    if (other_sky && !tinted) {
       surfel.light = sky_radiance(world_.scene().environment, direction);
     }
-    const bool sky = surfel.kind == SurfelKind::sky;
     const float distance = sky ? kInfiniteDistance : length(surfel.position_ws - origin);
     const bool other_material = !sky && edits_.materials[surfel.material] != 0;
-    if (!other_material && !edits_.boxes.crossed_by(origin, direction, distance)) continue;
+    if (!other_material && !tinted && !edits_.boxes.crossed_by(origin, direction, distance))
+      continue;
 
     const Ray ray = probe_ray(origin, direction);
     const Hit hit = tracer_of(world_).closest_hit(ray);

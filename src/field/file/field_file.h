@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "field/correction/correction_table.h"
 #include "field/file/scene_identity.h"
 #include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
@@ -17,7 +18,7 @@
 
 namespace lambent {
 
-inline constexpr std::uint32_t kFieldFileVersion = 2;
+inline constexpr std::uint32_t kFieldFileVersion = 3;
 
 /// One volume of probes, in the order of its grid.
 struct FieldVolume {
@@ -43,6 +44,7 @@ struct FieldFile {
   std::uint32_t updates = 0;  ///< Updates since the field's start.
   SceneIdentity scene;
   std::vector<FieldVolume> volumes;
+  std::vector<CorrectionBlock> corrections;
 };
 
 /// Encodes a file.

@@ -19,6 +19,7 @@ inline constexpr std::size_t kSizeOffset = 16;  // the checksum covers everythin
 inline constexpr std::size_t kHeaderBytes = 64;
 inline constexpr std::size_t kVolumeHeaderBytes = 144;
 inline constexpr std::size_t kRecordBytes = 24;
+inline constexpr std::size_t kCorrectionBlockBytes = 104;
 
 /// The number of words of the tiles of all probes.
 inline std::uint64_t tile_words(std::uint64_t probes, int texels, int words_per_texel) {

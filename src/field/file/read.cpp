@@ -44,6 +44,10 @@ bool all_storable(std::span<const uint> words) {
                      [](uint word) { return std::abs(uintBitsToFloat(word)) <= kMaxStored; });
 }
 
+bool is_sum(float value) {
+  return value >= 0.0f && value <= kMaxStored;
+}
+
 class Reader {
  public:
   Reader(const std::string& name, std::span<const std::byte> bytes)
@@ -74,7 +78,9 @@ class Reader {
       probes += field.volumes.back().records.size();
     }
     if (probes > kMaxProbes) return bad("", "has more probes than a field can");
-    if (in_.left() > 0) return bad("", "has bytes after its last volume");
+    if (auto fine = read_corrections(volumes, field.corrections); !fine) {
+      return tl::unexpected(fine.error());
+    }
     return field;
   }
 
@@ -213,6 +219,28 @@ class Reader {
       return bad(place_, "holds light or distances that are not within -1e18 to 1e18");
     }
     return volume;
+  }
+
+  /// Reads the blocks of corrections, which end the file.
+  Expected<void> read_corrections(std::uint32_t volumes, std::vector<CorrectionBlock>& blocks) {
+    if (in_.left() < sizeof(std::uint32_t)) return bad("corrections", "are cut short");
+    const std::uint32_t count = in_.u32();
+    if (in_.left() != kCorrectionBlockBytes * count) {
+      return bad("corrections", "have a size that does not fit their number");
+    }
+    blocks.resize(count);
+    for (CorrectionBlock& block : blocks) {
+      block.key.xy = in_.u32();
+      block.key.rest = in_.u32();
+      if (!is_block_key(block.key, volumes)) return bad("corrections", "name a senseless block");
+      for (LearnedCorrection& cell : block.cells) {
+        cell = {in_.f32(), in_.f32(), in_.f32()};
+        if (!is_sum(cell.gathered) || !is_sum(cell.looked_up) || !is_sum(cell.samples)) {
+          return bad("corrections", "hold sums that are not within 0 to 1e18");
+        }
+      }
+    }
+    return {};
   }
 
   bool read_record(std::uint32_t updates, uint& offset, ProbeStatus& record) {

@@ -14,6 +14,10 @@
 namespace lambent {
 namespace {
 
+// What corrections count for that were learned under other light: they are mostly of the place, but
+// soon to be learned anew.
+constexpr float kOtherLightCorrections = 0.25f;
+
 std::string size_of(const SceneIdentity& scene) {
   return std::to_string(scene.triangles) + " triangles in " + std::to_string(scene.instances) +
          " instances";
@@ -37,8 +41,10 @@ bool same_tiles(const FieldVolume& a, const FieldVolume& b) {
 }  // namespace
 
 /// Replaces all light that the field holds.
-void IrradianceField::State::restore(const FieldFile& file, const World& world) {
+void IrradianceField::State::restore(const FieldFile& file, const World& world,
+                                     float correction_weight) {
   restore_store(file, data.store);
+  data.correction.restore(file.corrections, correction_weight);
   for (int v = 0; v < data.store.volumes(); ++v) {
     const std::vector<ProbeStatus>& records = file.volumes[v].records;
     std::copy(records.begin(), records.end(), statuses.begin() + data.store.grid(v).first);
@@ -102,12 +108,14 @@ Expected<void> save_field(const std::string& path, const IrradianceField& field,
                           const World& world) {
   const FieldAccess::State& state = FieldAccess::state_of(field);
   state.backend->fetch_store();
+  state.backend->fetch_corrections();
   FieldFile file;
   file.updates = static_cast<std::uint32_t>(state.updates);
   file.scene = identify(world.scene(), state.settings);
   for (int volume = 0; volume < state.data.store.volumes(); ++volume) {
     file.volumes.push_back(state.volume_for_file(volume, world));
   }
+  file.corrections = state.data.correction.blocks();
   return write_file_atomically(path, encode_field(file));
 }
 
@@ -142,7 +150,7 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
       for (ProbeStatus& status : volume.records) status.samples = 0.0f;
     }
   }
-  state->restore(*file, world);
+  state->restore(*file, world, same_light ? 1.0f : kOtherLightCorrections);
   return LoadedField{FieldAccess::make(std::move(state)), same_light};
 }
 

@@ -73,6 +73,9 @@ void add_material(const Material& material, Checksum& sum) {
   sum.add(material.ior);
   sum.add(material.specular);
   sum.add(material.specular_color);
+  sum.add(material.transmission);
+  sum.add(material.bounds_volume);
+  sum.add(material.absorption);
   sum.add(static_cast<std::uint32_t>(material.alpha_mode));
   sum.add(material.alpha_cutoff);
   sum.add(material.double_sided);
@@ -81,7 +84,7 @@ void add_material(const Material& material, Checksum& sum) {
   for (const TextureView* view :
        {&material.base_color_texture, &material.metallic_roughness_texture,
         &material.normal_texture, &material.emission_texture, &material.specular_texture,
-        &material.specular_color_texture}) {
+        &material.specular_color_texture, &material.transmission_texture}) {
     add_view(*view, sum);
   }
 }

@@ -70,6 +70,16 @@ std::vector<std::byte> encode_field(const FieldFile& field) {
   out.u32(kHeaderBytes);
   assert(out.size() == kHeaderBytes);
   for (const FieldVolume& volume : field.volumes) write_volume(volume, out);
+  out.u32(static_cast<std::uint32_t>(field.corrections.size()));
+  for (const CorrectionBlock& block : field.corrections) {
+    out.u32(block.key.xy);
+    out.u32(block.key.rest);
+    for (const LearnedCorrection& cell : block.cells) {
+      out.f32(cell.gathered);
+      out.f32(cell.looked_up);
+      out.f32(cell.samples);
+    }
+  }
   std::vector<std::byte> bytes = out.take();
   seal_field(bytes);
   return bytes;

@@ -10,6 +10,7 @@ LAMBENT_BEGIN
 
 struct FieldRecord {
   StoreArrays store;
+  CorrectionArrays corrections;
   int volumes;
   int unused;
 };

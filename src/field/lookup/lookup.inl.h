@@ -8,6 +8,9 @@
 //       offset of the probe from its place on the grid [cells]
 //   vec3 fetch_irradiance(int probe, vec3 direction)
 //       linear irradiance [W/m^2], bilinear
+//   float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal_ws)
+//       by which factor the lookup in a volume is off at a point with a normal, correction_at() of
+//       field/correction/correction.inl.h; 1 where nothing is known of it
 // In C++, this file is included in the body of a struct that has these as members.
 
 /// The weight of a corner for a point with a normal.
@@ -23,8 +26,8 @@ LAMBENT_FN float lookup_weight(LookupGrid volume, LookupCell cell, ivec3 corner,
 /// Returns the irradiance times the volume's weight, and the weight as the fourth channel; all 0
 /// where no probe has a weight. Averages linear light, so that the result is linear in what the
 /// probes hold.
-LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float volume_weight, vec3 position_ws, vec3 normal_ws,
-                              vec3 to_viewer_ws) {
+LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, int volume_index, float volume_weight,
+                              vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) {
   LookupGrid volume = lookup_grid(grid);
   LookupCell cell = lookup_cell(volume, position_ws, normal_ws, to_viewer_ws);
 
@@ -37,7 +40,9 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, float volume_weight, vec3 position
     weight_sum += weight;
   }
   // Where no probe of this volume has a weight, the next volumes answer
-  return weight_sum > 0.0f ? vec4(sum * (volume_weight / weight_sum), volume_weight) : vec4(0.0f);
+  if (!(weight_sum > 0.0f)) return vec4(0.0f);
+  float ratio = fetch_correction(grid, volume_index, position_ws, normal_ws);
+  return vec4(sum * (ratio * volume_weight / weight_sum), volume_weight);
 }
 
 /// Irradiance at a point with a normal from all volumes, in order: each volume takes its blend
@@ -49,7 +54,7 @@ LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws,
     ProbeGrid grid = fetch_grid(volume);
     float volume_weight = volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
     if (volume_weight <= 0.0f) continue;
-    answer += lookup_volume(grid, volume_weight * (1.0f - answer.w), position_ws, normal_ws,
+    answer += lookup_volume(grid, volume, volume_weight * (1.0f - answer.w), position_ws, normal_ws,
                             to_viewer_ws);
   }
   // Where no probe of the last volume has a weight, the volumes before it answer alone

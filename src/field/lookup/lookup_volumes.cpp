@@ -5,6 +5,7 @@
 #include <cassert>
 #include <numeric>
 
+#include "field/correction/correction_table.h"
 #include "field/lookup/lookup.h"
 
 namespace lambent {
@@ -66,15 +67,37 @@ std::uint64_t find_blended(const ProbeStore& store, const VisibilityRays& by,
   return traced;
 }
 
-}  // namespace
-
-std::uint64_t find_weights(const ProbeStore& store, const VisibilityRays& by,
-                           std::span<const FieldQuery> queries, QueryWeights& result) {
+std::uint64_t find_uncorrected(const ProbeStore& store, const VisibilityRays& by,
+                               std::span<const FieldQuery> queries, QueryWeights& result) {
   if (store.volumes() > 1) return find_blended(store, by, queries, result);
   result.corners.resize(queries.size());
   result.query.resize(queries.size());
   std::iota(result.query.begin(), result.query.end(), 0u);
   return visible_corner_weights(store, 0, by, queries, result.corners);
+}
+
+/// Multiplies the weights of lookups by how far lookups are off at their points.
+void correct_weights(const ProbeStore& store, const VisibilityRays& by,
+                     std::span<const FieldQuery> queries, QueryWeights& weights) {
+  for (std::size_t i = 0; i < weights.corners.size(); ++i) {
+    CornerWeights& corners = weights.corners[i];
+    const FieldQuery& query = queries[weights.query[i]];
+    const int volume = static_cast<int>(corners.table) / kCellWraps;
+    const float ratio = by.correction->at(store.grid(volume), volume, query.position_ws,
+                                          query.normal_ws, by.correction_read);
+    for (float& weight : corners.weight) weight *= ratio;
+  }
+}
+
+}  // namespace
+
+std::uint64_t find_weights(const ProbeStore& store, const VisibilityRays& by,
+                           std::span<const FieldQuery> queries, QueryWeights& result) {
+  const std::uint64_t traced = find_uncorrected(store, by, queries, result);
+  if (by.correction != nullptr && !by.correction->empty()) {
+    correct_weights(store, by, queries, result);
+  }
+  return traced;
 }
 
 std::uint64_t lookup_irradiance(const ProbeStore& store, const VisibilityRays& by,

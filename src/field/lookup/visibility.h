@@ -12,6 +12,9 @@
 
 namespace lambent {
 
+class CorrectionTable;
+enum class CorrectionRead : std::uint8_t;
+
 /// Which probes of each cell see each other, found with rays. Where the probes that have a weight
 /// for a point see each other, no wall runs between them, and their stored distances can be
 /// trusted.
@@ -34,11 +37,13 @@ class CellVisibility {
 /// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
 std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes);
 
-/// What lookups determine visibility with.
+/// What lookups determine visibility with, and what corrects them.
 struct VisibilityRays {
   Visibility mode = Visibility::moments;
   const RayTracer* tracer = nullptr;                ///< Null: visibility is by distances only.
   const CellVisibility* cell_visibility = nullptr;  ///< Required for hybrid visibility.
+  const CorrectionTable* correction = nullptr;      ///< Null: lookups are not corrected.
+  CorrectionRead correction_read{};                 ///< How the table is read.
 };
 
 /// Computes the weights for each query in one volume. Single-threaded. Returns the number of rays

@@ -57,7 +57,11 @@ void IrradianceField::State::find_solid_sides(const World& world) {
   const bool made = data.solid_sides.fits(world.scene());
   if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides)) return;
   const std::vector<std::uint32_t> before = std::move(data.solid_sides.words);
-  data.solid_sides = lambent::find_solid_sides(world, place_grids(data.store));
+  const std::vector<PlaceGrid> grids = place_grids(data.store);
+  // A box that reaches out of a room was asked to light its outside; volumes that follow the viewer
+  // reach out of everything
+  const bool outside_counts = !follows_viewer() && reach_out_of_scene(world, grids);
+  data.solid_sides = lambent::find_solid_sides(world, grids, outside_counts);
   backend->push_solid_sides();
   // What was taken for solid matter was a dark room
   if (made && data.solid_sides.words != before) {

@@ -5,6 +5,7 @@
 #ifndef LAMBENT_FIELD_VULKAN_DEVICE_ARGUMENTS_H
 #define LAMBENT_FIELD_VULKAN_DEVICE_ARGUMENTS_H
 
+#include "field/correction/correction_records.h"
 #include "field/vulkan/device_records.h"
 #include "field/vulkan/device_solve.h"
 #include "raytracing/vulkan/shading_records.h"
@@ -163,6 +164,7 @@ struct FindLookupsArguments {
   StoreArrays store;
   LookupPoints points;
   LookupArray lookups;
+  CorrectionArrays corrections;  ///< None: lookups are not corrected.
 };
 
 /// Arguments of cell_visibility_rays, which makes the rays between the corners of cells. `cells`
@@ -302,7 +304,8 @@ struct LookupArguments {
   QueryArray queries;
   Vec3Array irradiance;
   int count;
-  int width;  ///< Queries per row of the dispatch.
+  int width;                     ///< Queries per row of the dispatch.
+  CorrectionArrays corrections;  ///< None: lookups are not corrected.
 };
 
 LAMBENT_END

@@ -31,6 +31,10 @@
 #include "shaders/store_irradiance_comp.h"
 #include "shaders/surfel_distances_comp.h"
 #include "shaders/test_corners_comp.h"
+#include "shaders/training_points_comp.h"
+#include "shaders/training_queries_comp.h"
+#include "shaders/training_rays_comp.h"
+#include "shaders/training_samples_comp.h"
 #include "vulkan/device.h"
 
 namespace lambent {
@@ -83,6 +87,12 @@ const VisibilityKernels& VisibilityKernels::of(const vulkan::Device& device,
   return device.kept<KernelShelf<VisibilityKernels>>().get(settings, volumes, lookups);
 }
 
+const TrainingKernels& TrainingKernels::of(const vulkan::Device& device,
+                                           const FieldSettings& settings, int volumes,
+                                           int lookups) {
+  return device.kept<KernelShelf<TrainingKernels>>().get(settings, volumes, lookups);
+}
+
 FieldKernels::FieldKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
                            int lookups) {
   const std::array constants = tile_constants(settings, volumes, lookups);
@@ -122,6 +132,18 @@ VisibilityKernels::VisibilityKernels(const vulkan::Device& device, const FieldSe
   test_corners = make(shaders::test_corners_comp(), "test_corners");
   apply_corner_tests = make(shaders::apply_corner_tests_comp(), "apply_corner_tests");
   read_lookups = make(shaders::read_lookups_comp(), "read_lookups");
+}
+
+TrainingKernels::TrainingKernels(const vulkan::Device& device, const FieldSettings& settings,
+                                 int volumes, int lookups) {
+  const std::array constants = tile_constants(settings, volumes, lookups);
+  const auto make = [&](vulkan::Spirv spirv, const char* name) {
+    return vulkan::Kernel(device, spirv, name, constants);
+  };
+  points = make(shaders::training_points_comp(), "training_points");
+  rays = make(shaders::training_rays_comp(), "training_rays");
+  queries = make(shaders::training_queries_comp(), "training_queries");
+  samples = make(shaders::training_samples_comp(), "training_samples");
 }
 
 }  // namespace lambent

@@ -45,4 +45,16 @@ struct VisibilityKernels {
       read_lookups;
 };
 
+/// The kernels by which fields that follow our own world learn corrections of lookups.
+struct TrainingKernels {
+  /// The kernels for these settings. The device makes them once and keeps them.
+  static const TrainingKernels& of(const vulkan::Device& device, const FieldSettings& settings,
+                                   int volumes, int lookups);
+
+  TrainingKernels(const vulkan::Device& device, const FieldSettings& settings, int volumes,
+                  int lookups);
+
+  vulkan::Kernel points, rays, queries, samples;
+};
+
 }  // namespace lambent

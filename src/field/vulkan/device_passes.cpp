@@ -132,7 +132,8 @@ void FieldResources::record_lookups(vulkan::Recorder& to, const DeviceProbes& li
                         cell_visibility_ && cell_visibility_->exact() ? 1u : 0u};
   };
   const LookupArray lookups{lookup_records_.address()};
-  const FindLookupsArguments arguments = {store(), points(0, list.count()), lookups};
+  const FindLookupsArguments arguments = {store(), points(0, list.count()), lookups,
+                                          corrections_.arrays(CorrectionRead::picked)};
   run_over(to, kernels_.find_lookups, arguments, list, kOverRays);
   to.barrier();
   if (!cell_visibility_ || tracer == nullptr) return;
@@ -262,44 +263,56 @@ void FieldResources::record_compare_light(vulkan::Recorder& to, const DeviceProb
 }
 
 void FieldResources::record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
-                                   Vec3Array irradiance, const DeviceTracer* tracer) const {
+                                   Vec3Array irradiance, const DeviceTracer* tracer,
+                                   const CorrectionArrays& corrections) const {
   if (count == 0) return;
   if (cell_visibility_ && tracer != nullptr) {
-    record_lookup_by_rays(to, queries, count, irradiance, *tracer);
+    record_lookup_by_rays(to, queries, count, irradiance, *tracer, corrections);
     return;
   }
   const std::uint32_t width = std::min(count, kLookupRow);
-  const LookupArguments arguments = {store(), queries, irradiance, static_cast<int>(count),
-                                     static_cast<int>(kLookupRow)};
+  const LookupArguments arguments = {
+      store(),    queries, irradiance, static_cast<int>(count), static_cast<int>(kLookupRow),
+      corrections};
   to.run(kernels_.lookup, arguments, width, groups_of(static_cast<int>(count), kLookupRow));
   to.barrier();
+}
+
+void FieldResources::record_find_lookups(vulkan::Recorder& to, QueryArray queries,
+                                         std::uint32_t count, LookupArray lookups,
+                                         const DeviceTracer* tracer,
+                                         const CorrectionArrays& corrections) const {
+  const auto all = static_cast<int>(count);
+  assert(!cell_visibility_ || all <= cell_visibility_->points() / kQueryRow * kQueryRow);
+  const LookupPoints points = {{},
+                               {},
+                               queries,
+                               static_cast<int>(groups_of(all, kQueryRow)),
+                               kQueryRow,
+                               all,
+                               cell_visibility_ && cell_visibility_->exact() ? 1u : 0u};
+  const FindLookupsArguments found = {store(), points, lookups, corrections};
+  to.run(kernels_.find_lookups, found, kQueryRow, points.rows);
+  to.barrier();
+  if (!cell_visibility_ || tracer == nullptr) return;
+  cell_visibility_->record_corner_tests(to, *tracer, store(), points, lookups, kQueryRow);
 }
 
 /// Records a lookup with visibility by rays, for a limited number of points at a time.
 void FieldResources::record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries,
                                            std::uint32_t count, Vec3Array irradiance,
-                                           const DeviceTracer& tracer) const {
+                                           const DeviceTracer& tracer,
+                                           const CorrectionArrays& corrections) const {
   const auto most = static_cast<std::uint32_t>(cell_visibility_->points() / kQueryRow * kQueryRow);
   for (std::uint32_t first = 0; first < count; first += most) {
-    const auto some = static_cast<int>(std::min(most, count - first));
+    const std::uint32_t some = std::min(most, count - first);
     const QueryArray asked{queries.address + first * sizeof(QueryRecord)};
-    const LookupPoints points = {{},
-                                 {},
-                                 asked,
-                                 static_cast<int>(groups_of(some, kQueryRow)),
-                                 kQueryRow,
-                                 some,
-                                 cell_visibility_->exact() ? 1u : 0u};
-    const FindLookupsArguments found = {store(), points, cell_visibility_->lookups()};
-    to.run(kernels_.find_lookups, found, kQueryRow, points.rows);
-    to.barrier();
-    cell_visibility_->record_corner_tests(to, tracer, store(), points, cell_visibility_->lookups(),
-                                          kQueryRow);
+    record_find_lookups(to, asked, some, cell_visibility_->lookups(), &tracer, corrections);
     cell_visibility_->record_reading(to, {store(),
                                           asked,
                                           cell_visibility_->lookups(),
                                           {irradiance.address + first * sizeof(vec3)},
-                                          some});
+                                          static_cast<int>(some)});
   }
 }
 

@@ -3,6 +3,7 @@
 #ifndef LAMBENT_FIELD_VULKAN_DEVICE_RECORDS_H
 #define LAMBENT_FIELD_VULKAN_DEVICE_RECORDS_H
 
+#include "field/correction/correction_math.h"
 #include "field/lookup/lookup_records.h"
 #include "field/transport/surfel_math.h"
 #include "raytracing/ray_records.h"
@@ -20,6 +21,7 @@ LAMBENT_DEVICE_ARRAY(GridArray, ProbeGrid, 4)
 LAMBENT_DEVICE_ARRAY(SurfelArray, SurfelRecord, 4)
 LAMBENT_DEVICE_ARRAY(LookupArray, SurfelLookup, 4)
 LAMBENT_DEVICE_ARRAY(CornerOffsetsArray, CornerOffsets, 4)
+LAMBENT_DEVICE_ARRAY(CorrectionKeyArray, CorrectionKey, 4)
 
 /// A ray set. Its matrices have a row per ray, whose length is rounded up to whole blocks of
 /// texels. The number of rows is rounded up to whole lane groups; rows beyond the rays are 0.
@@ -47,6 +49,14 @@ struct StoreArrays {
   UintArray offsets;
   UintArray irradiance;
   UintArray distance;
+};
+
+/// What lookups read of the table of corrections.
+struct CorrectionArrays {
+  CorrectionKeyArray keys;  ///< By slot.
+  UintArray refined;        ///< kCellCorners for each slot.
+  uint buckets;             ///< 0: nothing is known, and there are no arrays.
+  uint picked;              ///< 1: lookups read single cells, as CorrectionRead::picked.
 };
 
 /// The probes that a pass works on: their indices, and the ray sets that they traced last.

@@ -59,6 +59,7 @@ FieldResources::FieldResources(const vulkan::Device& device, const FieldSettings
       words_per_irradiance_texel_(shape.words_per_irradiance_texel()),
       words_per_distance_texel_(shape.words_per_distance_texel()),
       kernels_(FieldKernels::of(device, settings, volumes_, lookups_)),
+      corrections_(device, probes_),
       slot_of_(shape.probes(), -1) {
   using vulkan::Memory;
   const auto texels = static_cast<std::size_t>(probes_) * tile_texels();
@@ -89,7 +90,7 @@ std::size_t FieldResources::bytes() const {
   for (const RaySlot& slot : slots_) {
     bytes += bytes_of({&slot.directions, &slot.irradiance_weights, &slot.distance_weights});
   }
-  return bytes;
+  return bytes + corrections_.bytes();
 }
 
 void FieldResources::set_places(const ProbeStore& store) {

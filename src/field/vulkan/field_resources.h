@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "field/correction/device_corrections.h"
 #include "field/probes/probe_store.h"
 #include "field/transport/list_sizes.h"
 #include "field/transport/solve_bounces.h"
@@ -121,6 +122,13 @@ class FieldResources {
 
   // For callers that keep ray sets and lists themselves.
 
+  /// The field's corrections of lookups, which surfels and lookups read.
+  DeviceCorrections& corrections() { return corrections_; }
+  const DeviceCorrections& corrections() const { return corrections_; }
+  /// The ray set of a probe's surfels, as an index into ray_sets().
+  int ray_set_of(int probe) const { return slot_of_[probe]; }
+  RaySetArray ray_sets() const { return {sets_.address()}; }
+
   /// Reserves memory for this many surfels per probe. Existing surfels stay.
   void reserve_surfels(int rays);
   /// Bytes of the matrices of a ray set with this many rays.
@@ -210,9 +218,16 @@ class FieldResources {
   /// what they hold.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
                             Vec3Array changes) const;
-  /// Records lookup_irradiance(). For `tracer`, see record_lookups().
+  /// Records lookup_irradiance(). For `tracer`, see record_lookups(). `corrections`: how the
+  /// field's are read; none: lookups are not corrected.
   void record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
-                     Vec3Array irradiance, const DeviceTracer* tracer = nullptr) const;
+                     Vec3Array irradiance, const DeviceTracer* tracer = nullptr,
+                     const CorrectionArrays& corrections = {}) const;
+  /// Records find_weights() of queries, lookups_per_surfel() lookups each. Fields with visibility
+  /// by rays take as many queries at a time as they have probes' rays in memory.
+  void record_find_lookups(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
+                           LookupArray lookups, const DeviceTracer* tracer,
+                           const CorrectionArrays& corrections = {}) const;
 
  private:
   /// A ray set that some probes traced last.
@@ -232,7 +247,8 @@ class FieldResources {
                      std::size_t offset) const;
   void record_distance_gutters(vulkan::Recorder& to, const DeviceProbes& list) const;
   void record_lookup_by_rays(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
-                             Vec3Array irradiance, const DeviceTracer& tracer) const;
+                             Vec3Array irradiance, const DeviceTracer& tracer,
+                             const CorrectionArrays& corrections) const;
   ProbeList arrays(const DeviceProbes& list, int first = 0) const;
 
   const vulkan::Device& device_;
@@ -240,6 +256,7 @@ class FieldResources {
   int probes_, volumes_, lookups_;
   int words_per_irradiance_texel_, words_per_distance_texel_;
   const FieldKernels& kernels_;
+  DeviceCorrections corrections_;
   std::unique_ptr<DeviceVisibility> cell_visibility_;  // null: visibility is by distances only
   vulkan::Buffer grids_, offsets_, irradiance_, distance_, corners_, fit_;
   vulkan::Buffer light_, last_irradiance_estimate_;

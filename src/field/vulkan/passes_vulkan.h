@@ -27,6 +27,10 @@ class RaySourceVulkan {
   /// Records what makes surfels, and what makes the distances that rays count as.
   virtual void shade(vulkan::Recorder& to, int batch) = 0;
   virtual void visibility(vulkan::Recorder& to) = 0;
+  /// Whether the update learns how far lookups are off.
+  virtual bool learns() const = 0;
+  /// Records gathers that tell how far lookups are off, and what the field learns from them.
+  virtual void corrections(vulkan::Recorder& to) = 0;
   /// The tracer of the rays that lookups ask for, whose textures are bound. Null where lookups
   /// trace no rays.
   virtual const DeviceTracer* tracer() const = 0;
@@ -76,6 +80,8 @@ class FieldPassesVulkan final : public FieldPasses {
   void move_distances() override;
   void blend_distances() override;
   void visibility() override { update_.source.visibility(to_); }
+  bool learns() const override { return update_.source.learns(); }
+  void corrections() override { update_.source.corrections(to_); }
   void lookups() override;
   void solve() override;
   void variability() override;

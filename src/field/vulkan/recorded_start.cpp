@@ -130,6 +130,10 @@ void RecordedField::State::restore(const FieldFile& file) {
     switched.push_back(status.state == ProbeState::off ? kProbeOff : kProbeOn);
     variability.push_back({{status.variance, status.variance_samples}, status.last_traced});
   }
+  CorrectionTable corrections(store.probes());
+  corrections.restore(file.corrections, 1.0f);
+  field.corrections().write(corrections);
+  write_record();
   field.write_store(store);
   vulkan::write<vec4>(*device, light, field.light());
   vulkan::write<ProbeStanding>(*device, stands, standing);

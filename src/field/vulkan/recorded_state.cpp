@@ -226,8 +226,8 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
       *device, most_sets * field.irradiance_weight_bytes(of.rays_per_probe), "weights of rays");
   distance_weights = device_buffer<std::byte>(
       *device, most_sets * field.distance_weight_bytes(of.rays_per_probe), "weights of rays");
-  const FieldRecord lookup = {field.store(), shape.volumes(), 0};
-  record = upload(*device, std::span(&lookup, 1), "field");
+  record = device_buffer<FieldRecord>(*device, 1, "field");
+  write_record();
   device->run([&](Recorder& to) {
     to.fill(standing, 0u);
     to.fill(states, kProbeOn);
@@ -253,6 +253,12 @@ RecordedField::State::State(std::shared_ptr<Device> on, const FieldSettings& of,
 std::size_t UpdateMemory::bytes() const {
   return bytes_of(
       {&list.indices, &list.ray_sets, &list.blocks, &directions, &sets, &grids, &recycled});
+}
+
+void RecordedField::State::write_record() const {
+  const FieldRecord lookup = {field.store(), field.corrections().arrays(CorrectionRead::smooth),
+                              field.volumes(), 0};
+  vulkan::write(*device, std::span(&lookup, 1), record);
 }
 
 std::size_t RecordedField::State::bytes() const {

@@ -111,6 +111,8 @@ struct RecordedField::State {
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
+  /// Uploads the record by which engines' shaders look the field up.
+  void write_record() const;
   std::size_t bytes() const;
   /// Records a part of an update into an engine's command buffer, between barriers.
   void record_part(EngineRays& source, VkCommandBuffer commands, void (*part)(FieldPasses&));
@@ -153,6 +155,9 @@ class RecordedField::State::EngineRays final : public RaySourceVulkan, public Va
   void trace(Recorder& to, int batch) override;
   void shade(Recorder& to, int batch) override;
   void visibility(Recorder& to) override;
+  /// Engines shade hits of probe rays alone, and gathers would need more.
+  bool learns() const override { return false; }
+  void corrections(Recorder& /*to*/) override {}
   const DeviceTracer* tracer() const override { return nullptr; }
   void placement(Recorder& to) override;
   void record(Recorder& to, const DeviceProbes& list, FloatArray blend_weights,

@@ -73,6 +73,7 @@ VulkanFieldBackend::VulkanFieldBackend(const World& world, ProbeData& data)
       shading_(*device_) {
   push_light();
   push_solid_sides();
+  field_.corrections().write(data.correction);
 }
 
 bool VulkanFieldBackend::is_on(const World& world) const {
@@ -90,6 +91,21 @@ void VulkanFieldBackend::fetch_store() {
   if (!store_is_newer_) return;
   field_.read_store(data_.store);
   store_is_newer_ = false;
+}
+
+void VulkanFieldBackend::fetch_corrections() {
+  if (!corrections_are_newer_) return;
+  data_.correction = field_.corrections().read();
+  corrections_are_newer_ = false;
+}
+
+void VulkanFieldBackend::forget_corrections(std::span<const float> kept) {
+  if (field_.corrections().empty()) return;
+  const Buffer given = host_buffer(*device_, kept, "corrections kept");
+  device_->run([&](Recorder& to) {
+    field_.corrections().record_forget(to, {field_.grids().address()}, {given.address()});
+  });
+  corrections_are_newer_ = true;
 }
 
 void VulkanFieldBackend::push_light() {
@@ -155,8 +171,13 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
   const bool hybrid = data_.settings.visibility == Visibility::hybrid;
   const std::vector<int> cells =
       hybrid ? cells_around(data_.store, update.probes) : std::vector<int>();
+  if (update.learns) {
+    if (!training_) training_ = std::make_unique<DeviceTraining>(field_);
+    training_->begin(trained_surfels(data_, update.probes, update.number), update.number);
+    corrections_are_newer_ = true;
+  }
   WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(update.world), list, cells,
-                       /*sees=*/true);
+                       /*sees=*/true, update.learns ? training_.get() : nullptr);
   ChangesForHost changes(field_, update.probes.size());
   field_.reserve_seen(list);
   field_.reserve_transport(list);
@@ -175,6 +196,7 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
   result.passes = pass_times(timestamps);
   result.probe_rays = rays.probe_rays();
   result.shadow_rays = rays.other_rays();
+  if (update.learns) result.correction_rays = training_->rays();
   const DeviceSolve solved = solver_.result();
   result.iterations = solved.iterations;
   result.error = solved.error;
@@ -192,7 +214,7 @@ InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<con
   if (traced.empty()) return {};
   const DeviceProbes list = field_.list(traced), everyone = field_.list(traced_among(among));
   WorldRaysVulkan rays(field_, shading_, ray_buffers_, *device_world_of(world), list, {},
-                       /*sees=*/false);
+                       /*sees=*/false, /*training=*/nullptr);
   Unchanged unchanged;
   const Buffer no_weights;
   UpdateVulkan update{field_, solver_, rays, unchanged, list, no_weights};

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "field/correction/device_training.h"
 #include "field/field_backend.h"
 #include "field/vulkan/device_solver.h"
 #include "field/vulkan/field_resources.h"
@@ -21,6 +22,7 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
 
   void fetch_light() override;
   void fetch_store() override;
+  void fetch_corrections() override;
   void push_light() override;
   void push_solid_sides() override;
   void push_places(std::span<const int> moved) override;
@@ -39,15 +41,18 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
   std::vector<double> direct_light(std::span<const int> probes) override;
   void store_light(std::span<const int> probes, uint dither_seed) override;
 
+  void forget_corrections(std::span<const float> kept) override;
+
   std::vector<float> scatter_importance(std::span<const float> received, float least) override;
-  void irradiance(std::span<const FieldQuery> queries, const World* world,
+  void irradiance(std::span<const FieldQuery> queries, const World* world, CorrectionUse use,
                   std::span<vec3> result) const override;
 
   std::size_t surfel_bytes() const override { return field_.surfel_bytes(); }
 
   bool is_on(const World& world) const override;
   void record_lookups(vulkan::Recorder& recorder, const World* world, std::uint64_t queries,
-                      std::uint32_t count, std::uint64_t irradiance) const override;
+                      std::uint32_t count, CorrectionUse use,
+                      std::uint64_t irradiance) const override;
 
  private:
   /// Sorts values, `each` per probe, from the caller's order of probes into the list's order.
@@ -63,6 +68,8 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
   DeviceSolver solver_;
   HitShading shading_;
   WorldRayBuffers ray_buffers_;
+  std::unique_ptr<DeviceTraining> training_;  // null: nothing has been learned here
+  bool corrections_are_newer_ = false;        // the device has newer ones than ProbeData
   bool light_is_newer_ = false;  // the device has newer light and estimates than ProbeData
   bool store_is_newer_ = false;  // the device has newer tiles than ProbeData
 };

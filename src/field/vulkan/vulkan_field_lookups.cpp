@@ -48,13 +48,13 @@ std::uint64_t VulkanFieldBackend::find_lookups(const World& world, std::span<con
 }
 
 void VulkanFieldBackend::irradiance(std::span<const FieldQuery> queries, const World* world,
-                                    std::span<vec3> result) const {
+                                    CorrectionUse use, std::span<vec3> result) const {
   for (std::size_t first = 0; first < queries.size(); first += kQueriesAtATime) {
     const std::size_t count = std::min(kQueriesAtATime, queries.size() - first);
     const Buffer asked = host_buffer(*device_, queries.subspan(first, count), "queries");
     const Buffer answers(*device_, count * sizeof(vec3), vulkan::Memory::readback, "answers");
     device_->run([&](Recorder& to) {
-      record_lookups(to, world, asked.address(), static_cast<std::uint32_t>(count),
+      record_lookups(to, world, asked.address(), static_cast<std::uint32_t>(count), use,
                      answers.address());
     });
     std::copy_n(answers.as<vec3>().begin(), count, result.begin() + first);
@@ -63,13 +63,16 @@ void VulkanFieldBackend::irradiance(std::span<const FieldQuery> queries, const W
 
 void VulkanFieldBackend::record_lookups(Recorder& recorder, const World* world,
                                         std::uint64_t queries, std::uint32_t count,
-                                        std::uint64_t irradiance) const {
+                                        CorrectionUse use, std::uint64_t irradiance) const {
   const DeviceTracer* tracer = nullptr;
   if (world != nullptr && is_on(*world)) {
     recorder.bind_textures(device_world_of(*world)->scene().textures());
     tracer = &device_world_of(*world)->tracer();
   }
-  field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer);
+  const CorrectionArrays corrections = use == CorrectionUse::corrected
+                                           ? field_.corrections().arrays(CorrectionRead::smooth)
+                                           : CorrectionArrays{};
+  field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer, corrections);
 }
 
 std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeData& data) {

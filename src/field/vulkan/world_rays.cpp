@@ -39,13 +39,15 @@ std::size_t rays_of(const DeviceGroup& batch) {
 
 WorldRaysVulkan::WorldRaysVulkan(FieldResources& field, HitShading& shading,
                                  WorldRayBuffers& buffers, const DeviceWorld& world,
-                                 const DeviceProbes& list, std::span<const int> cells, bool sees)
+                                 const DeviceProbes& list, std::span<const int> cells, bool sees,
+                                 DeviceTraining* training)
     : field_(field),
       shading_(shading),
       buffers_(buffers),
       world_(world),
       list_(list),
       sees_(sees),
+      training_(training),
       batches_(batches_of(field, list)),
       cell_count_(static_cast<int>(cells.size())),
       shadow_rays_(field.device(), sizeof(uint), vulkan::Memory::readback, "shadow rays"),

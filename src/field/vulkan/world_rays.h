@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "field/correction/device_training.h"
 #include "field/vulkan/passes_vulkan.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/vulkan/hit_shading.h"
@@ -20,11 +21,12 @@ struct WorldRayBuffers {
 class WorldRaysVulkan final : public RaySourceVulkan {
  public:
   /// Reserves memory for the rays of a list's probes. `cells` are the cells that `visibility` works
-  /// on. With `sees`, `shade` records the distances that rays count as. All arguments must outlive
-  /// the execution of the recorded commands.
+  /// on. With `sees`, `shade` records the distances that rays count as. `training` has begun the
+  /// update; null: it learns nothing. All arguments must outlive the execution of the recorded
+  /// commands.
   WorldRaysVulkan(FieldResources& field, HitShading& shading, WorldRayBuffers& buffers,
                   const DeviceWorld& world, const DeviceProbes& list, std::span<const int> cells,
-                  bool sees);
+                  bool sees, DeviceTraining* training);
 
   int batches() const override { return static_cast<int>(batches_.size()); }
   void scroll(vulkan::Recorder&) override {}    // the host has scrolled the volumes
@@ -32,6 +34,8 @@ class WorldRaysVulkan final : public RaySourceVulkan {
   void trace(vulkan::Recorder& to, int batch) override;
   void shade(vulkan::Recorder& to, int batch) override;
   void visibility(vulkan::Recorder& to) override;
+  bool learns() const override { return training_ != nullptr; }
+  void corrections(vulkan::Recorder& to) override { training_->record(to, world_); }
   const DeviceTracer* tracer() const override { return &world_.tracer(); }
   void placement(vulkan::Recorder&) override {}  // the host has placed the probes
 
@@ -49,6 +53,7 @@ class WorldRaysVulkan final : public RaySourceVulkan {
   const DeviceWorld& world_;
   const DeviceProbes& list_;
   bool sees_;
+  DeviceTraining* training_;
   std::vector<DeviceGroup> batches_;
   int cell_count_;
   vulkan::Buffer cells_, shadow_rays_, lookup_rays_;

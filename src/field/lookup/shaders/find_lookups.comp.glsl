@@ -10,9 +10,15 @@ layout(push_constant, scalar) uniform Push {
   FindLookupsArguments args;
 };
 
+#include "field/correction/shaders/corrections.glsl"
 #include "field/lookup/shaders/lookup_points.glsl"
 #include "field/probes/shaders/store.glsl"
 #include "field/lookup/visibility_math.h"
+
+float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal_ws) {
+  return correction_of(args.corrections, grid, volume, position_ws, normal_ws);
+}
+
 #include "field/lookup/lookup.inl.h"
 
 /// The weights of the eight probes around a point in one volume. They sum to 1, or to 0 where all
@@ -53,7 +59,9 @@ void main() {
     if (sum_of_weights(corners) == 0.0) continue;
     volume_weight *= left;
     left -= volume_weight;
-    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= volume_weight * gi_share;
+    float ratio = fetch_correction(grid, volume, query.position_ws, query.normal_ws);
+    float weight = volume_weight * gi_share * ratio;
+    for (int c = 0; c < kCellCorners; ++c) corners.weight[c] *= weight;
     args.lookups.at[point.lookup + found] =
         SurfelLookup(corners, corner, fetch.fraction.x, fetch.fraction.y);
     ++found;

@@ -9,7 +9,13 @@ layout(push_constant, scalar) uniform Push {
   LookupArguments args;
 };
 
+#include "field/correction/shaders/corrections.glsl"
 #include "field/probes/shaders/store.glsl"
+
+float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal_ws) {
+  return correction_of(args.corrections, grid, volume, position_ws, normal_ws);
+}
+
 #include "field/lookup/lookup.inl.h"
 
 void main() {

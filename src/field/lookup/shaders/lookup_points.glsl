@@ -33,9 +33,11 @@ RaySetRecord rays_of(LookupPoint point) {
 }
 
 /// The share of the field's irradiance that an existing point receives. 0: it needs no lookup, as
-/// surfels that reflect nothing.
+/// surfels that reflect nothing and queries without a normal.
 float gi_share_of(LookupPoint point) {
-  if (args.points.count > 0) return 1.0;
+  if (args.points.count > 0) {
+    return args.points.queries.at[point.place].normal_ws == vec3(0.0) ? 0.0 : 1.0;
+  }
   SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
   bool reflects = point.column < rays_of(point).rays && surfel.albedo_over_pi != vec3(0.0);
   return reflects ? surfel.gi_share : 0.0;

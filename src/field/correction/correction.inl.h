@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads of the table of corrections, in the common subset of C++ and GLSL. The includer provides
+// the type
+//   CorrectionsRef  the table
+// and
+//   uint bucket_count(CorrectionsRef table)
+//   CorrectionKey fetch_key(CorrectionsRef table, uint slot)
+//   uint fetch_refined(CorrectionsRef table, uint slot, int cell)
+//       encode_correction() of a cell's refined ratio and its number of samples
+
+/// The slot of a block; kNoCorrectionBlock where nothing is known of it.
+LAMBENT_FN uint find_block(CorrectionsRef table, CorrectionKey key) {
+  uint first = correction_bucket(key, bucket_count(table));
+  for (uint slot = first; slot < first + kCorrectionBucket; ++slot) {
+    CorrectionKey held = fetch_key(table, slot);
+    if (is_same_block(held, key)) return slot;
+    if (held.rest == 0u) break;
+  }
+  return kNoCorrectionBlock;
+}
+
+/// What a cell adds to a mean: its ratio times its weight, and the weight.
+LAMBENT_FN vec2 weighed_cell(CorrectionsRef table, uint slot, int cell, float weight) {
+  CorrectionCell held = decode_correction(fetch_refined(table, slot, cell));
+  float samples = weight * (held.samples + kLeastCorrectionSamples);
+  return vec2(samples * held.ratio, samples);
+}
+
+/// The sum of the eight cells around a point, which is given in the cells of a level; 0 where
+/// nothing is known.
+LAMBENT_FN vec2 interpolated_cells(CorrectionsRef table, vec3 coords, uint axis, uint level,
+                                   uint volume) {
+  vec3 base = floor(coords - vec3(0.5f));
+  vec3 fraction = coords - vec3(0.5f) - base;
+  ivec3 lowest = ivec3(base);
+  ivec3 block = ivec3(lowest.x >> 1, lowest.y >> 1, lowest.z >> 1);
+  // Along a direction in which the lowest cell is the second of its block, the others are in the
+  // next block
+  int next = cell_of_block(lowest);
+  vec2 sum = vec2(0.0f);
+  for (int b = 0; b < kCellCorners; ++b) {
+    if ((b & ~next) != 0) continue;
+    uint slot = find_block(table, correction_key(block + cell_corner(b), axis, level, volume));
+    if (slot == kNoCorrectionBlock) continue;
+    for (int k = 0; k < kCellCorners; ++k) {
+      if (((k ^ b) & next) != 0) continue;
+      sum += weighed_cell(table, slot, k ^ next, trilinear_weight(fraction, cell_corner(k)));
+    }
+  }
+  return sum;
+}
+
+/// The ratio by which the lookup in a volume is off at a point with a normal; 1 where nothing is
+/// known. Smooth to look at: the fewer samples a level has around the point, the more the coarser
+/// ones count.
+LAMBENT_FN float correction_at(CorrectionsRef table, ProbeGrid grid, uint volume, vec3 position_ws,
+                               vec3 normal_ws) {
+  vec3 normal = normal_ws * grid.axes;
+  vec3 share = normal * normal;
+  vec3 coords = correction_coords(grid, position_ws);
+  float ratio = 0.0f;
+  float left = 1.0f;
+  float last = 1.0f;
+  for (uint level = 0u; level < uint(kCorrectionLevels) && left > kSmoothRest; ++level) {
+    vec2 sum = vec2(0.0f);
+    for (int a = 0; a < 3; ++a) {
+      if (share[a] < kMinAxisShare) continue;
+      uint axis = normal[a] < 0.0f ? uint(a) + 3u : uint(a);
+      sum += share[a] * interpolated_cells(table, coords, axis, level, volume);
+    }
+    coords *= 1.0f / kCorrectionGrowth;
+    if (!(sum.y > 0.0f)) continue;
+    last = sum.x / sum.y;
+    float own = left * sum.y / (sum.y + kSmoothPrior);
+    ratio += own * last;
+    left -= own;
+  }
+  return ratio + left * last;
+}
+
+/// As correction_at, from a single cell, picked at random by the position: for many lookups whose
+/// mean counts. Its expectation is about the same.
+LAMBENT_FN float picked_correction(CorrectionsRef table, ProbeGrid grid, uint volume,
+                                   vec3 position_ws, vec3 normal_ws) {
+  vec3 pick = correction_pick(grid, position_ws);
+  uint axis = correction_axis(normal_ws * grid.axes, pick.x);
+  vec3 coords = correction_coords(grid, position_ws);
+  for (uint level = 0u; level < uint(kCorrectionLevels); ++level) {
+    ivec3 cell = ivec3(floor(coords + pick - vec3(0.5f)));
+    ivec3 block = ivec3(cell.x >> 1, cell.y >> 1, cell.z >> 1);
+    uint slot = find_block(table, correction_key(block, axis, level, volume));
+    if (slot != kNoCorrectionBlock) {
+      CorrectionCell held = decode_correction(fetch_refined(table, slot, cell_of_block(cell)));
+      if (held.samples > 0.0f) return held.ratio;
+    }
+    coords *= 1.0f / kCorrectionGrowth;
+  }
+  return 1.0f;
+}
+
+/// The ratio of the level above `level` at the centre of one of its cells.
+LAMBENT_FN float coarser_correction(CorrectionsRef table, ivec3 cell, uint axis, uint level,
+                                    uint volume) {
+  vec3 coords = coarser_coords(cell);
+  for (uint above = level + 1u; above < uint(kCorrectionLevels); ++above) {
+    vec2 sum = interpolated_cells(table, coords, axis, above, volume);
+    if (sum.y > 0.0f) return sum.x / sum.y;
+    coords *= 1.0f / kCorrectionGrowth;
+  }
+  return 1.0f;
+}
+
+/// What lookups read from one of a block's cells that has learned `own`, once the ratios of coarser
+/// levels are known.
+LAMBENT_FN uint refined_cell(CorrectionsRef table, CorrectionKey key, int cell,
+                             LearnedCorrection own) {
+  float coarser = coarser_correction(table, 2 * block_of_key(key) + cell_corner(cell),
+                                     axis_of_key(key), level_of_key(key), volume_of_key(key));
+  return encode_correction(refined_correction(own, coarser));
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/correction/correction_table.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "core/simd.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kBucketsPerTask = 4096;
+
+/// What correction.inl.h reads.
+struct Corrections {
+  const CorrectionKey* keys;
+  const std::array<uint, kCellCorners>* refined;
+  uint buckets;
+};
+
+using CorrectionsRef = const Corrections&;
+
+LAMBENT_FORCE_INLINE uint bucket_count(const Corrections& table) {
+  return table.buckets;
+}
+LAMBENT_FORCE_INLINE const CorrectionKey& fetch_key(const Corrections& table, uint slot) {
+  return table.keys[slot];
+}
+LAMBENT_FORCE_INLINE uint fetch_refined(const Corrections& table, uint slot, int cell) {
+  return table.refined[slot][cell];
+}
+
+#include "field/correction/correction.inl.h"
+
+/// What learn.inl.h works on.
+struct Learning {
+  CorrectionKey* keys;
+  std::array<LearnedCorrection, kCellCorners>* learned;
+  const CorrectionItem* items;
+};
+
+using LearningRef = const Learning&;
+
+LAMBENT_FORCE_INLINE const CorrectionKey& fetch_key(const Learning& table, uint slot) {
+  return table.keys[slot];
+}
+LAMBENT_FORCE_INLINE void store_key(const Learning& table, uint slot, const CorrectionKey& key) {
+  table.keys[slot] = key;
+}
+LAMBENT_FORCE_INLINE const LearnedCorrection& fetch_learned(const Learning& table, uint slot,
+                                                            int cell) {
+  return table.learned[slot][cell];
+}
+LAMBENT_FORCE_INLINE void store_learned(const Learning& table, uint slot, int cell,
+                                        const LearnedCorrection& learned) {
+  table.learned[slot][cell] = learned;
+}
+LAMBENT_FORCE_INLINE const CorrectionItem& fetch_item(const Learning& table, uint item) {
+  return table.items[item];
+}
+
+#include "field/correction/learn.inl.h"
+
+}  // namespace
+
+CorrectionTable::CorrectionTable(int probes) : probes_(probes) {}
+
+std::uint64_t CorrectionTable::bytes_per_probe() {
+  constexpr std::uint64_t kSlot =
+      sizeof(CorrectionKey) + kCellCorners * sizeof(LearnedCorrection) + sizeof(Cells);
+  return kCorrectionBucketsPerProbe * (kCorrectionBucket * kSlot + sizeof(std::uint32_t));
+}
+
+void CorrectionTable::make_room() {
+  const std::size_t slots = std::size_t{kCorrectionBucket} * kCorrectionBucketsPerProbe *
+                            static_cast<std::size_t>(probes_);
+  keys_.resize(slots);
+  learned_.resize(slots);
+  refined_.resize(slots);
+  first_items_.resize(slots / kCorrectionBucket);
+}
+
+__attribute__((flatten)) float CorrectionTable::at(const ProbeGrid& grid, int volume,
+                                                   const vec3& position_ws, const vec3& normal_ws,
+                                                   CorrectionRead read) const {
+  if (empty_) return 1.0f;
+  const Corrections table = {keys_.data(), refined_.data(),
+                             static_cast<uint>(keys_.size() / kCorrectionBucket)};
+  const uint of = static_cast<uint>(volume);
+  if (read == CorrectionRead::smooth) return correction_at(table, grid, of, position_ws, normal_ws);
+  return picked_correction(table, grid, of, position_ws, normal_ws);
+}
+
+std::size_t CorrectionTable::claim(const CorrectionKey& key) {
+  const std::size_t first =
+      correction_bucket(key, static_cast<uint>(keys_.size() / kCorrectionBucket));
+  for (std::size_t slot = first; slot < first + kCorrectionBucket; ++slot) {
+    if (is_same_block(keys_[slot], key)) return slot;
+    if (keys_[slot].rest == 0) {
+      keys_[slot] = key;
+      return slot;
+    }
+  }
+  return kNoCorrectionBlock;
+}
+
+/// Finds the ratios that lookups read from a block, once those of coarser levels are known.
+void CorrectionTable::refine(std::size_t slot) {
+  const Corrections table = {keys_.data(), refined_.data(),
+                             static_cast<uint>(keys_.size() / kCorrectionBucket)};
+  const CorrectionKey key = keys_[slot];
+  for (int k = 0; k < kCellCorners; ++k) {
+    refined_[slot][k] = refined_cell(table, key, k, learned_[slot][k]);
+  }
+}
+
+/// Lists each sample in the buckets of its blocks. `mean` is that of what lookups find.
+void CorrectionTable::list_items(std::span<const ProbeGrid> grids,
+                                 std::span<const CorrectionSample> samples, float mean) {
+  const auto buckets = static_cast<uint>(first_items_.size());
+  items_.clear();
+  for (const CorrectionSample& sample : samples) {
+    const ProbeGrid& grid = grids[sample.volume];
+    const CorrectionSum sum = correction_sum(sample.gathered, sample.looked_up, mean);
+    const uint axis = correction_axis(sample.normal_ws * grid.axes, sample.pick);
+    vec3 coords = correction_coords(grid, sample.position_ws);
+    for (uint level = 0; level < kCorrectionLevels; ++level) {
+      CorrectionItem item =
+          correction_item(coords, axis, level, static_cast<uint>(sample.volume), sum);
+      std::uint32_t& first = first_items_[correction_bucket(item.key, buckets) / kCorrectionBucket];
+      item.next = first;
+      items_.push_back(item);
+      first = static_cast<std::uint32_t>(items_.size());
+      coords *= 1.0f / kCorrectionGrowth;
+    }
+  }
+}
+
+void CorrectionTable::learn(std::span<const ProbeGrid> grids,
+                            std::span<const CorrectionSample> samples, uint number) {
+  double sum_of_lookups = 0.0;
+  for (const CorrectionSample& sample : samples) sum_of_lookups += sample.looked_up;
+  if (!(sum_of_lookups > 0.0)) return;
+  const auto mean = static_cast<float>(sum_of_lookups / static_cast<double>(samples.size()));
+  if (empty_) make_room();
+  empty_ = false;
+  list_items(grids, samples, mean);
+  const Learning learning = {keys_.data(), learned_.data(), items_.data()};
+  const float keep = kept_corrections(number);
+  parallel_chunks(first_items_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      merge_bucket(learning, static_cast<uint>(b * kCorrectionBucket), first_items_[b], keep);
+      first_items_[b] = 0;
+    }
+  });
+  refine_all();
+}
+
+/// Refines all levels, the coarsest first.
+void CorrectionTable::refine_all() {
+  for (int level = kCorrectionLevels - 1; level >= 0; --level) {
+    parallel_chunks(keys_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t slot = begin; slot < end; ++slot) {
+        const bool used = keys_[slot].rest != 0;
+        if (used && level_of_key(keys_[slot]) == static_cast<uint>(level)) refine(slot);
+      }
+    });
+  }
+}
+
+std::vector<CorrectionBlock> CorrectionTable::blocks() const {
+  std::vector<CorrectionBlock> blocks;
+  for (std::size_t slot = 0; slot < keys_.size(); ++slot) {
+    if (keys_[slot].rest != 0) blocks.push_back({keys_[slot], learned_[slot]});
+  }
+  return blocks;
+}
+
+void CorrectionTable::restore(std::span<const CorrectionBlock> blocks, float weight) {
+  if (blocks.empty()) return;
+  make_room();
+  empty_ = false;
+  for (const CorrectionBlock& block : blocks) {
+    const std::size_t slot = claim(block.key);
+    if (slot == kNoCorrectionBlock) continue;
+    for (int k = 0; k < kCellCorners; ++k) {
+      const LearnedCorrection& cell = block.cells[k];
+      learned_[slot][k] = {weight * cell.gathered, weight * cell.looked_up, weight * cell.samples};
+    }
+  }
+  refine_all();
+}
+
+void CorrectionTable::forget(std::span<const ProbeGrid> grids, std::span<const float> kept) {
+  parallel_chunks(keys_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      if (keys_[slot].rest == 0) continue;
+      const ProbeGrid& grid = grids[volume_of_key(keys_[slot])];
+      const ProbeCell cell = probe_cell(grid, block_centre(grid, keys_[slot]));
+      float least = 1.0f;
+      for (int k = 0; k < kCellCorners; ++k) {
+        least = min(least, kept[probe_index(grid, cell.base + cell_corner(k))]);
+      }
+      if (least >= 1.0f) continue;
+      for (LearnedCorrection& learned : learned_[slot]) {
+        learned = updated_correction(learned, least, {0u, 0u}, 0u);
+      }
+    }
+  });
+  refine_all();
+}
+
+}  // namespace lambent

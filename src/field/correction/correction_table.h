@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a field on the processor knows of how far its lookups are off.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "field/correction/correction_math.h"
+
+namespace lambent {
+
+/// How far the lookup in a volume is off at a point.
+struct CorrectionSample {
+  vec3 position_ws;  ///< [m]
+  vec3 normal_ws;    ///< Unit.
+  int volume;        ///< Index of the volume whose lookup it is.
+  float gathered;    ///< Irradiance that a gather finds; its luminance [W/m^2].
+  float looked_up;   ///< Irradiance that the lookup finds; its luminance [W/m^2], > 0.
+  float pick;        ///< Uniform in [0, 1): picks an axis of the normal.
+};
+
+/// A block as files hold it.
+struct CorrectionBlock {
+  CorrectionKey key;
+  std::array<LearnedCorrection, kCellCorners> cells;
+};
+
+/// Whether a lookup is corrected by what the field has learned of how far it is off.
+enum class CorrectionUse : std::uint8_t { corrected, uncorrected };
+
+/// How lookups read the table.
+enum class CorrectionRead : std::uint8_t {
+  smooth,  ///< Interpolated between cells.
+  picked,  ///< One cell each, picked at random: for many lookups whose mean counts.
+};
+
+/// A hash table of blocks of cells on surfaces.
+class CorrectionTable {
+ public:
+  /// An empty table for a field of so many probes. It takes memory once there is something to
+  /// learn.
+  explicit CorrectionTable(int probes);
+
+  /// Memory that a table takes for each probe of its field, once it has learned something.
+  static std::uint64_t bytes_per_probe();
+
+  /// Whether nothing has been learned.
+  bool empty() const { return empty_; }
+  /// See correction_at() and picked_correction().
+  float at(const ProbeGrid& grid, int volume, const vec3& position_ws, const vec3& normal_ws,
+           CorrectionRead read) const;
+
+  /// Adds the samples of update `number`, each to a cell of every level. Samples of blocks for
+  /// which there is no room are lost. The order of samples does not matter.
+  void learn(std::span<const ProbeGrid> grids, std::span<const CorrectionSample> samples,
+             uint number);
+  /// Forgets a part of what was learned: around each probe of the field, samples count `kept` times
+  /// as much as before, 0 to 1.
+  void forget(std::span<const ProbeGrid> grids, std::span<const float> kept);
+
+  /// All blocks, as restore() takes them.
+  std::vector<CorrectionBlock> blocks() const;
+  /// Fills an empty table with the blocks of another, so that lookups read the same from both.
+  /// Their samples count `weight` times as much for what is learned later.
+  void restore(std::span<const CorrectionBlock> blocks, float weight);
+
+  // The table's arrays, by slot, as devices hold them; empty until something is learned.
+  using Cells = std::array<uint, kCellCorners>;
+  using LearnedCells = std::array<LearnedCorrection, kCellCorners>;
+  std::span<const CorrectionKey> keys() const { return keys_; }
+  std::span<const LearnedCells> learned() const { return learned_; }
+  std::span<const Cells> refined() const { return refined_; }
+
+ private:
+  void make_room();
+  std::size_t claim(const CorrectionKey& key);
+  void list_items(std::span<const ProbeGrid> grids, std::span<const CorrectionSample> samples,
+                  float mean);
+  void refine(std::size_t slot);
+  void refine_all();
+
+  int probes_;
+  // By slot; none until something is learned
+  std::vector<CorrectionKey> keys_;
+  std::vector<LearnedCells> learned_;
+  std::vector<Cells> refined_;  // encode_correction()
+  // While it learns: the new samples, and by bucket the place of the first one, from 1; 0: none
+  std::vector<CorrectionItem> items_;
+  std::vector<std::uint32_t> first_items_;
+  bool empty_ = true;
+};
+
+}  // namespace lambent

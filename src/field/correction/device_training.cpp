@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/correction/device_training.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "field/correction/train_math.h"
+#include "vulkan/device_memory.h"
+
+namespace lambent {
+namespace {
+
+using vulkan::Memory;
+using vulkan::Recorder;
+
+// Points whose rays are in memory at a time: 65,536 rays fill any device, in about 15 MB.
+constexpr std::uint32_t kPointsAtATime = 8192;
+constexpr std::uint32_t kRaysAtATime = kPointsAtATime * kTrainingRays;
+
+// Each surfel is a point, and another point follows it.
+constexpr std::size_t kPointsPerSurfel = 2;
+
+template <class T>
+vulkan::Buffer room_for(const vulkan::Device& device, std::size_t count, const char* name) {
+  return {device, count * sizeof(T), Memory::device, name};
+}
+
+}  // namespace
+
+DeviceTraining::DeviceTraining(FieldResources& field)
+    : field_(field),
+      kernels_(TrainingKernels::of(field.device(), field.settings(), field.volumes(),
+                                   field.lookups_per_surfel())),
+      shading_(field.device()) {
+  const vulkan::Device& device = field.device();
+  points_ = room_for<TrainingPointRecord>(device, kPointsAtATime, "points to learn at");
+  queries_ = room_for<QueryRecord>(device, kPointsAtATime, "queries to learn at");
+  lookups_ = room_for<SurfelLookup>(
+      device, static_cast<std::size_t>(field.lookups_per_surfel()) * kPointsAtATime,
+      "lookups to learn from");
+  rays_ = room_for<RayRecord>(device, kRaysAtATime, "rays to learn by");
+  first_indices_ = room_for<uint>(device, kPointsAtATime, "indices of rays to learn by");
+  hits_ = room_for<HitRecord>(device, kRaysAtATime, "hits to learn by");
+  hit_points_ = room_for<LitPointRecord>(device, kRaysAtATime, "points to learn from");
+  shaded_ = room_for<ShadedHitRecord>(device, kRaysAtATime, "surfaces to learn from");
+  direct_ = room_for<vec3>(device, kRaysAtATime, "direct light to learn from");
+  hit_queries_ = room_for<QueryRecord>(device, kRaysAtATime, "queries to learn by");
+  arrives_ = room_for<vec3>(device, kRaysAtATime, "field to learn by");
+  ray_count_ = room_for<uint>(device, 1, "count of rays to learn by");
+  const auto counter = [&](const char* name) {
+    return vulkan::Buffer(device, sizeof(uint), Memory::readback, name);
+  };
+  rays_read_ = counter("rays to learn by, counted");
+  shadow_rays_read_ = counter("shadow rays to learn by, counted");
+  lookup_rays_read_ = counter("rays of lookups to learn by, counted");
+}
+
+std::size_t DeviceTraining::bytes() const {
+  return bytes_of({&trained_, &samples_, &points_, &queries_, &lookups_, &rays_, &first_indices_,
+                   &hits_, &hit_points_, &shaded_, &direct_, &hit_queries_, &arrives_,
+                   &ray_count_});
+}
+
+void DeviceTraining::begin(std::span<const TrainedSurfel> surfels, uint number) {
+  const vulkan::Device& device = field_.device();
+  std::vector<TrainedSurfelRecord> records;
+  records.reserve(surfels.size());
+  for (const TrainedSurfel& at : surfels) {
+    records.push_back({static_cast<uint>(at.probe * field_.surfel_stride() + at.ray), at.ray,
+                       field_.ray_set_of(at.probe)});
+  }
+  number_ = number;
+  surfel_count_ = static_cast<std::uint32_t>(surfels.size());
+  trained_ = host_buffer<TrainedSurfelRecord>(device, records, "surfels to learn at");
+  const std::size_t samples = kPointsPerSurfel * surfels.size() * field_.lookups_per_surfel();
+  reserve<CorrectionSampleRecord>(device, samples, "samples to learn", samples_);
+  field_.corrections().reserve(samples);
+}
+
+/// Traces the rays of the points that are at hand, and finds what light they bring.
+void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::uint32_t count) {
+  const uint seed = field_.settings().seed;
+  const std::uint32_t rays = count * kTrainingRays;
+  to.run(kernels_.rays,
+         TrainingRaysArguments{{points_.address()},
+                               {queries_.address()},
+                               {rays_.address()},
+                               {first_indices_.address()},
+                               {ray_count_.address()},
+                               count,
+                               number_,
+                               seed,
+                               0u},
+         count);
+  to.barrier();
+  to.bind_textures(world.scene().textures());
+  const DeviceHits hits{{rays_.address()}, {hits_.address()}, rays};
+  world.tracer().closest_hits(to, {hits.rays, rays}, hits.hits);
+  to.barrier();
+  shading_.shade_hits(to, {world.scene(), world.tracer()}, hits, {first_indices_.address()},
+                      kTrainingRays, training_shading(field_.settings(), number_),
+                      {{hit_points_.address()}, {shaded_.address()}, {direct_.address()}});
+  to.run(kernels_.queries,
+         TrainingQueriesArguments{
+             {hit_points_.address()}, {rays_.address()}, {hit_queries_.address()}, rays, 0u},
+         rays);
+  to.barrier();
+  field_.record_lookup(to, {hit_queries_.address()}, rays, {arrives_.address()}, &world.tracer(),
+                       field_.corrections().arrays(CorrectionRead::picked));
+}
+
+/// Makes samples of the points at hand, and replaces the points by those that follow.
+void DeviceTraining::record_compare(Recorder& to, const DeviceWorld& world, std::uint32_t count,
+                                    std::size_t first_sample) {
+  field_.record_find_lookups(to, {queries_.address()}, count, {lookups_.address()},
+                             &world.tracer());
+  const std::uint64_t samples = samples_.address() + first_sample * sizeof(CorrectionSampleRecord);
+  to.run(kernels_.samples,
+         TrainingSamplesArguments{field_.store(),
+                                  {points_.address()},
+                                  {queries_.address()},
+                                  {rays_.address()},
+                                  {hit_points_.address()},
+                                  {shaded_.address()},
+                                  {direct_.address()},
+                                  {arrives_.address()},
+                                  {lookups_.address()},
+                                  {samples},
+                                  count,
+                                  number_,
+                                  field_.settings().seed,
+                                  0u},
+         count);
+  to.barrier();
+}
+
+void DeviceTraining::record(Recorder& to, const DeviceWorld& world) {
+  const std::size_t lookups = field_.lookups_per_surfel();
+  to.fill(ray_count_, 0u);
+  to.barrier();
+  std::size_t sample = 0;
+  for (std::uint32_t first = 0; first < surfel_count_; first += kPointsAtATime) {
+    const std::uint32_t count = std::min(kPointsAtATime, surfel_count_ - first);
+    to.run(kernels_.points,
+           TrainingPointsArguments{{trained_.address()},
+                                   field_.surfels(),
+                                   field_.ray_sets(),
+                                   {points_.address()},
+                                   {queries_.address()},
+                                   first,
+                                   count},
+           count);
+    to.barrier();
+    for (std::size_t k = 0; k < kPointsPerSurfel; ++k) {
+      record_gather(to, world, count);
+      record_compare(to, world, count, sample);
+      sample += lookups * count;
+    }
+  }
+  field_.corrections().record_learn(to, {field_.grids().address()}, {samples_.address()},
+                                    static_cast<std::uint32_t>(sample), number_);
+  to.copy(ray_count_, rays_read_, sizeof(uint));
+  shading_.take_ray_count(to, shadow_rays_read_);
+  field_.take_ray_count(to, lookup_rays_read_);
+}
+
+std::uint64_t DeviceTraining::rays() const {
+  std::uint64_t rays = 0;
+  for (const vulkan::Buffer* count : {&rays_read_, &shadow_rays_read_, &lookup_rays_read_}) {
+    rays += count->as<uint>().front();
+  }
+  return rays;
+}
+
+}  // namespace lambent

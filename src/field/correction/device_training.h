@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Gathers that teach a field in a device's memory how far its lookups are off: the twin of
+// train_corrections().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "field/correction/train_corrections.h"
+#include "field/vulkan/field_resources.h"
+#include "raytracing/vulkan/device_world.h"
+#include "raytracing/vulkan/hit_shading.h"
+
+namespace lambent {
+
+class DeviceTraining {
+ public:
+  /// The field must outlive it.
+  explicit DeviceTraining(FieldResources& field);
+
+  /// Takes the surfels that the next update learns at, and reserves memory. Must be called before
+  /// that is recorded, and once the field knows the rays of the update's probes.
+  void begin(std::span<const TrainedSurfel> surfels, uint number);
+  /// Records the gathers, and what the field learns from them.
+  void record(vulkan::Recorder& to, const DeviceWorld& world);
+  /// The number of rays traced, once the recorded commands have run.
+  std::uint64_t rays() const;
+  std::size_t bytes() const;
+
+ private:
+  void record_gather(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t count);
+  void record_compare(vulkan::Recorder& to, const DeviceWorld& world, std::uint32_t count,
+                      std::size_t first_sample);
+
+  FieldResources& field_;
+  const TrainingKernels& kernels_;
+  HitShading shading_;
+  uint number_ = 0;
+  std::uint32_t surfel_count_ = 0;
+  vulkan::Buffer trained_, samples_;
+  // Of the points that are worked on together, and of their rays
+  vulkan::Buffer points_, queries_, lookups_;
+  vulkan::Buffer rays_, first_indices_, hits_, hit_points_, shaded_, direct_, hit_queries_,
+      arrives_;
+  vulkan::Buffer ray_count_, rays_read_, shadow_rays_read_, lookup_rays_read_;
+};
+
+}  // namespace lambent

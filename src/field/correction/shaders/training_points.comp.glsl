@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Makes points at which corrections are learned of surfels, one lane per point.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/correction/correction_records.h"
+#include "field/vulkan/device_arguments.h"
+#include "shared/octahedral.h"
+
+layout(local_size_x = kGroupLanes) in;
+layout(push_constant, scalar) uniform Push {
+  TrainingPointsArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  TrainedSurfelRecord trained = args.trained.at[args.first + i];
+  SurfelRecord surfel = args.surfels.at[trained.surfel];
+  vec3 direction = args.sets.at[trained.ray_set].directions.at[trained.ray];
+  float gi_share = surfel.albedo_over_pi != vec3(0.0) ? surfel.gi_share : 0.0;
+  // A query without a normal is not answered
+  vec3 normal_ws = gi_share > 0.0 ? decode_unit_vector(surfel.normal_ws) : vec3(0.0);
+  args.queries.at[i] = QueryRecord(surfel.position_ws, normal_ws, -direction);
+  args.points.at[i] = TrainingPointRecord(decode_unit_vector(surfel.geometric_normal_ws), gi_share,
+                                          args.first + i);
+}

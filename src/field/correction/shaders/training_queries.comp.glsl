@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Asks the field for light where the rays end by which corrections are learned, one lane per ray.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "field/correction/correction_records.h"
+#include "field/vulkan/device_arguments.h"
+
+layout(local_size_x = kGroupLanes) in;
+layout(push_constant, scalar) uniform Push {
+  TrainingQueriesArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  LitPointRecord point = args.hit_points.at[i];
+  RayRecord ray = args.rays.at[i];
+  // A query without a normal is not answered
+  vec3 normal_ws = ray.mask != 0u ? point.normal_ws : vec3(0.0);
+  args.queries.at[i] = QueryRecord(point.position_ws, normal_ws, -ray.direction_ws);
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the rays of a point tell at which corrections are learned, in the common subset of C++ and
+// GLSL. The includer provides the type
+//   GathersRef  the rays of some points
+// and
+//   vec3 fetch_direction(GathersRef gathers, uint ray)
+//   ShadedHitRecord fetch_hit(GathersRef gathers, uint ray)
+//   vec3 fetch_radiance(GathersRef gathers, uint ray)
+//       gathered_radiance() of what the ray met
+
+/// Irradiance that a point's rays, from `first` on, gather; its luminance.
+LAMBENT_FN float gathered_luminance(GathersRef gathers, uint first, vec3 normal_ws,
+                                    vec3 geometric_normal_ws, float gi_share) {
+  vec3 sum = vec3(0.0f);
+  for (uint ray = first; ray < first + uint(kTrainingRays); ++ray) {
+    // Below the surface there is no light
+    if (dot(geometric_normal_ws, fetch_direction(gathers, ray)) <= 0.0f) continue;
+    sum += fetch_radiance(gathers, ray);
+  }
+  return luminance(sum) * (kPi / float(kTrainingRays)) *
+         above_horizon(gi_share, dot(normal_ws, geometric_normal_ws));
+}
+
+/// Picks one of a point's rays, from `first` on, that met a surface which reflects the field's
+/// light; each as likely as the others. Returns kNoTrainingRay where there is none.
+LAMBENT_FN uint following_ray(GathersRef gathers, uint first, uint point, uint number, uint seed) {
+  RandomStream random = make_random_stream(point, number, seed ^ kTrainingFollows);
+  uint follows = kNoTrainingRay;
+  float found = 0.0f;
+  for (uint ray = first; ray < first + uint(kTrainingRays); ++ray) {
+    ShadedHitRecord hit = fetch_hit(gathers, ray);
+    if (hit.albedo_over_pi == vec3(0.0f) || hit.gi_share <= 0.0f) continue;
+    found += 1.0f;
+    if (next_uniform(random) * found < 1.0f) follows = ray;
+  }
+  return follows;
+}

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "field/correction/train_corrections.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "core/parallel.h"
+#include "field/correction/train_math.h"
+#include "raytracing/world_access.h"
+#include "shared/color.h"
+#include "shared/rays.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPointsPerTask = 128;
+
+/// A point on a surface at which light is gathered.
+struct TrainingPoint {
+  FieldQuery at;
+  vec3 geometric_normal_ws;
+  float gi_share = 0.0f;  ///< 0: there is no point.
+  uint index = 0;         ///< Picks its random numbers.
+};
+
+/// What all gathers of an update have in common.
+struct Training {
+  const World& world;
+  const ProbeData& data;
+  VisibilityRays corrected, uncorrected;
+  ShadeHitsSettings shading;
+  uint number, seed;
+};
+
+/// The points at which an update learns: those of trained_surfels() that reflect light.
+std::vector<TrainingPoint> points_of(const Training& training, std::span<const int> probes) {
+  std::vector<TrainingPoint> points;
+  uint point = 0;
+  for (const TrainedSurfel& at : trained_surfels(training.data, probes, training.number)) {
+    const ProbeTrace& trace = training.data.traces[at.probe];
+    const Surfel& surfel = trace.surfels[at.ray];
+    const uint index = point++;
+    if (!surfel.reflects() || surfel.gi_share <= 0.0f) continue;
+    points.push_back({{surfel.position_ws, decode_unit_vector(surfel.normal_ws),
+                       -trace.rays->directions[at.ray]},
+                      decode_unit_vector(surfel.geometric_normal_ws),
+                      surfel.gi_share,
+                      index});
+  }
+  return points;
+}
+
+/// The rays of points' gathers, and what they bring back.
+struct Gathers {
+  std::vector<Ray> rays;
+  std::vector<ShadedHit> shaded;
+  std::vector<vec3> arrives;  // of the field, at their hits
+  std::uint64_t traced = 0;
+
+  vec3 radiance(std::size_t ray) const {
+    return gathered_radiance(shaded[ray].surface, shaded[ray].direct_irradiance, arrives[ray]);
+  }
+};
+
+using GathersRef = const Gathers&;
+
+const vec3& fetch_direction(const Gathers& gathers, uint ray) {
+  return gathers.rays[ray].direction;
+}
+const ShadedHitRecord& fetch_hit(const Gathers& gathers, uint ray) {
+  return gathers.shaded[ray].surface;
+}
+vec3 fetch_radiance(const Gathers& gathers, uint ray) {
+  return gathers.radiance(ray);
+}
+
+#include "field/correction/train.inl.h"
+
+void add_rays(const Training& training, const TrainingPoint& point, std::vector<Ray>& rays) {
+  const Frame frame = make_frame(point.at.normal_ws);
+  const vec3 origin = offset_ray_origin(point.at.position_ws, point.geometric_normal_ws);
+  for (int ray = 0; ray < kTrainingRays; ++ray) {
+    rays.push_back({origin, 0.0f,
+                    training_direction(frame, point.index, training.number, ray, training.seed),
+                    kInfiniteDistance, kRayGathers});
+  }
+}
+
+/// Shades what the rays met; runs of points that follow one another are shaded together.
+std::uint64_t shade(const Training& training, std::span<const TrainingPoint> points,
+                    std::span<const Hit> hits, Gathers& gathers) {
+  ShadeHitsScratch scratch;
+  std::uint64_t traced = 0;
+  for (std::size_t first = 0, end = 0; first < points.size(); first = end) {
+    for (end = first + 1; end < points.size(); ++end) {
+      if (points[end].index != points[end - 1].index + 1) break;
+    }
+    const std::size_t at = first * kTrainingRays, count = (end - first) * kTrainingRays;
+    traced += shade_hits(training.world, std::span(gathers.rays).subspan(at, count),
+                         hits.subspan(at, count), training.shading,
+                         std::size_t{points[first].index} * kTrainingRays, scratch,
+                         std::span(gathers.shaded).subspan(at, count));
+  }
+  return traced;
+}
+
+Gathers gather(const Training& training, std::span<const TrainingPoint> points) {
+  Gathers gathers;
+  for (const TrainingPoint& point : points) add_rays(training, point, gathers.rays);
+  const std::size_t count = gathers.rays.size();
+  std::vector<Hit> hits(count);
+  tracer_of(training.world).closest_hits(gathers.rays, hits);
+  gathers.shaded.resize(count);
+  gathers.traced = count + shade(training, points, hits, gathers);
+
+  std::vector<FieldQuery> queries(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    queries[i] = {gathers.shaded[i].point.position_ws, gathers.shaded[i].point.normal_ws,
+                  -gathers.rays[i].direction};
+  }
+  gathers.arrives.resize(count);
+  gathers.traced +=
+      lookup_irradiance(training.data.store, training.corrected, queries, gathers.arrives);
+  return gathers;
+}
+
+/// One of the surfaces that a point's rays, from `first` on, met, as the next point.
+TrainingPoint following_point(const Training& training, const Gathers& gathers, uint first,
+                              uint index) {
+  const uint ray = following_ray(gathers, first, index, training.number, training.seed);
+  if (ray == kNoTrainingRay) return {};
+  const ShadedHit& hit = gathers.shaded[ray];
+  return {{hit.point.position_ws, hit.point.normal_ws, -gathers.rays[ray].direction},
+          hit.point.geometric_normal_ws,
+          hit.surface.gi_share,
+          index | kFollowingPoint};
+}
+
+/// Compares what each point gathers with what the volumes that light it have there. Returns the
+/// number of visibility rays traced.
+std::uint64_t compare(const Training& training, std::span<const TrainingPoint> points,
+                      const Gathers& gathers, std::vector<CorrectionSample>& samples) {
+  std::vector<FieldQuery> queries(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) queries[i] = points[i].at;
+  QueryWeights weights;
+  const std::uint64_t traced =
+      find_weights(training.data.store, training.uncorrected, queries, weights);
+  for (std::size_t w = 0; w < weights.corners.size(); ++w) {
+    const std::uint32_t i = weights.query[w];
+    const TrainingPoint& point = points[i];
+    // Each volume's lookup is compared on its own: volumes may be off by different factors
+    CornerWeights corners = weights.corners[w];
+    normalize_weights(corners);
+    vec3 irradiance(0.0f);
+    constexpr std::uint32_t kOnlyOne = 0;
+    add_irradiance(training.data.store, {&point.at, 1}, {&corners, 1}, {&kOnlyOne, 1},
+                   {&irradiance, 1});
+    const float looked_up = point.gi_share * luminance(irradiance);
+    if (!(looked_up > 0.0f)) continue;
+    samples.push_back(
+        {point.at.position_ws, point.at.normal_ws, static_cast<int>(corners.table) / kCellWraps,
+         gathered_luminance(gathers, i * kTrainingRays, point.at.normal_ws,
+                            point.geometric_normal_ws, point.gi_share),
+         looked_up, training_random(point.index, training.number, kTrainingAxes, training.seed)});
+  }
+  return traced;
+}
+
+std::vector<CorrectionSample> joined(const std::vector<std::vector<CorrectionSample>>& parts) {
+  std::vector<CorrectionSample> all;
+  for (const std::vector<CorrectionSample>& part : parts)
+    all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace
+
+std::vector<TrainedSurfel> trained_surfels(const ProbeData& data, std::span<const int> probes,
+                                           uint number) {
+  std::size_t all = 0;
+  for (const int probe : probes) all += data.traces[probe].rays->directions.size();
+  std::vector<TrainedSurfel> surfels(all / training_stride(number));
+  std::size_t k = 0, first = 0;  // the probe of a surfel, and its first one
+  for (uint point = 0; point < surfels.size(); ++point) {
+    const std::size_t at = trained_surfel(point, number, data.settings.seed);
+    for (;; ++k) {
+      const std::size_t rays = data.traces[probes[k]].rays->directions.size();
+      if (at < first + rays) break;
+      first += rays;
+    }
+    surfels[point] = {probes[k], static_cast<int>(at - first)};
+  }
+  return surfels;
+}
+
+ShadeHitsSettings training_shading(const FieldSettings& settings, uint number) {
+  ShadeHitsSettings shading;
+  shading.cone_width = kHemisphereConeWidth / sqrt(static_cast<float>(kTrainingRays));
+  shading.max_albedo = settings.max_albedo;
+  shading.salt = number;
+  shading.seed = ~settings.seed;
+  return shading;
+}
+
+std::uint64_t train_corrections(const World& world, std::span<const int> probes,
+                                const VisibilityRays& by, uint number, ProbeData& data) {
+  Training training{
+      world, data, by, by, training_shading(data.settings, number), number, data.settings.seed};
+  training.uncorrected.correction = nullptr;
+  const std::vector<TrainingPoint> points = points_of(training, probes);
+  std::vector<std::vector<CorrectionSample>> samples((points.size() + kPointsPerTask - 1) /
+                                                     kPointsPerTask);
+  std::atomic<std::uint64_t> traced = 0;
+  parallel_chunks(points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+    const std::span<const TrainingPoint> own = std::span(points).subspan(begin, end - begin);
+    std::vector<CorrectionSample>& out = samples[begin / kPointsPerTask];
+    const Gathers gathers = gather(training, own);
+    traced += gathers.traced + compare(training, own, gathers, out);
+
+    std::vector<TrainingPoint> following;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const TrainingPoint next =
+          following_point(training, gathers, static_cast<uint>(i * kTrainingRays), own[i].index);
+      if (next.gi_share > 0.0f) following.push_back(next);
+    }
+    const Gathers further = gather(training, following);
+    traced += further.traced + compare(training, following, further, out);
+  });
+  data.correction.learn(data.store.grids(), joined(samples), number);
+  return traced;
+}
+
+}  // namespace lambent
