@@ -3,12 +3,15 @@
 
 #include <string>
 
+#include "lambent/world.h"
 #include "scene/validate.h"
 
 namespace lambent {
 namespace {
 
-constexpr int kMaxSide = 16384;  // of a picture [pixels]
+constexpr int kMaxSide = 16384;    // of a picture [pixels]
+constexpr int kMaxGlossyRows = 8;  // between those with rays: more leave nothing of reflections
+constexpr int kMostAveragedFrames = 1000;
 
 Expected<void> check_side(const char* name, int pixels) {
   if (pixels >= 1 && pixels <= kMaxSide) return {};
@@ -18,6 +21,11 @@ Expected<void> check_side(const char* name, int pixels) {
 Expected<void> check_least(const char* name, int value, int least) {
   if (value >= least) return {};
   return fail("", name, std::to_string(value) + " is less than " + std::to_string(least));
+}
+
+Expected<void> check_glossy_rows(int rows) {
+  if (rows >= 0 && rows <= kMaxGlossyRows) return {};
+  return fail("", "glossy rows", std::to_string(rows) + " is not between 0 and 8");
 }
 
 Expected<void> check(const IndirectSources& sources, const FrameSettings& settings) {
@@ -39,6 +47,28 @@ Expected<void> check(const IndirectSources& sources, const FrameSettings& settin
 
 }  // namespace
 
+FrameSettings quality_settings(Quality quality) {
+  FrameSettings settings;
+  switch (quality) {
+    case Quality::draft:
+      settings.samples = 4;
+      settings.fog = {16, 48, 4};
+      break;
+    case Quality::interactive:
+      settings.gather_rays = 1;
+      settings.denoise = true;
+      break;
+    case Quality::high:
+      settings.samples = 4;
+      settings.gather_rays = 16;
+      settings.glossy_rows = 1;
+      settings.fog = {8, 96, 16};
+      settings.denoise = true;
+      break;
+  }
+  return settings;
+}
+
 Expected<void> check(const FrameSettings& s) {
   const Expected<void> checks[] = {check_side("width", s.width),
                                    check_side("height", s.height),
@@ -46,13 +76,28 @@ Expected<void> check(const FrameSettings& s) {
                                    check_least("rows", s.rows, 0),
                                    check_least("samples", s.samples, 1),
                                    check_least("emissive samples", s.emissive_samples, 1),
-                                   check_least("gather rays", s.gather_rays, 0)};
+                                   check_least("gather rays", s.gather_rays, 0),
+                                   check_glossy_rows(s.glossy_rows)};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
+  }
+  if (const Expected<void> fine = check(s.fog); !fine) return fine;
+  if (s.averaged_frames < 1 || s.averaged_frames > kMostAveragedFrames) {
+    return fail("", "averaged frames",
+                std::to_string(s.averaged_frames) + " is not between 1 and 1000");
+  }
+  if (s.averaged_frames > 1 && (!s.denoise || s.samples != 1)) {
+    return fail("", "averaged frames", "go with denoise and one sample a pixel alone");
   }
   // Compared so that no sum overflows
   if (s.first_row >= s.height || s.rows > s.height - s.first_row) {
     return fail("", "rows", "reach below the picture");
+  }
+  if (s.temporal_antialiasing && rendered_rows(s).rows != s.height) {
+    return fail("", "temporal antialiasing", "goes with whole pictures alone");
+  }
+  if (s.averaged_frames > 1 && rendered_rows(s).rows != s.height) {
+    return fail("", "averaged frames", "go with whole pictures alone");
   }
   return {};
 }
@@ -68,6 +113,15 @@ Expected<void> check(const FrameRequest& request) {
   const FrameSettings& settings = request.settings;
   if (const Expected<void> fine = check(settings); !fine) return fine;
   if (const Expected<void> fine = check(request.sources, settings); !fine) return fine;
+  if (settings.averaged_frames > 1 && request.world.device() != nullptr) {
+    return fail("", "averaged frames", "are kept on the processor alone, and this world is not");
+  }
+  if (const Expected<void> fine = validate_fog(request.world.scene()); !fine) return fine;
+  if (has_fog(request)) {
+    const int rows = traced_rows(settings).rows;
+    const Expected<void> fine = check_froxels(settings.fog, settings.width, rows);
+    if (!fine) return fine;
+  }
   return check_view(request.camera, settings.width, settings.height);
 }
 

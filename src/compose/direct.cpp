@@ -3,8 +3,11 @@
 
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
+#include "denoise/variance.h"
 #include "raytracing/direct_light.h"
 #include "raytracing/world_access.h"
+#include "scene/light_tree/unoccluded_light.h"
+#include "shared/demodulate.h"
 
 namespace lambent {
 namespace {
@@ -15,15 +18,72 @@ constexpr std::size_t kPixelsPerTask = 1024;
 struct PendingLight {
   std::size_t pixel;
   ReflectedPair light;
+  bool of_emitter;
 };
+
+/// Draws the candidates of a pixel's direct light, as far as fog lets it through, and queues their
+/// shadow rays.
+void queue_direct_light(const LightDraws& draws, const Media& media, const GBuffer& gbuffer,
+                        std::size_t pixel, RandomStream random, std::vector<Ray>& shadows,
+                        std::vector<PendingLight>& pending) {
+  const Surface& surface = gbuffer.surfaces[pixel];
+  const Frame frame = make_frame(surface.normal_ws);
+  const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[pixel]);
+  const float coat_share = gbuffer.coat_shares.empty() ? 0.0f : gbuffer.coat_shares[pixel];
+  const auto samples = static_cast<uint>(draws.tree_samples);
+  const Reflector reflector{surface.reflectance, frame, to_viewer, coat_share, samples};
+  const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
+  const LightReceiver receiver{point, &reflector};
+  const uint slots = slot_count(draws);
+  LightPicks picks;
+  for (uint slot = 0; slot < slots; ++slot) {
+    const LightCandidate candidate = candidate_of_slot(draws, receiver, slot, picks, random);
+    if (candidate.perpendicular_irradiance == vec3(0.0f)) continue;
+    ReflectedPair pair = sampled_reflection(surface.reflectance, frame, to_viewer, point, candidate,
+                                            coat_share, samples);
+    if (!media.empty()) {
+      const float passed =
+          transmittance(media, point.position_ws, candidate.to_light, candidate.distance);
+      pair.diffuse *= passed;
+      pair.specular *= passed;
+    }
+    if (pair.diffuse + pair.specular == vec3(0.0f)) continue;
+    pending.push_back({pixel, pair, slot >= asked_lights(draws)});
+    shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, candidate));
+  }
+}
+
+/// Adds light of emitters to a pixel's sums; `squares` of luminance.
+void add_emitter(const Surface& surface, const vec3& diffuse, vec3& sum, float* squares) {
+  sum += diffuse;
+  if (squares == nullptr) return;
+  const float level = luminance(diffuse / filtered_albedo(surface.reflectance));
+  *squares += level * level;
+}
+
+/// Makes variances of sums of `draws` candidates out of the sums of squares.
+void finish_variance(const GBuffer& gbuffer, uint draws, std::size_t begin, std::size_t end,
+                     ReflectedLight& light) {
+  for (std::size_t i = begin; i < end; ++i) {
+    if (gbuffer.hit[i] == 0) continue;
+    const vec3 sum = light.emitters[i] / filtered_albedo(gbuffer.surfaces[i].reflectance);
+    light.emitter_variance[i] = variance_of_sum(luminance(sum), light.emitter_variance[i], draws);
+  }
+}
 
 }  // namespace
 
 std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                            const FrameSettings& settings, const Band& band, int sample,
                            ReflectedLight& light) {
+  const LightDraws draws{world, settings.emissive_samples};
+  const Media media(world.scene().fog);
+  const uint emitters = settings.denoise ? tree_samples(draws) : 0;
   light.diffuse.assign(gbuffer.size(), vec3(0.0f));
   light.specular.assign(gbuffer.size(), vec3(0.0f));
+  light.emitters.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
+  light.emitter_variance.assign(emitters > 1 ? gbuffer.size() : 0, 0.0f);
+  light.unoccluded.assign(emitters > 0 ? gbuffer.size() : 0, 0.0f);
   const std::size_t first_pixel = static_cast<std::size_t>(band.first_row) * settings.width;
   std::atomic<std::uint64_t> rays = 0;
 
@@ -32,28 +92,33 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
     std::vector<PendingLight> pending;
     for (std::size_t i = begin; i < end; ++i) {
       if (gbuffer.hit[i] == 0) continue;
-      const Surface& surface = gbuffer.surfaces[i];
-      const Frame frame = make_frame(surface.normal_ws);
-      const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[i]);
-      RandomStream random = make_random_stream(static_cast<uint>(first_pixel + i),
-                                               static_cast<uint>(sample), settings.seed);
-      const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
-      for_each_light(
-          world, point, settings.emissive_samples, random, [&](const LightCandidate& candidate) {
-            const ReflectedPair pair =
-                unoccluded_reflection(surface.reflectance, frame, to_viewer, point, candidate);
-            if (pair.diffuse + pair.specular == vec3(0.0f)) return;
-            pending.push_back({i, pair});
-            shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, candidate));
-          });
+      queue_direct_light(draws, media, gbuffer, i,
+                         make_random_stream(static_cast<uint>(first_pixel + i),
+                                            static_cast<uint>(sample), settings.seed),
+                         shadows, pending);
     }
-    std::vector<std::uint8_t> occluded(shadows.size());
-    tracer_of(world).occlusions(shadows, occluded);
+    ShadowRays arriving;
+    arriving.trace(tracer_of(world), shadows);
     for (std::size_t k = 0; k < pending.size(); ++k) {
-      if (occluded[k] != 0) continue;
-      light.diffuse[pending[k].pixel] += pending[k].light.diffuse;
-      light.specular[pending[k].pixel] += pending[k].light.specular;
+      const vec3 share = arriving.share(k);
+      if (share == vec3(0.0f)) continue;
+      const std::size_t pixel = pending[k].pixel;
+      light.specular[pixel] += share * pending[k].light.specular;
+      const vec3 diffuse = share * pending[k].light.diffuse;
+      if (emitters == 0 || !pending[k].of_emitter) {
+        light.diffuse[pixel] += diffuse;
+        continue;
+      }
+      add_emitter(gbuffer.surfaces[pixel], diffuse, light.emitters[pixel],
+                  emitters > 1 ? &light.emitter_variance[pixel] : nullptr);
     }
+    for (std::size_t i = begin; emitters > 0 && i < end; ++i) {
+      if (gbuffer.hit[i] == 0) continue;
+      const Surface& surface = gbuffer.surfaces[i];
+      light.unoccluded[i] = unoccluded_light(lights_of(world), emissive_of(world),
+                                             surface.position_ws, surface.normal_ws);
+    }
+    if (emitters > 1) finish_variance(gbuffer, emitters, begin, end, light);
     rays += shadows.size();
   });
   return rays;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The order of a frame, written once, and what a renderer keeps from frame to frame.
 #include <algorithm>
+#include <memory>
+#include <optional>
 
 #include "compose/check_frame.h"
 #include "compose/frame_passes.h"
+#include "compose/motion.h"
 #include "lambent/world.h"
 #include "raytracing/world_access.h"
 
@@ -23,28 +26,33 @@ void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& 
                 FramePasses& passes) {
   const FrameSettings& settings = request.settings;
   const IndirectSources& sources = request.sources;
-  const Band all = rendered_rows(settings);
+  const Band all = traced_rows(settings);
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = rows_of_a_band(settings.width);
 
   if (makes_maps) passes.rsm();
-  for (int row = 0; row < all.rows; row += band_rows) {
-    const Band band{all.first_row + row, std::min(band_rows, all.rows - row)};
-    for (int sample = 0; sample < settings.samples; ++sample) {
+  if (has_fog(request)) passes.light_fog();
+  for (int sample = 0; sample < settings.samples; ++sample) {
+    for (int row = 0; row < all.rows; row += band_rows) {
+      const Band band{all.first_row + row, std::min(band_rows, all.rows - row)};
       passes.gbuffer(band, sample);
+      if (wants_motion(settings)) passes.motion();
       passes.direct();
-      if (sources.field != nullptr) {
-        passes.indirect();
-        passes.glossy();
-      }
+      if (looks_up(request)) passes.indirect();
+      if (gathers(request)) passes.gather();
+      if (sources.field != nullptr) passes.glossy();
+      if (tracer_of(request.world).has_glass()) passes.transmission();
       if (sources.rsm) passes.rsm_upsample();
+      if (has_fog(request)) passes.fog();
       passes.compose(share);
       if (progress) {
-        const double rows_done = row + band.rows * (sample + 1.0) / settings.samples;
-        progress("frame", rows_done / all.rows);
+        const double band_share = static_cast<double>(row + band.rows) / all.rows;
+        progress("frame", (sample + band_share) / settings.samples);
       }
     }
+    if (settings.denoise) passes.denoise(share);
   }
+  if (settings.temporal_antialiasing) passes.antialias();
 }
 
 /// What a picture was rendered of.
@@ -52,6 +60,9 @@ struct PictureView {
   Camera camera;
   int width = 0, height = 0;
   std::uint64_t world_revision = 0;
+  std::shared_ptr<const ScenePose> pose;  // null: there was no picture
+  bool antialiased = false;               // over time
+  std::vector<FogVolume> fog;
 };
 
 bool is_same(const Camera& a, const Camera& b) {
@@ -64,18 +75,55 @@ bool is_same(const PictureView& a, const PictureView& b) {
          a.world_revision == b.world_revision;
 }
 
+/// The frame before as one of these settings sees it; none where it was of another size.
+std::optional<FrameBefore> frame_before(const PictureView& before, const World& world,
+                                        const FrameSettings& settings) {
+  const bool same_size = before.width == settings.width && before.height == settings.height;
+  if (before.pose == nullptr || !same_size || !wants_motion(settings)) return std::nullopt;
+  FrameBefore frame{before.camera, before.pose == pose_of(world), {}};
+  if (!frame.at_rest) {
+    frame.instances = instances_before(*before.pose, *pose_of(world), world.scene());
+  }
+  return frame;
+}
+
+/// How a picture differs from the one before; whether light does that long ago is taken for yes.
+FrameChange change_of(const PictureView& before, const PictureView& now, const World& world) {
+  FrameChange change;
+  change.same_size = before.width == now.width && before.height == now.height;
+  change.moved = !is_same(before.camera, now.camera);
+  change.edited = before.world_revision != now.world_revision;
+  const auto edits = world.changes_since(before.world_revision);
+  const auto relights = [](const WorldChanges& edit) {
+    return !edit.lights.empty() || !edit.materials.empty() || edit.emission || edit.environment;
+  };
+  change.relit =
+      !edits || std::any_of(edits->begin(), edits->end(), relights) || before.fog != now.fog;
+  return change;
+}
+
 }  // namespace
 
 struct Renderer::State {
   const World& world;
   IndirectSources sources;
   std::unique_ptr<FramePasses> passes;  // from the first frame on
-  PictureView last;                     // of the frame before, where there are passes
+  PictureView last;                     // of the last picture, where there are passes
+  PictureView before_last;              // of the picture before, if it is in parts all the while
+  TaaSequence sequence;                 // that the last picture is part of, if it is
   std::uint64_t frames = 0;
+
+  /// Moves on to a picture of a sequence, or ends it.
+  const TaaSequence* next_of_sequence(const PictureView& view) {
+    if (!last.antialiased) sequence.restart();
+    if (!view.antialiased) return nullptr;
+    sequence.advance(view.width, view.height, change_of(last, view, world));
+    return &sequence;
+  }
 };
 
 Renderer::Renderer(const World& world, const IndirectSources& sources)
-    : state_(new State{world, sources, nullptr, {}, 0}) {}
+    : state_(new State{world, sources, nullptr, {}, {}, {}, 0}) {}
 Renderer::~Renderer() = default;
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
@@ -83,12 +131,27 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Expected<void> Renderer::render(const Camera& camera, const FrameSettings& settings,
                                 RenderedFrame& frame, const ProgressFn& progress) {
   State& s = *state_;
-  const FrameRequest request{s.world, s.sources, camera, settings};
+  FrameRequest request{s.world, s.sources, camera, settings};
   if (const Expected<void> fine = check(request); !fine) return fine;
 
   // Rows below the first continue the picture before, whose maps are as they would be made again
-  const PictureView view{camera, settings.width, settings.height, s.world.revision()};
+  const PictureView view{camera,
+                         settings.width,
+                         settings.height,
+                         s.world.revision(),
+                         pose_of(s.world),
+                         settings.temporal_antialiasing,
+                         s.world.scene().fog};
   const bool continues = settings.first_row > 0 && s.passes != nullptr && is_same(view, s.last);
+  if (!continues) s.before_last = s.last;
+  const std::optional<FrameBefore> before = frame_before(s.before_last, s.world, settings);
+  if (before) request.before = &*before;
+  request.sequence = s.next_of_sequence(view);
+  if (averages(settings)) {
+    request.light_continues = before && s.before_last.world_revision == view.world_revision &&
+                              s.before_last.fog == view.fog;
+    request.first_sample = static_cast<std::uint32_t>(s.frames);
+  }
   if (s.passes == nullptr) s.passes = make_frame_passes(s.world);
   try {
     s.passes->begin(request, frame);
@@ -96,6 +159,7 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
     s.passes->finish();
   } catch (...) {
     s.passes.reset();  // half a frame is no start for the next one
+    s.last = {};
     throw;
   }
   s.last = view;

@@ -3,12 +3,18 @@
 #include <algorithm>
 #include <optional>
 
+#include "compose/filter_frame.h"
+#include "compose/fog/fog_frame.h"
 #include "compose/frame_passes.h"
+#include "compose/glossy/glossy_frame.h"
 #include "compose/layers.h"
+#include "compose/light_history.h"
+#include "compose/motion.h"
 #include "compose/pixel_math.h"
 #include "compose/rsm_frame.h"
 #include "core/parallel.h"
 #include "core/pass_times.h"
+#include "field/field_access.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
 #include "scene/environment_sampling.h"
@@ -19,38 +25,13 @@ namespace {
 constexpr std::size_t kPixelsPerTask = 4096;
 constexpr std::size_t kFloatsPerTask = std::size_t{1} << 18;  // to clear
 
-/// The frame's layers, with quick access to each.
-struct Layers {
-  explicit Layers(LayeredImage& image)
-      : all(image, "", 3),
-        direct(image, "direct", 3),
-        indirect(image, "indirect", 3),
-        irradiance(image, "irradiance", 3),
-        glossy(image, "glossy", 3),
-        emission(image, "emission", 3),
-        albedo(image, "albedo", 3),
-        normal(image, "normal", 3),
-        position(image, "position", 3),
-        depth(image, "depth", 1) {}
-
-  /// A layer's floats. They stay where they are when further layers are made.
-  struct Pixels {
-    Pixels(LayeredImage& image, const char* name, int channels)
-        : data(image.require(name, channels).pixels.data()) {}
-    float* data;
-  };
-  Pixels all, direct, indirect, irradiance, glossy, emission, albedo, normal, position, depth;
-};
-
-void add(Layers::Pixels& layer, std::size_t pixel, const vec3& value) {
-  for (int c = 0; c < 3; ++c) layer.data[3 * pixel + c] += value[c];
-}
-
 /// Irradiance of the field at each pixel, on a surface that faces along normal(pixel); `queries` is
-/// memory to ask in.
+/// memory to ask in. Corrections have grain of their own, which must not come back once gathered
+/// light is added to and filtered with a lookup, or a part of its light is taken out of it.
 template <class Normal>
-void look_up(const World& world, const IrradianceField& field, const GBuffer& gbuffer,
-             Normal normal, std::vector<FieldQuery>& queries, std::vector<vec3>& irradiance) {
+void look_up(const World& world, const IrradianceField& field, bool corrected,
+             const GBuffer& gbuffer, Normal normal, std::vector<FieldQuery>& queries,
+             std::vector<vec3>& irradiance) {
   queries.resize(gbuffer.size());
   parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -62,7 +43,11 @@ void look_up(const World& world, const IrradianceField& field, const GBuffer& gb
     }
   });
   irradiance.resize(gbuffer.size());
-  field.irradiance(queries, irradiance, &world);
+  if (corrected) {
+    field.irradiance(queries, irradiance, &world);
+  } else {
+    uncorrected_irradiance(field, queries, irradiance, world);
+  }
 }
 
 /// Takes what another source brings out of the field's light, and adds that source's own.
@@ -81,22 +66,29 @@ void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<
 struct BandLight {
   ReflectedLight direct;
   std::vector<vec3> irradiance;         // indirect, on the surface
+  bool has_indirect = false;            // there is such light
   bool looked_up = false;               // it was looked up in the field
-  std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces the mirror direction
+  bool is_filtered = false;             // it is gathered, and shown once it was filtered
+  std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces coat_direction()
+  std::vector<vec4> coats;              // light of coats by rays, and its share; none: no rays
+  std::vector<vec3> transmitted;        // light that comes through surfaces; none: no glass
+  std::vector<vec4> fog;                // that pixels are seen through, as of fog_along; or none
 };
 
 /// Adds a band's sample to the layers, each pixel with weight `share`.
 void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer,
-                const BandLight& light, std::size_t first_pixel, float share, Layers& layers) {
-  const bool has_field = !light.irradiance.empty();
+                const BandLight& light, const ShownPixels& shown, float share, Layers& layers) {
   const CameraRecord record = camera_record(camera, 1, 1);
-  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t pixel = first_pixel + i;
+  parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
+      const vec3 fog = light.fog.empty() ? vec3(0.0f) : vec3(light.fog[i]);
+      const float passed = light.fog.empty() ? 1.0f : light.fog[i].w;
+      add(layers.fog, pixel, share * fog);
       if (gbuffer.hit[i] == 0) {
         const vec3 sky = sky_radiance(world.scene().environment, -gbuffer.to_viewer_ws[i]);
-        add(layers.emission, pixel, share * sky);
-        add(layers.all, pixel, share * sky);
+        add(layers.emission, pixel, share * passed * sky);
+        add(layers.all, pixel, share * (passed * sky + fog));
         continue;
       }
       const Surface& surface = gbuffer.surfaces[i];
@@ -104,25 +96,53 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
 
       // Reflect the field's light: the base under the coat, and the coat by its directional albedo
       vec3 indirect(0.0f), glossy = light.direct.specular[i];
-      if (has_field && surface.gi_share > 0.0f) {
-        const vec3 irradiance =
-            indirect_share(surface.gi_share, light.looked_up ? 1u : 0u) * light.irradiance[i];
-        indirect = reflected_indirect(reflectance, irradiance);
-        glossy += reflected_glossy(reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]),
-                                   light.mirror_irradiance[i]);
-        add(layers.irradiance, pixel, share * irradiance);
+      if (light.has_indirect && surface.gi_share > 0.0f) {
+        if (!light.is_filtered) {
+          const vec3 irradiance =
+              indirect_share(surface.gi_share, light.looked_up ? 1u : 0u) * light.irradiance[i];
+          indirect = reflected_indirect(reflectance, irradiance);
+          add(layers.irradiance, pixel, share * irradiance);
+        }
+        glossy += coat_light(reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]),
+                             surface.gi_share, light.coats.empty() ? vec4(0.0f) : light.coats[i],
+                             light.mirror_irradiance[i]);
       }
 
-      add(layers.direct, pixel, share * light.direct.diffuse[i]);
-      add(layers.indirect, pixel, share * indirect);
-      add(layers.glossy, pixel, share * glossy);
-      add(layers.emission, pixel, share * surface.emission);
+      const float seen = share * passed;
+      const vec3 transmitted = light.transmitted.empty() ? vec3(0.0f) : light.transmitted[i];
+      add(layers.direct, pixel, seen * light.direct.diffuse[i]);
+      add(layers.indirect, pixel, seen * indirect);
+      add(layers.glossy, pixel, seen * glossy);
+      add(layers.transmission, pixel, seen * transmitted);
+      add(layers.emission, pixel, seen * surface.emission);
       add(layers.all, pixel,
-          share * (light.direct.diffuse[i] + indirect + glossy + surface.emission));
+          seen * (light.direct.diffuse[i] + indirect + glossy + transmitted + surface.emission) +
+              share * fog);
       add(layers.albedo, pixel, share * reflectance.diffuse);
       add(layers.normal, pixel, share * surface.normal_ws);
       add(layers.position, pixel, share * surface.position_ws);
       layers.depth.data[pixel] += share * view_depth(record, surface.position_ws);
+    }
+  });
+}
+
+/// Adds filtered light to the layers of the rows that are shown.
+void accumulate_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float share,
+                         Layers& layers) {
+  parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
+      if (!pixels.filtered_emitters.empty()) {
+        const vec3 direct = share * pixels.emitter_albedo[i] * pixels.filtered_emitters[i];
+        add(layers.direct, pixel, direct);
+        add(layers.all, pixel, direct);
+      }
+      if (pixels.filtered_gathered.empty() || pixels.receives[i] == 0) continue;
+      const vec3 irradiance = share * pixels.filtered_gathered[i];
+      const vec3 indirect = pixels.indirect_albedo[i] * irradiance;
+      add(layers.irradiance, pixel, irradiance);
+      add(layers.indirect, pixel, indirect);
+      add(layers.all, pixel, indirect);
     }
   });
 }
@@ -144,6 +164,11 @@ class FramePassesCpu final : public FramePasses {
     frame.passes.clear();
     frame.rays = 0;
     start_layers(request.settings, frame.image);
+    if (wants_motion(request.settings)) {
+      const int rows = traced_rows(request.settings).rows;
+      motion_.resize(static_cast<std::size_t>(frame.image.width) * static_cast<std::size_t>(rows));
+    }
+    if (!averages(request.settings)) history_.is_there = false;
     now_.emplace(request, frame);
   }
 
@@ -157,42 +182,74 @@ class FramePassesCpu final : public FramePasses {
   void gbuffer(const Band& band, int sample) override {
     band_ = band;
     sample_ = sample;
-    trace_gbuffer(request().world, request().camera, request().settings, band, sample, gbuffer_);
+    trace_gbuffer(request().world, request().camera, request().settings, band, sample, gbuffer_,
+                  request().jitter());
+    if (traces_coats(request())) find_coat_shares(gbuffer_);
+    light_.transmitted.clear();
     now_->frame.rays += gbuffer_.size();
     finish_pass("gbuffer");
   }
 
+  void motion() override {
+    const FrameRequest& asked = request();
+    now_->frame.rays += find_motion(asked, band_, sample_, gbuffer_, band_motion_);
+    // Of all samples, the nearest one's is the pixel's
+    const std::span<PixelMotion> pixels =
+        std::span(motion_).subspan(first_pixel(), gbuffer_.size());
+    parallel_chunks(pixels.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const PixelMotion& found = band_motion_[i];
+        pixels[i] = sample_ == 0 ? found : nearer_motion(pixels[i], found);
+      }
+    });
+    finish_pass("motion");
+  }
+
   void direct() override {
-    now_->frame.rays +=
-        shade_direct(request().world, gbuffer_, request().settings, band_, sample_, light_.direct);
+    now_->frame.rays += shade_direct(request().world, gbuffer_, request().settings, band_,
+                                     drawn_sample(), light_.direct);
     finish_pass("direct");
   }
 
   void indirect() override {
     const World& world = request().world;
-    const FrameSettings& settings = request().settings;
     const IndirectSources& sources = request().sources;
     const auto normal_at = [&](std::size_t i) { return gbuffer_.surfaces[i].normal_ws; };
-    light_.looked_up = looks_up(request());
-    if (settings.gather_rays > 0) {
-      now_->frame.rays += gather_irradiance(world, *sources.field, gbuffer_, settings, band_,
-                                            sample_, light_.irradiance);
-    } else {
-      look_up(world, *sources.field, gbuffer_, normal_at, queries_, light_.irradiance);
-    }
+    const bool alone = looks_up(request()) && sources.subtracted_field == nullptr;
+    look_up(world, *sources.field, alone, gbuffer_, normal_at, queries_, light_.irradiance);
     if (sources.subtracted_field != nullptr) {
-      look_up(world, *sources.subtracted_field, gbuffer_, normal_at, queries_, subtracted_);
+      look_up(world, *sources.subtracted_field, alone, gbuffer_, normal_at, queries_, subtracted_);
     }
     finish_pass("indirect");
   }
 
+  void gather() override {
+    const FrameSettings& settings = request().settings;
+    const GatherRequest asked{
+        gbuffer_.surfaces,
+        gbuffer_.hit,
+        settings.width,
+        band_.first_row,
+        settings.gather_rays,
+        static_cast<std::uint32_t>(drawn_sample()),
+        settings.seed,
+        settings.denoise ? std::span<const vec3>(light_.irradiance) : std::span<const vec3>()};
+    now_->frame.rays +=
+        gather_irradiance(request().world, *request().sources.field, asked, gathered_);
+    if (!settings.denoise) light_.irradiance.swap(gathered_.irradiance);
+    finish_pass("gather");
+  }
+
   void glossy() override {
-    const auto mirrored_at = [&](std::size_t i) {
-      return reflect(-gbuffer_.to_viewer_ws[i], gbuffer_.surfaces[i].normal_ws);
-    };
-    look_up(request().world, *request().sources.field, gbuffer_, mirrored_at, queries_,
-            light_.mirror_irradiance);
+    now_->frame.rays += reflect_band(request(), band_, sample_, gbuffer_, glossy_, light_.coats);
+    look_up_coats(request(), gbuffer_, light_.coats, glossy_, light_.mirror_irradiance);
     finish_pass("glossy");
+  }
+
+  void transmission() override {
+    now_->frame.rays +=
+        look_through_band(request(), band_, sample_, gbuffer_, glossy_, light_.transmitted);
+    finish_pass("transmission");
   }
 
   void rsm_upsample() override {
@@ -200,21 +257,68 @@ class FramePassesCpu final : public FramePasses {
     look_up_rsm(rsm_, gbuffer_, request().camera, request().settings.width, band_, from_maps_);
     if (alone) light_.irradiance.clear();
     replace_light(subtracted_, from_maps_, light_.irradiance);
-    if (alone) light_.mirror_irradiance = light_.irradiance;
+    if (alone) {
+      light_.mirror_irradiance = light_.irradiance;
+      light_.coats.clear();
+    }
     finish_pass("rsm.upsample");
+  }
+
+  void light_fog() override {
+    const FrameRequest& asked = request();
+    now_->frame.rays += fog_.find_light(fog_request(asked), asked.light_continues);
+    finish_pass("fog");
+  }
+
+  void fog() override {
+    find_fog(request(), fog_, band_, sample_, gbuffer_, light_.fog);
+    finish_pass("fog");
   }
 
   void compose(float share) override {
     const FrameSettings& settings = request().settings;
-    const int first_row = band_.first_row - rendered_rows(settings).first_row;
-    const std::size_t first_pixel = static_cast<std::size_t>(first_row) * settings.width;
-    accumulate(request().world, request().camera, gbuffer_, light_, first_pixel, share,
-               now_->layers);
+    if (!has_fog(request())) light_.fog.clear();
+    light_.has_indirect = request().sources.field != nullptr || request().sources.rsm;
+    light_.looked_up = is_looked_up(request());
+    light_.is_filtered = settings.denoise && gathers(request());
+    accumulate(request().world, request().camera, gbuffer_, light_, shown_pixels(band_, settings),
+               share, now_->layers);
+    if (settings.denoise) {
+      BandToFilter band{gbuffer_, light_.direct};
+      band.fog = light_.fog;
+      if (light_.is_filtered) band.gathered = &gathered_, band.looked_up = &light_.irradiance;
+      keep_pixels(request(), band_, band, to_filter_);
+    }
     finish_pass("compose");
+  }
+
+  void denoise(float share) override {
+    if (averages(request().settings)) {
+      average_light(request(), motion_, history_, to_filter_, next_history_);
+      std::swap(history_, next_history_);
+      finish_pass("history");
+    }
+    filter_pixels(request(), to_filter_);
+    const FrameSettings& settings = request().settings;
+    accumulate_filtered(to_filter_, shown_pixels(traced_rows(settings), settings), share,
+                        now_->layers);
+    finish_pass("denoise");
+  }
+
+  void antialias() override {
+    antialiasing_.resolve(request().sequence->frame(), motion_, *now_->frame.image.find(""));
+    finish_pass("taa");
   }
 
   void finish() override {
     RenderedFrame& frame = now_->frame;
+    if (request().settings.motion) {
+      const FrameSettings& settings = request().settings;
+      const ShownPixels shown = shown_pixels(traced_rows(settings), settings);
+      frame.image.layers.push_back(
+          motion_layer(frame.image.width, frame.image.height,
+                       std::span(motion_).subspan(shown.first, shown.count)));
+    }
     if (now_->made_maps) {
       for (Layer& layer : rsm_.layers) frame.image.layers.push_back(std::move(layer));
       frame.passes.insert(frame.passes.end(), rsm_.light.passes.begin(), rsm_.light.passes.end());
@@ -235,18 +339,34 @@ class FramePassesCpu final : public FramePasses {
   };
 
   const FrameRequest& request() const { return now_->request; }
+  /// Which of all frames' samples this is; random numbers of frames differ by it.
+  int drawn_sample() const { return sample_ + static_cast<int>(request().first_sample); }
+  /// Of the band, among the traced pixels.
+  std::size_t first_pixel() const {
+    const FrameSettings& settings = request().settings;
+    const int first_row = band_.first_row - traced_rows(settings).first_row;
+    return static_cast<std::size_t>(first_row) * settings.width;
+  }
   void finish_pass(const char* name) { now_->timer.finish(name); }
 
   std::optional<Now> now_;
   Band band_;
   int sample_ = 0;
 
-  // From frame to frame; the memory of a band's pixels, and of the maps and their light
+  // From frame to frame; the memory of a band's pixels, of the maps and their light, and of all
+  // rendered pixels' motion
   RsmFrame rsm_;
   GBuffer gbuffer_;
+  std::vector<PixelMotion> band_motion_, motion_;
+  TemporalAntialiasing antialiasing_;
   BandLight light_;
+  GatheredLight gathered_;
+  FilteredPixels to_filter_;
+  LightHistory history_, next_history_;  // of the frame before, and of this one
   std::vector<FieldQuery> queries_;
   std::vector<vec3> subtracted_, from_maps_;
+  GlossyMemory glossy_;
+  FroxelFog fog_;
 };
 
 }  // namespace

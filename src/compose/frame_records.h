@@ -4,6 +4,7 @@
 #define LAMBENT_COMPOSE_FRAME_RECORDS_H
 
 #include "field/vulkan/device_records.h"
+#include "glossy/glossy_math.h"
 #include "raytracing/camera_math.h"
 #include "raytracing/vulkan/shading_records.h"
 
@@ -16,7 +17,9 @@ struct PixelLayers {
   vec3 indirect;
   vec3 irradiance;
   vec3 glossy;
+  vec3 transmission;
   vec3 emission;
+  vec3 fog;
   vec3 albedo;
   vec3 normal;
   vec3 position;
@@ -34,6 +37,8 @@ struct CameraRaysArguments {
   uint index;        ///< Of the sample, of so many:
   uint samples;
   uint seed;
+  uint jitter;  ///< As of subpixel_position.
+  uint padding;
 };
 
 /// Where pixels ask the field for light.
@@ -43,44 +48,6 @@ struct PixelQueriesArguments {
   QueryArray queries;
   uint count;
   uint mirrored;  ///< 1: on a surface that faces where a mirror would look; 0: on their own.
-};
-
-/// Rays that gather the light of pixels, `rays_per_pixel` each, and the index of each pixel's first
-/// one.
-struct GatherRaysArguments {
-  LitPointArray points;
-  PixelSurfaceArray surfaces;
-  RayArray rays;
-  UintArray first_indices;
-  uint first;        ///< Of the band's pixels.
-  uint count;        ///< From there on.
-  uint first_pixel;  ///< Of the band.
-  uint rays_per_pixel;
-  uint index;  ///< Of the sample.
-  uint seed;
-};
-
-/// Where rays ask the field for light.
-struct RayQueriesArguments {
-  LitPointArray points;
-  RayArray rays;
-  QueryArray queries;
-  uint count;
-  uint padding;
-};
-
-/// Irradiance of pixels from what their rays gathered.
-struct GatherSumArguments {
-  LitPointArray points;  ///< Of the band's pixels.
-  RayArray rays;
-  ShadedHitArray shaded;
-  Vec3Array direct;  ///< Irradiance of what the rays met, from lights,
-  Vec3Array field;   ///< and from the field.
-  Vec3Array irradiance;
-  uint first;
-  uint count;
-  uint rays_per_pixel;
-  uint padding;
 };
 
 /// What pixels show, as passes over views read it.
@@ -105,6 +72,14 @@ struct ReplaceLightArguments {
   uint subtracts;  ///< 1: there is something to take out.
 };
 
+// ComposeArguments::has
+const uint kHasCoats = 1u;         ///< Rays bring light of coats,
+const uint kHasTransmission = 2u;  ///< and through surfaces.
+const uint kHasFog = 4u;           ///< Pixels are seen through fog.
+const uint kHasIndirect = 8u;      ///< There is indirect light,
+const uint kIsLookedUp = 16u;      ///< which was looked up in the field; see indirect_share(),
+const uint kIsFiltered = 32u;      ///< and is added once it was filtered.
+
 /// Adds what pixels show to their layers.
 struct ComposeArguments {
   LitPointArray points;
@@ -113,14 +88,18 @@ struct ComposeArguments {
   Vec3Array specular;
   Vec3Array irradiance;
   Vec3Array mirror_irradiance;
+  Vec4Array coats;           ///< As in coat_light(), where there are any.
+  CoatRayArray transmitted;  ///< Light that comes through surfaces, where there is any.
+  Vec4Array fog;             ///< As of fog_along, where there is any.
   PixelLayersArray layers;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
-  uint first_pixel;  ///< Of the band, among the layers' pixels.
+  uint first_pixel;  ///< Of those that are shown, among the layers' pixels.
   uint count;
   float share;
-  uint has_indirect;  ///< 1: there is indirect light.
-  uint looked_up;     ///< 1: it was looked up in the field; see indirect_share().
+  uint first;  ///< Of the band's pixels, the first that is shown.
+  uint has;    ///< kHasCoats, ...
+  uint padding;
 };
 
 LAMBENT_END

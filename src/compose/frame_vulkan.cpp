@@ -36,10 +36,12 @@ void FramePassesVulkan::begin(const FrameRequest& request, RenderedFrame& frame)
   frame.rays = 0;
   const Band rows = rendered_rows(request.settings);
   const std::size_t pixels = static_cast<std::size_t>(request.settings.width) * rows.rows;
-  first_layer_pixel_ = static_cast<std::uint32_t>(rows.first_row) *
-                       static_cast<std::uint32_t>(request.settings.width);
   reserve<PixelLayers>(pixels, "layers", memory_.layers);
   device_.run([&](Recorder& to) { to.fill(memory_.layers, 0u, 0, pixels * sizeof(PixelLayers)); });
+  const std::size_t traced =
+      static_cast<std::size_t>(traced_rows(request.settings).rows) * request.settings.width;
+  if (wants_motion(request.settings)) begin_motion(traced);
+  if (request.settings.denoise) begin_filter();
 }
 
 void FramePassesVulkan::add(const char* name, Record record) {
@@ -82,7 +84,7 @@ void FramePassesVulkan::trace_pixels(Recorder& to, const CameraRaysArguments& ar
   world_.tracer().closest_hits(to, {arguments.rays, arguments.count}, hits);
   to.barrier();
   memory_.pixel_shading.pixel_surfaces(to, stage(), {arguments.rays, hits, arguments.count},
-                                       arguments.first_pixel,
+                                       arguments.first_pixel, traces_coats(*request_),
                                        {{memory_.points.address()}, {memory_.surfaces.address()}});
 }
 
@@ -100,6 +102,7 @@ void FramePassesVulkan::gbuffer(const Band& band, int sample) {
   pixels_ = static_cast<std::uint32_t>(band.rows) * settings.width;
   sample_ = static_cast<std::uint32_t>(sample);
   reserve_pixels(pixels_);
+  rays_bring_ = 0;
   frame_->rays += pixels_;
   add("gbuffer", [this](Recorder& to) {
     const FrameSettings& s = request_->settings;
@@ -110,46 +113,68 @@ void FramePassesVulkan::gbuffer(const Band& band, int sample) {
                       pixels_,
                       sample_,
                       static_cast<uint>(s.samples),
-                      s.seed});
+                      s.seed,
+                      request_->jitter(),
+                      0u});
   });
 }
 
 void FramePassesVulkan::direct() {
   reserve<vec3>(pixels_, "direct diffuse", memory_.diffuse);
   reserve<vec3>(pixels_, "direct specular", memory_.specular);
-  add("direct", [this](Recorder& to) {
+  const bool apart = emitter_draws() > 0;
+  reserve<vec3>(apart ? pixels_ : 0, "direct drawn", memory_.emitters);
+  reserve<float>(apart ? pixels_ : 0, "squares of direct drawn", memory_.emitter_squares);
+  add("direct", [this, apart](Recorder& to) {
     ShadeHitsSettings shading;
     shading.emissive_samples = request_->settings.emissive_samples;
     shading.salt = sample_;
     shading.seed = request_->settings.seed;
     memory_.pixel_shading.reflected_light(
         to, stage(), {{memory_.points.address()}, {memory_.surfaces.address()}}, pixels_, shading,
-        {{memory_.diffuse.address()}, {memory_.specular.address()}});
+        {{memory_.diffuse.address()},
+         {memory_.specular.address()},
+         {apart ? memory_.emitters.address() : 0},
+         {apart ? memory_.emitter_squares.address() : 0}});
   });
 }
 
 void FramePassesVulkan::compose(float share) {
+  reserve<vec4>(1, "coats", memory_.coats);
+  reserve<CoatRay>(1, "coats' rays", memory_.coat_rays);
+  reserve<vec4>(1, "fog of pixels", memory_.pixel_fog);
   const bool has_indirect = request_->sources.field != nullptr || request_->sources.rsm;
+  const FrameSettings& settings = request_->settings;
+  const bool filtered = settings.denoise && gathers(*request_);
+  const ShownPixels shown = shown_pixels(band_, settings);
   const Buffer& mirrored =
       request_->sources.field != nullptr ? memory_.mirror_irradiance : memory_.irradiance;
   add("compose", [=, this, &mirrored](Recorder& to) {
     const glm::mat4& view = request_->camera.world_from_view;
+    const uint has = rays_bring_ | (has_fog(*request_) ? kHasFog : 0u) |
+                     (has_indirect ? kHasIndirect : 0u) |
+                     (is_looked_up(*request_) ? kIsLookedUp : 0u) | (filtered ? kIsFiltered : 0u);
     const ComposeArguments arguments = {{memory_.points.address()},
                                         {memory_.surfaces.address()},
                                         {memory_.diffuse.address()},
                                         {memory_.specular.address()},
                                         {memory_.irradiance.address()},
                                         {mirrored.address()},
+                                        {memory_.coats.address()},
+                                        {memory_.coat_rays.address()},
+                                        {memory_.pixel_fog.address()},
                                         {memory_.layers.address()},
                                         vec3(view[3]),
                                         normalize(vec3(view[2])),
-                                        first_pixel_ - first_layer_pixel_,
-                                        pixels_,
+                                        static_cast<uint>(shown.first_in_layers),
+                                        static_cast<uint>(shown.count),
                                         share,
-                                        has_indirect ? 1u : 0u,
-                                        looks_up(*request_) ? 1u : 0u};
-    to.run(kernels_.compose, arguments, pixels_);
+                                        static_cast<uint>(shown.first),
+                                        has,
+                                        0u};
+    if (shown.count > 0) to.run(kernels_.compose, arguments, static_cast<uint>(shown.count));
   });
+  if (settings.denoise) keep_pixels();
   // The band's memory is used again
   run_steps();
 }
@@ -159,6 +184,7 @@ void FramePassesVulkan::finish() {
   LayeredImage& image = frame_->image;
   shape_layers(request_->settings.width, rendered_rows(request_->settings).rows, image);
   read_layers(image);
+  if (wants_motion(request_->settings)) finish_motion(image);
   for (Layer& layer : stage_layers_) image.layers.push_back(std::move(layer));
   stage_layers_.clear();
   turn_.unlock();
@@ -168,9 +194,10 @@ void FramePassesVulkan::read_layers(LayeredImage& image) {
   pixel_layers_.resize(static_cast<std::size_t>(image.width) * image.height);
   vulkan::read(device_, memory_.layers, std::span(pixel_layers_));
   constexpr vec3 PixelLayers::*kColors[] = {
-      &PixelLayers::all,        &PixelLayers::direct, &PixelLayers::indirect,
-      &PixelLayers::irradiance, &PixelLayers::glossy, &PixelLayers::emission,
-      &PixelLayers::albedo,     &PixelLayers::normal, &PixelLayers::position};
+      &PixelLayers::all,        &PixelLayers::direct,  &PixelLayers::indirect,
+      &PixelLayers::irradiance, &PixelLayers::glossy,  &PixelLayers::transmission,
+      &PixelLayers::emission,   &PixelLayers::fog,     &PixelLayers::albedo,
+      &PixelLayers::normal,     &PixelLayers::position};
   static_assert(std::size(kColors) + 1 == std::size(kFrameLayers));
   for (std::size_t i = 0; i < std::size(kColors); ++i) {
     float* out = image.layers[i].image.pixels.data();

@@ -9,25 +9,45 @@
 #include <string>
 #include <vector>
 
+#include "compose/filter_frame.h"
+#include "compose/filter_records.h"
 #include "compose/frame_passes.h"
 #include "compose/frame_records.h"
+#include "compose/motion_records.h"
 #include "compose/pixel_math.h"
+#include "denoise/denoise_vulkan.h"
+#include "fog/fog_records.h"
+#include "gather/gather_math.h"
+#include "gather/gather_records.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/vulkan/hit_shading.h"
 #include "rsm/vulkan/gather_vulkan.h"
+#include "shaders/add_filtered_comp.h"
 #include "shaders/camera_rays_comp.h"
+#include "shaders/coat_hits_comp.h"
+#include "shaders/coat_light_comp.h"
+#include "shaders/coat_rays_comp.h"
+#include "shaders/coat_reuse_comp.h"
 #include "shaders/compose_comp.h"
+#include "shaders/fog_pixels_comp.h"
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
+#include "shaders/keep_pixels_comp.h"
+#include "shaders/motion_comp.h"
+#include "shaders/motion_rays_comp.h"
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
+#include "shaders/through_rays_comp.h"
 #include "shaders/view_geometry_comp.h"
+#include "temporal/taa_vulkan.h"
 #include "vulkan/buffer.h"
 #include "vulkan/kernel.h"
 #include "vulkan/recorder.h"
 
 namespace lambent {
+
+enum class CorrectionUse : std::uint8_t;
 
 /// Kernels of frames, kept by the device (Device::kept).
 struct FrameKernels {
@@ -36,35 +56,77 @@ struct FrameKernels {
   const vulkan::Device& device;
   std::mutex in_use;  ///< Frames on a device take turns.
   vulkan::Kernel camera_rays{device, shaders::camera_rays_comp(), "camera rays"};
+  vulkan::Kernel motion_rays{device, shaders::motion_rays_comp(), "motion rays"};
+  vulkan::Kernel motion{device, shaders::motion_comp(), "motion"};
   vulkan::Kernel pixel_queries{device, shaders::pixel_queries_comp(), "pixel queries"};
   vulkan::Kernel gather_rays{device, shaders::gather_rays_comp(), "gather rays"};
   vulkan::Kernel ray_queries{device, shaders::ray_queries_comp(), "ray queries"};
   vulkan::Kernel gather_sum{device, shaders::gather_sum_comp(), "gather sum"};
   vulkan::Kernel replace_light{device, shaders::replace_light_comp(), "replace light"};
   vulkan::Kernel view_geometry{device, shaders::view_geometry_comp(), "view geometry"};
+  vulkan::Kernel coat_rays{device, shaders::coat_rays_comp(), "coat rays"};
+  vulkan::Kernel coat_hits{device, shaders::coat_hits_comp(), "coat hits"};
+  vulkan::Kernel coat_light{device, shaders::coat_light_comp(), "coat light"};
+  vulkan::Kernel coat_reuse{device, shaders::coat_reuse_comp(), "coat reuse"};
+  vulkan::Kernel through_rays{device, shaders::through_rays_comp(), "rays through surfaces"};
+  vulkan::Kernel fog_pixels{device, shaders::fog_pixels_comp(), "fog of pixels"};
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
+  vulkan::Kernel keep_pixels{device, shaders::keep_pixels_comp(), "keep pixels"};
+  vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
+};
+
+/// Light that is filtered, of the traced rows: 148 bytes a pixel. As in FilteredPixelsRecord.
+struct FilteredBuffers {
+  FilteredPixelsRecord record;
+  vulkan::Buffer addresses;  ///< That record.
+  vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
+  vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, receives;
+  vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
+  vulkan::Buffer filtered_gathered, filtered_emitters;
 };
 
 /// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
 struct FrameMemory {
   explicit FrameMemory(const vulkan::Device& device)
-      : pixel_shading(device), gather_shading(device), mapper(device), rsm(device) {}
+      : pixel_shading(device),
+        gather_shading(device),
+        mapper(device),
+        rsm(device),
+        denoiser(device),
+        antialiasing(device) {}
 
   HitShading pixel_shading, gather_shading;
   RsmMapperVulkan mapper;
   RsmGathererVulkan rsm;
   RsmMapsOnDevice maps;
+  DenoiserVulkan denoiser;
+  FilteredBuffers filtered;
+  TaaVulkan antialiasing;
 
   // Of a band's pixels
   vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
+  vulkan::Buffer gathered_variance, emitters, emitter_squares;
   // Of the rays that gather some pixels' light
   vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
       gathered_direct, gathered_field;
   // Positions, normals and depths of a band's pixels, and of the small picture that maps light
   vulkan::Buffer band_geometry[3], small_geometry[3];
+  // Motion of a band's pixels, and the rays that go on where something is see-through
+  vulkan::Buffer motion, further_rays, further_hits, further_ray_count;
+  // The scene in the frame before
+  vulkan::Buffer scene_before, instances_before, positions_before;
+  // Of the rows around a band whose coats rays light: pixels, rays, and lists of ways; those of one
+  // bounce and of the next take turns
+  vulkan::Buffer coats, coat_points, coat_surfaces, coat_rays;
+  vulkan::Buffer way_rays[2], way_paths[2], way_pixels[2], way_length;
+  vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
+  vulkan::Buffer way_queries, way_answers;
+  // Fog: its froxels, and what it does to a band's pixels
+  FroxelFog fog;
+  vulkan::Buffer media, froxels, fog_record, pixel_fog;
   // Of the whole picture
-  vulkan::Buffer layers;
+  vulkan::Buffer layers, picture_motion;
 };
 
 class FramePassesVulkan final : public FramePasses {
@@ -73,12 +135,19 @@ class FramePassesVulkan final : public FramePasses {
 
   void begin(const FrameRequest& request, RenderedFrame& frame) override;
   void rsm() override;
+  void light_fog() override;
   void gbuffer(const Band& band, int sample) override;
+  void motion() override;
   void direct() override;
   void indirect() override;
+  void gather() override;
   void glossy() override;
+  void transmission() override;
   void rsm_upsample() override;
+  void fog() override;
   void compose(float share) override;
+  void denoise(float share) override;
+  void antialias() override;
   void finish() override;
 
  private:
@@ -90,7 +159,7 @@ class FramePassesVulkan final : public FramePasses {
     Record record;
   };
 
-  DeviceStage stage() const { return {world_.scene(), world_.tracer()}; }
+  DeviceStage stage() const;
   /// Has a pass run after those asked for before; it sees what they wrote.
   void add(const char* name, Record record);
   void run_steps();
@@ -107,8 +176,24 @@ class FramePassesVulkan final : public FramePasses {
     buffer.reserve(device_, count * sizeof(T), name);
   }
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
-               std::uint32_t count, const Buffer& irradiance);
-  void gather();
+               std::uint32_t count, CorrectionUse use, const Buffer& irradiance);
+  /// Lights coats by rays, as Glossy::reflect.
+  void trace_coats();
+  void see_around_band(const Band& around);
+  void reserve_ways(std::size_t pixels);
+  std::uint32_t count_ways();
+  bool follow_all(std::uint32_t first_index, std::uint32_t salt);
+  void follow_ways(std::uint32_t ways, std::uint32_t bounce, std::uint32_t first_index,
+                   std::uint32_t salt);
+  void reuse_coat_rays(const Band& around);
+  void upload_before();
+  void begin_motion(std::size_t pixels);
+  void finish_motion(LayeredImage& image);
+  std::uint32_t emitter_draws() const;
+  void begin_filter();
+  void keep_pixels();
+  /// Of the band, among the traced pixels.
+  std::uint32_t first_traced_pixel() const;
   void read_layers(LayeredImage& image);
 
   const DeviceWorld& world_;
@@ -128,8 +213,9 @@ class FramePassesVulkan final : public FramePasses {
   std::vector<Layer> stage_layers_;
   Band band_;
   std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
-  std::uint32_t first_layer_pixel_ = 0;         // of the rendered rows
   std::uint32_t sample_ = 0;
+  uint rays_bring_ = 0;        // to the band's sample, see ComposeArguments
+  const char* way_pass_ = "";  // whose rays are being followed
 };
 
 }  // namespace lambent

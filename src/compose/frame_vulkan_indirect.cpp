@@ -24,12 +24,13 @@ constexpr std::uint32_t kViewPixels = 1u << 18;
 
 /// Looks the field up, on the device where that holds it.
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
-                                const Buffer& queries, std::uint32_t count,
+                                const Buffer& queries, std::uint32_t count, CorrectionUse use,
                                 const Buffer& irradiance) {
   const DeviceLookups* there = device_lookups_of(field);
   if (there != nullptr && there->is_on(request_->world)) {
-    add(name, [this, there, &queries, &irradiance, count](Recorder& to) {
-      there->record_lookups(to, &request_->world, queries.address(), count, irradiance.address());
+    add(name, [this, there, &queries, &irradiance, count, use](Recorder& to) {
+      there->record_lookups(to, &request_->world, queries.address(), count, use,
+                            irradiance.address());
     });
     return;
   }
@@ -37,7 +38,11 @@ void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
   std::vector<FieldQuery> asked(count);
   std::vector<vec3> answers(count);
   vulkan::read(device_, queries, std::span(asked));
-  field.irradiance(asked, answers, &request_->world);
+  if (use == CorrectionUse::corrected) {
+    field.irradiance(asked, answers, &request_->world);
+  } else {
+    uncorrected_irradiance(field, asked, answers, request_->world);
+  }
   vulkan::write(device_, std::span<const vec3>(answers), irradiance);
 }
 
@@ -55,23 +60,24 @@ void FramePassesVulkan::indirect() {
       to.run(kernels_.pixel_queries, arguments, pixels_);
     };
   };
-  if (request_->settings.gather_rays > 0) {
-    gather();
-  } else {
-    add("indirect", ask(0u));
-    look_up("indirect", *sources.field, memory_.queries, pixels_, memory_.irradiance);
-  }
+  // As on the processor (frame_cpu.cpp), corrections' grain must not come back with what is added
+  // to the lookup and filtered with it, or taken out of it
+  const bool alone = looks_up(*request_) && sources.subtracted_field == nullptr;
+  const CorrectionUse use = alone ? CorrectionUse::corrected : CorrectionUse::uncorrected;
+  add("indirect", ask(0u));
+  look_up("indirect", *sources.field, memory_.queries, pixels_, use, memory_.irradiance);
   if (sources.subtracted_field == nullptr) return;
   reserve<vec3>(pixels_, "taken out", memory_.subtracted_field);
   add("indirect", ask(0u));
-  look_up("indirect", *sources.subtracted_field, memory_.queries, pixels_,
+  look_up("indirect", *sources.subtracted_field, memory_.queries, pixels_, use,
           memory_.subtracted_field);
 }
 
-/// Final gathering, some pixels at a time; see gather.cpp.
+/// Final gathering, some pixels at a time; see gather/gather.cpp.
 void FramePassesVulkan::gather() {
   const auto rays_per_pixel = static_cast<std::uint32_t>(request_->settings.gather_rays);
   const std::uint32_t chunk = std::max(kGatherRays / rays_per_pixel, 1u);
+  const bool filters = request_->settings.denoise;
   FrameMemory& m = memory_;
   const std::size_t most = static_cast<std::size_t>(chunk) * rays_per_pixel;
   reserve<RayRecord>(most, "gathering rays", m.gathering_rays);
@@ -82,6 +88,8 @@ void FramePassesVulkan::gather() {
   reserve<vec3>(most, "gathered field", m.gathered_field);
   reserve<QueryRecord>(most, "queries", m.queries);
   reserve<uint>(chunk, "gathering indices", m.gathering_indices);
+  reserve<vec3>(pixels_, "irradiance", m.irradiance);
+  reserve<float>(pixels_, "variance", m.gathered_variance);
   ShadeHitsSettings shading;
   shading.cone_width = kHemisphereConeWidth / std::sqrt(static_cast<float>(rays_per_pixel));
   shading.max_albedo = request_->sources.field->settings().max_albedo;
@@ -91,7 +99,7 @@ void FramePassesVulkan::gather() {
   for (std::uint32_t first = 0; first < pixels_; first += chunk) {
     const std::uint32_t count = std::min(chunk, pixels_ - first), rays = count * rays_per_pixel;
     frame_->rays += rays;
-    add("indirect", [=, this, &m](Recorder& to) {
+    add("gather", [=, this, &m](Recorder& to) {
       const GatherRaysArguments drawn = {{m.points.address()},
                                          {m.surfaces.address()},
                                          {m.gathering_rays.address()},
@@ -99,9 +107,11 @@ void FramePassesVulkan::gather() {
                                          first,
                                          count,
                                          first_pixel_,
+                                         static_cast<uint>(request_->settings.width),
                                          rays_per_pixel,
                                          sample_,
-                                         request_->settings.seed};
+                                         request_->settings.seed,
+                                         0u};
       to.run(kernels_.gather_rays, drawn, count);
       to.barrier();
       const HitArray hits{m.gathered_hits.address()};
@@ -118,34 +128,33 @@ void FramePassesVulkan::gather() {
                                          0u};
       to.run(kernels_.ray_queries, asked, rays);
     });
-    look_up("indirect", *request_->sources.field, m.queries, rays, m.gathered_field);
-    add("indirect", [=, this, &m](Recorder& to) {
+    look_up("gather", *request_->sources.field, m.queries, rays, CorrectionUse::corrected,
+            m.gathered_field);
+    add("gather", [=, this, &m](Recorder& to) {
+      // What is filtered is kept with that of other bands
+      const std::uint64_t at = filters ? first_traced_pixel() : 0;
+      const FilteredPixelsRecord& kept = m.filtered.record;
+      const Vec3Array gathered{filters ? kept.gathered.address + at * sizeof(vec3)
+                                       : m.irradiance.address()};
+      const FloatArray variance{filters ? kept.gathered_variance.address + at * sizeof(float)
+                                        : m.gathered_variance.address()};
+      const Vec3Array excess{filters ? kept.excess.address + at * sizeof(vec3) : 0};
       const GatherSumArguments summed = {{m.points.address()},
                                          {m.gathering_rays.address()},
                                          {m.gathered.address()},
                                          {m.gathered_direct.address()},
                                          {m.gathered_field.address()},
+                                         gathered,
+                                         variance,
                                          {m.irradiance.address()},
+                                         excess,
                                          first,
                                          count,
                                          rays_per_pixel,
-                                         0u};
+                                         filters ? 1u : 0u};
       to.run(kernels_.gather_sum, summed, count);
     });
   }
-}
-
-void FramePassesVulkan::glossy() {
-  reserve<vec3>(pixels_, "mirror irradiance", memory_.mirror_irradiance);
-  add("glossy", [this](Recorder& to) {
-    const PixelQueriesArguments arguments = {{memory_.points.address()},
-                                             {memory_.surfaces.address()},
-                                             {memory_.queries.address()},
-                                             pixels_,
-                                             1u};
-    to.run(kernels_.pixel_queries, arguments, pixels_);
-  });
-  look_up("glossy", *request_->sources.field, memory_.queries, pixels_, memory_.mirror_irradiance);
 }
 
 RsmViewOnDevice FramePassesVulkan::reserve_geometry(int width, int height, Buffer (&geometry)[3]) {
@@ -193,7 +202,9 @@ void FramePassesVulkan::rsm() {
                         count,
                         0u,
                         1u,
-                        settings.seed});
+                        settings.seed,
+                        0u,
+                        0u});
     });
     add_geometry("rsm.view", small_, first, count);
   }

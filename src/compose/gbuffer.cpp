@@ -10,10 +10,18 @@
 #include "raytracing/world_access.h"
 
 namespace lambent {
+
+glm::vec2 sample_position(const FrameSettings& settings, int x, int y, int sample, uint jitter) {
+  return vec2(x, y) + subpixel_position(static_cast<uint>(y * settings.width + x),
+                                        static_cast<uint>(sample),
+                                        static_cast<uint>(settings.samples), settings.seed, jitter);
+}
+
 void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
-                   const Band& band, int sample, GBuffer& gbuffer) {
+                   const Band& band, int sample, GBuffer& gbuffer, uint jitter) {
   const int width = settings.width;
   const std::size_t pixels = static_cast<std::size_t>(band.rows) * width;
+  gbuffer.hits.resize(pixels);
   gbuffer.surfaces.resize(pixels);
   gbuffer.hit.resize(pixels);
   gbuffer.to_viewer_ws.resize(pixels);
@@ -22,12 +30,10 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
   parallel_chunks(band.rows, 1, [&](std::size_t begin, std::size_t) {
     const int row = band.first_row + static_cast<int>(begin);
     std::vector<Ray> rays(width);
-    std::vector<Hit> hits(width);
+    const std::span<Hit> hits =
+        std::span(gbuffer.hits).subspan(begin * static_cast<std::size_t>(width), width);
     for (int x = 0; x < width; ++x) {
-      const vec2 offset =
-          subpixel_position(static_cast<uint>(row * width + x), static_cast<uint>(sample),
-                            static_cast<uint>(settings.samples), settings.seed);
-      const CameraRay ray = camera_ray(record, vec2(x, row) + offset);
+      const CameraRay ray = camera_ray(record, sample_position(settings, x, row, sample, jitter));
       rays[x] = {ray.origin_ws, 0.0f, ray.direction_ws};
     }
     tracer_of(world).closest_hits(rays, hits);

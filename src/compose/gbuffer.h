@@ -31,36 +31,57 @@ inline Band rendered_rows(const FrameSettings& settings) {
   return {settings.first_row, rows};
 }
 
+/// Rows that are traced for these: where light is filtered, also those that it is filtered with.
+Band traced_rows(const FrameSettings& settings);
+
+/// Pixels of a band that are shown, and where they lie among the layers' pixels.
+struct ShownPixels {
+  std::size_t first = 0;  ///< Of the band's pixels.
+  std::size_t count = 0;
+  std::size_t first_in_layers = 0;
+};
+ShownPixels shown_pixels(const Band& band, const FrameSettings& settings);
+
 struct GBuffer {
+  std::vector<Hit> hits;
   std::vector<Surface> surfaces;        ///< Undefined where `hit` is 0.
   std::vector<std::uint8_t> hit;        ///< 1 where the camera sees a surface.
   std::vector<glm::vec3> to_viewer_ws;  ///< Unit; back along the primary ray.
+  /// Share of the coats' light that rays of their own bring, 0 to 1; see raytracing/coat_share.h.
+  /// Empty: there are no such rays.
+  std::vector<float> coat_shares;
 
   std::size_t size() const { return hit.size(); }
 };
 
+/// The point of the picture that a pixel's sample is taken at [pixels]. `jitter` as of
+/// subpixel_position.
+glm::vec2 sample_position(const FrameSettings& settings, int x, int y, int sample, uint jitter);
+
 /// Traces one primary ray a pixel: through its centre where the frame takes one sample, else spread
 /// over it.
 void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
-                   const Band& band, int sample, GBuffer& gbuffer);
+                   const Band& band, int sample, GBuffer& gbuffer, uint jitter = 0);
 
 /// Light by which a pixel's surface is seen, diffuse and specular apart, each including the
 /// surface's reflectance.
 struct ReflectedLight {
   std::vector<glm::vec3> diffuse;
   std::vector<glm::vec3> specular;
+  /// What emissive surfaces send, which is drawn at random; empty where it is part of `diffuse`.
+  std::vector<glm::vec3> emitters;
+  /// Variance of luminance of `emitters` over filtered_albedo(); empty where pixels have one draw,
+  /// which tells nothing of it.
+  std::vector<float> emitter_variance;
+  /// Luminance of what emitters would send to white Lambert surfaces if nothing were in the way,
+  /// without noise; empty where `emitters` are.
+  std::vector<float> unoccluded;
 };
 
-/// Light that lights and emissive surfaces send straight to the surfaces. Returns the shadow rays
-/// traced.
+/// Light that lights and emissive surfaces send straight to the surfaces. What emissive ones send
+/// is kept apart where the settings filter it. Returns the shadow rays traced.
 std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                            const FrameSettings& settings, const Band& band, int sample,
                            ReflectedLight& light);
-
-/// Indirect irradiance on each surface from settings.gather_rays (>= 1) rays of its own into the
-/// scene. Returns the rays traced, shadow rays included.
-std::uint64_t gather_irradiance(const World& world, const IrradianceField& field,
-                                const GBuffer& gbuffer, const FrameSettings& settings,
-                                const Band& band, int sample, std::vector<glm::vec3>& irradiance);
 
 }  // namespace lambent

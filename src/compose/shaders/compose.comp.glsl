@@ -11,14 +11,19 @@ layout(push_constant, scalar) uniform Push {
 };
 
 void main() {
-  uint i = gl_GlobalInvocationID.x;
-  if (i >= args.count) return;
-  uint pixel = args.first_pixel + i;
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= args.count) return;
+  uint pixel = args.first_pixel + k;
+  uint i = args.first + k;
   PixelSurfaceRecord surface = args.surfaces.at[i];
   PixelLayers layers = args.layers.at[pixel];
-  layers.emission += args.share * surface.emission;
+  bool has_fog = (args.has & kHasFog) != 0u;
+  vec4 fog = has_fog ? args.fog.at[i] : vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  float seen = args.share * fog.w;
+  layers.fog += args.share * vec3(fog);
+  layers.emission += seen * surface.emission;
   if ((surface.flags & kSurfaceMissed) != 0u) {
-    layers.all += args.share * surface.emission;
+    layers.all += seen * surface.emission + args.share * vec3(fog);
     args.layers.at[pixel] = layers;
     return;
   }
@@ -28,17 +33,25 @@ void main() {
   vec3 diffuse = args.diffuse.at[i];
   vec3 glossy = args.specular.at[i];
   vec3 indirect = vec3(0.0f);
-  if (args.has_indirect != 0u && surface.gi_share > 0.0) {
-    vec3 irradiance = indirect_share(surface.gi_share, args.looked_up) * args.irradiance.at[i];
-    indirect = reflected_indirect(surface.reflectance, irradiance);
-    glossy += reflected_glossy(surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws),
-                               args.mirror_irradiance.at[i]);
-    layers.irradiance += args.share * irradiance;
+  if ((args.has & kHasIndirect) != 0u && surface.gi_share > 0.0) {
+    if ((args.has & kIsFiltered) == 0u) {
+      vec3 irradiance =
+          indirect_share(surface.gi_share, args.has & kIsLookedUp) * args.irradiance.at[i];
+      indirect = reflected_indirect(surface.reflectance, irradiance);
+      layers.irradiance += args.share * irradiance;
+    }
+    vec4 coats = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
+    glossy += coat_light(surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws),
+                         surface.gi_share, coats, args.mirror_irradiance.at[i]);
   }
-  layers.direct += args.share * diffuse;
-  layers.indirect += args.share * indirect;
-  layers.glossy += args.share * glossy;
-  layers.all += args.share * (diffuse + indirect + glossy + surface.emission);
+  vec3 transmitted = vec3(0.0f);
+  if ((args.has & kHasTransmission) != 0u) transmitted = args.transmitted.at[i].radiance;
+  layers.direct += seen * diffuse;
+  layers.indirect += seen * indirect;
+  layers.glossy += seen * glossy;
+  layers.transmission += seen * transmitted;
+  layers.all += seen * (diffuse + indirect + glossy + transmitted + surface.emission) +
+                args.share * vec3(fog);
   layers.albedo += args.share * surface.reflectance.diffuse;
   layers.normal += args.share * point.normal_ws;
   layers.position += args.share * point.position_ws;

@@ -2,7 +2,7 @@
 // Where gathering rays ask the field for light: at what they met.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "compose/frame_records.h"
+#include "gather/gather_records.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

@@ -2,8 +2,8 @@
 // Rays that gather the light of pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "compose/frame_records.h"
-#include "compose/pixel_math.h"
+#include "gather/gather_math.h"
+#include "gather/gather_records.h"
 #include "shared/rays.h"
 
 layout(local_size_x = 64) in;
@@ -22,10 +22,11 @@ void main() {
 
   Frame frame = make_frame(point.normal_ws);
   vec3 origin_ws = offset_ray_origin(point.position_ws, point.geometric_normal_ws);
-  vec2 shift = gather_shift(pixel, args.index, args.seed);
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
+    vec2 drawn = gather_point(pixel % args.width, pixel / args.width, r, args.rays_per_pixel,
+                              args.index, args.seed);
     args.rays.at[k * args.rays_per_pixel + r] =
-        RayRecord(origin_ws, 0.0f, gather_direction(frame, shift, r),
+        RayRecord(origin_ws, 0.0f, gather_direction(frame, drawn),
                   uintBitsToFloat(kMissedDistanceBits), asks ? kRayGathers : 0u);
   }
 }

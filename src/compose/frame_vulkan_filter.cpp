@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of a frame that is filtered, on a device; see filter_frame.cpp.
+#include <algorithm>
+
+#include "compose/frame_vulkan.h"
+#include "raytracing/camera_rays.h"
+
+namespace lambent {
+
+/// Samples of emissive triangles at a pixel; 0 where nothing is drawn at random.
+std::uint32_t FramePassesVulkan::emitter_draws() const {
+  if (!request_->settings.denoise) return 0;
+  return world_.scene().has_light_tree()
+             ? static_cast<std::uint32_t>(request_->settings.emissive_samples)
+             : 0;
+}
+
+/// Makes room for what is filtered, and tells kernels where it is.
+void FramePassesVulkan::begin_filter() {
+  const FrameSettings& settings = request_->settings;
+  const std::size_t pixels = static_cast<std::size_t>(traced_rows(settings).rows) * settings.width;
+  FilteredBuffers& f = memory_.filtered;
+  const auto room = [&](std::size_t count, std::size_t bytes, Buffer& buffer) {
+    buffer.reserve(device_, count * bytes, "pixels to filter");
+    return buffer.address();
+  };
+  const std::size_t lit = emitter_draws() > 0 ? pixels : 0;
+  const std::size_t gathered = gathers(*request_) ? pixels : 0;
+  FilteredPixelsRecord& r = f.record;
+  r.positions_ws.address = room(pixels, sizeof(vec3), f.positions_ws);
+  r.normals_ws.address = room(pixels, sizeof(vec3), f.normals_ws);
+  r.geometric_normals_ws.address = room(pixels, sizeof(vec3), f.geometric_normals_ws);
+  r.depths.address = room(pixels, sizeof(float), f.depths);
+  r.gathered.address = room(gathered, sizeof(vec3), f.gathered);
+  r.gathered_variance.address = room(gathered, sizeof(float), f.gathered_variance);
+  r.excess.address = room(gathered, sizeof(vec3), f.excess);
+  r.looked_up.address = room(gathered, sizeof(vec3), f.looked_up);
+  r.indirect_albedo.address = room(gathered, sizeof(vec3), f.indirect_albedo);
+  r.receives.address = room(gathered, sizeof(uint), f.receives);
+  r.emitters.address = room(lit, sizeof(vec3), f.emitters);
+  r.emitter_variance.address = room(lit, sizeof(float), f.emitter_variance);
+  r.emitter_albedo.address = room(lit, sizeof(vec3), f.emitter_albedo);
+  r.emitter_levels.address = room(lit, sizeof(float), f.emitter_levels);
+  r.filtered_gathered.address = room(gathered, sizeof(vec3), f.filtered_gathered);
+  r.filtered_emitters.address = room(lit, sizeof(vec3), f.filtered_emitters);
+  reserve<FilteredPixelsRecord>(1, "where pixels to filter are", f.addresses);
+  vulkan::write(device_, std::span<const FilteredPixelsRecord>(&r, 1), f.addresses);
+  memory_.denoiser.reserve(pixels);
+}
+
+std::uint32_t FramePassesVulkan::first_traced_pixel() const {
+  return static_cast<std::uint32_t>(band_.first_row - traced_rows(request_->settings).first_row) *
+         static_cast<std::uint32_t>(request_->settings.width);
+}
+
+/// Keeps what is filtered of the band.
+void FramePassesVulkan::keep_pixels() {
+  add("compose", [this](Recorder& to) {
+    const glm::mat4& view = request_->camera.world_from_view;
+    const KeepPixelsArguments arguments = {{world_.scene().address()},
+                                           {memory_.points.address()},
+                                           {memory_.surfaces.address()},
+                                           {memory_.emitters.address()},
+                                           {memory_.emitter_squares.address()},
+                                           {memory_.irradiance.address()},
+                                           {memory_.pixel_fog.address()},
+                                           {memory_.filtered.addresses.address()},
+                                           vec3(view[3]),
+                                           normalize(vec3(view[2])),
+                                           first_traced_pixel(),
+                                           pixels_,
+                                           emitter_draws(),
+                                           gathers(*request_) ? 1u : 0u,
+                                           has_fog(*request_) ? 1u : 0u,
+                                           0u};
+    to.run(kernels_.keep_pixels, arguments, pixels_);
+  });
+}
+
+void FramePassesVulkan::denoise(float share) {
+  const FrameSettings& settings = request_->settings;
+  const bool lit = emitter_draws() > 0, gathered = gathers(*request_);
+  if (!lit && !gathered) return;
+  const ShownPixels shown = shown_pixels(traced_rows(settings), settings);
+  const FilteredPixelsRecord& r = memory_.filtered.record;
+  const DenoiseViewOnDevice view{static_cast<std::uint32_t>(settings.width),
+                                 static_cast<std::uint32_t>(traced_rows(settings).rows),
+                                 r.positions_ws, r.geometric_normals_ws, r.depths};
+  const auto variance = [](bool measured, FloatArray array) {
+    return measured ? array : FloatArray{};
+  };
+  if (gathered) {
+    add("denoise", [=, this, &r](Recorder& to) {
+      memory_.denoiser.record(
+          to, view,
+          {r.gathered, r.looked_up, variance(settings.gather_rays > 1, r.gathered_variance)}, {},
+          r.filtered_gathered);
+      memory_.denoiser.record(to, view, {r.excess}, excess_denoising(), r.filtered_gathered, true);
+    });
+  }
+  if (lit) {
+    add("denoise", [=, this, &r](Recorder& to) {
+      DenoiseViewOnDevice by_shading = view;
+      by_shading.normals_ws = r.normals_ws;
+      memory_.denoiser.record(
+          to, by_shading,
+          {r.emitters, {}, variance(emitter_draws() > 1, r.emitter_variance), r.emitter_levels},
+          emitter_denoising(), r.filtered_emitters);
+    });
+  }
+  add("denoise", [=, this](Recorder& to) {
+    const AddFilteredArguments arguments = {{memory_.filtered.addresses.address()},
+                                            {memory_.layers.address()},
+                                            static_cast<uint>(shown.first),
+                                            static_cast<uint>(shown.count),
+                                            share,
+                                            lit ? 1u : 0u,
+                                            gathered ? 1u : 0u,
+                                            0u};
+    to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
+  });
+  run_steps();
+}
+
+}  // namespace lambent

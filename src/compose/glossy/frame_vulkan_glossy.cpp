@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflections of a frame on a device: the order of glossy_frame.cpp, with lists of the ways that
+// have not ended in place of pixels.
+#include <algorithm>
+
+#include "compose/frame_vulkan.h"
+#include "compose/glossy/glossy_frame.h"
+#include "field/correction/correction_table.h"
+#include "glossy/glossy_records.h"
+#include "raytracing/camera_rays.h"
+
+namespace lambent {
+namespace {
+
+bool has_coats(const Scene& scene) {
+  return std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const Material& material) { return !material.lambert; });
+}
+
+}  // namespace
+
+void FramePassesVulkan::glossy() {
+  if (traces_coats(*request_) && has_coats(request_->world.scene())) trace_coats();
+  reserve<vec3>(pixels_, "mirror irradiance", memory_.mirror_irradiance);
+  add("glossy", [this](Recorder& to) {
+    const PixelQueriesArguments arguments = {{memory_.points.address()},
+                                             {memory_.surfaces.address()},
+                                             {memory_.queries.address()},
+                                             pixels_,
+                                             1u};
+    to.run(kernels_.pixel_queries, arguments, pixels_);
+  });
+  look_up("glossy", *request_->sources.field, memory_.queries, pixels_, CorrectionUse::corrected,
+          memory_.mirror_irradiance);
+}
+
+/// Puts the pixels of the band and of the rows around it one after the other.
+void FramePassesVulkan::see_around_band(const Band& around) {
+  const auto width = static_cast<std::uint32_t>(request_->settings.width);
+  const std::uint32_t before =
+      static_cast<std::uint32_t>(band_.first_row - around.first_row) * width;
+  const std::uint32_t all = static_cast<std::uint32_t>(around.rows) * width;
+  frame_->rays += all - pixels_;
+  add("glossy", [=, this](Recorder& to) {
+    const FrameSettings& settings = request_->settings;
+    FrameMemory& m = memory_;
+    to.copy(m.points, m.coat_points, pixels_ * sizeof(LitPointRecord), 0,
+            before * sizeof(LitPointRecord));
+    to.copy(m.surfaces, m.coat_surfaces, pixels_ * sizeof(PixelSurfaceRecord), 0,
+            before * sizeof(PixelSurfaceRecord));
+    const auto see = [&](std::uint32_t first, std::uint32_t count) {
+      if (count == 0) return;
+      const std::uint32_t first_pixel =
+          static_cast<std::uint32_t>(around.first_row) * width + first;
+      const CameraRaysArguments arguments = {
+          {m.way_rays[0].address() + first * sizeof(RayRecord)},
+          camera_record(request_->camera, settings.width, settings.height),
+          width,
+          first_pixel,
+          count,
+          sample_,
+          static_cast<uint>(settings.samples),
+          settings.seed,
+          request_->jitter(),
+          0u};
+      const HitArray hits{m.way_hits.address() + first * sizeof(HitRecord)};
+      to.run(kernels_.camera_rays, arguments, count);
+      to.barrier();
+      world_.tracer().closest_hits(to, {arguments.rays, count}, hits);
+      to.barrier();
+      m.gather_shading.pixel_surfaces(
+          to, stage(), {arguments.rays, hits, count}, first_pixel, true,
+          {{m.coat_points.address() + first * sizeof(LitPointRecord)},
+           {m.coat_surfaces.address() + first * sizeof(PixelSurfaceRecord)}});
+    };
+    see(0, before);
+    see(before + pixels_, all - before - pixels_);
+  });
+}
+
+void FramePassesVulkan::reserve_ways(std::size_t pixels) {
+  FrameMemory& m = memory_;
+  reserve<LitPointRecord>(pixels, "points around the band", m.coat_points);
+  reserve<PixelSurfaceRecord>(pixels, "surfaces around the band", m.coat_surfaces);
+  reserve<CoatRay>(pixels, "coats' rays", m.coat_rays);
+  for (int i = 0; i < 2; ++i) {
+    reserve<RayRecord>(pixels, "rays of ways", m.way_rays[i]);
+    reserve<CoatPath>(pixels, "ways", m.way_paths[i]);
+    reserve<uint>(pixels, "pixels of ways", m.way_pixels[i]);
+  }
+  reserve<uint>(1, "number of ways", m.way_length);
+  reserve<HitRecord>(pixels, "hits of ways", m.way_hits);
+}
+
+/// The ways that go on; has all that was recorded run.
+std::uint32_t FramePassesVulkan::count_ways() {
+  run_steps();
+  uint length = 0;
+  vulkan::read(device_, memory_.way_length, std::span(&length, 1));
+  return length;
+}
+
+void FramePassesVulkan::trace_coats() {
+  const FrameSettings& settings = request_->settings;
+  const int halo = glossy_halo(settings.glossy_rows);
+  const int first_row = std::max(0, band_.first_row - halo);
+  const int end_row = std::min(settings.height, band_.first_row + band_.rows + halo);
+  const Band around{first_row, end_row - first_row};
+  const auto width = static_cast<std::uint32_t>(settings.width);
+  const std::uint32_t pixels = static_cast<std::uint32_t>(around.rows) * width;
+  const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
+  reserve_ways(pixels);
+  see_around_band(around);
+  add("glossy", [=, this](Recorder& to) {
+    FrameMemory& m = memory_;
+    to.fill(m.way_length, 0u);
+    to.barrier();
+    const CoatRaysArguments drawn = {{m.coat_points.address()},
+                                     {m.coat_surfaces.address()},
+                                     {m.coat_rays.address()},
+                                     {m.way_rays[0].address()},
+                                     {m.way_paths[0].address()},
+                                     {m.way_pixels[0].address()},
+                                     {m.way_length.address()},
+                                     pixels,
+                                     static_cast<uint>(first_row),
+                                     width,
+                                     static_cast<uint>(request_->settings.glossy_rows),
+                                     sample_,
+                                     request_->settings.seed};
+    to.run(kernels_.coat_rays, drawn, pixels);
+  });
+  way_pass_ = "glossy";
+  if (!follow_all(first_index, sample_)) return;
+  reuse_coat_rays(around);
+  rays_bring_ |= kHasCoats;
+}
+
+/// Follows all ways until they have ended; returns whether there were any.
+bool FramePassesVulkan::follow_all(std::uint32_t first_index, std::uint32_t salt) {
+  std::uint32_t ways = count_ways();
+  const bool any = ways > 0;
+  for (std::uint32_t bounce = 1; ways > 0 && bounce <= kMaxWays; ++bounce) {
+    follow_ways(ways, bounce, first_index, salt);
+    ways = count_ways();
+  }
+  return any;
+}
+
+/// Light that comes through the band's surfaces, as Glossy::look_through.
+void FramePassesVulkan::transmission() {
+  // What was recorded reads the lists that are to be used again
+  run_steps();
+  reserve_ways(pixels_);
+  const uint salt = sample_ ^ kThroughSalt;
+  add("transmission", [=, this](Recorder& to) {
+    FrameMemory& m = memory_;
+    to.fill(m.way_length, 0u);
+    to.barrier();
+    const ThroughRaysArguments drawn = {{m.points.address()},
+                                        {m.surfaces.address()},
+                                        {m.coat_rays.address()},
+                                        {m.way_rays[0].address()},
+                                        {m.way_paths[0].address()},
+                                        {m.way_pixels[0].address()},
+                                        {m.way_length.address()},
+                                        pixels_,
+                                        first_pixel_,
+                                        coat_salt(salt, 0u),
+                                        request_->settings.seed};
+    to.run(kernels_.through_rays, drawn, pixels_);
+  });
+  way_pass_ = "transmission";
+  if (follow_all(first_pixel_, salt)) rays_bring_ |= kHasTransmission;
+}
+
+/// Has ways meet what is next, adds its light, and lists those that go on.
+void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
+                                    std::uint32_t first_index, std::uint32_t salt_of_pass) {
+  FrameMemory& m = memory_;
+  reserve<LitPointRecord>(ways, "points of ways", m.way_points);
+  reserve<PixelSurfaceRecord>(ways, "surfaces of ways", m.way_surfaces);
+  reserve<vec3>(ways, "diffuse light of ways", m.way_diffuse);
+  reserve<vec3>(ways, "specular light of ways", m.way_specular);
+  reserve<QueryRecord>(2 * std::size_t{ways}, "queries of ways", m.way_queries);
+  reserve<vec3>(2 * std::size_t{ways}, "answers of ways", m.way_answers);
+  frame_->rays += ways;
+  const int from = static_cast<int>((bounce + 1) % 2);
+  const uint salt = coat_salt(salt_of_pass, bounce);
+  const bool has_field = request_->sources.field != nullptr;
+  add(way_pass_, [=, this, &m](Recorder& to) {
+    const DeviceHits hits = {{m.way_rays[from].address()}, {m.way_hits.address()}, ways};
+    const DevicePixels met = {{m.way_points.address()}, {m.way_surfaces.address()}};
+    world_.tracer().closest_hits(to, {hits.rays, ways}, hits.hits);
+    to.barrier();
+    m.gather_shading.pixel_surfaces(to, stage(), hits, 0, false, met);
+    const CoatHitsArguments shaded = {hits.hits,
+                                      met.points,
+                                      met.surfaces,
+                                      {m.way_paths[from].address()},
+                                      {m.way_pixels[from].address()},
+                                      {m.way_queries.address()},
+                                      {m.coat_rays.address()},
+                                      ways,
+                                      bounce,
+                                      static_cast<uint>(request_->settings.emissive_samples),
+                                      first_index,
+                                      has_field ? 1u : 0u,
+                                      0u};
+    to.run(kernels_.coat_hits, shaded, ways);
+    to.barrier();
+    ShadeHitsSettings lighting;
+    lighting.emissive_samples = request_->settings.emissive_samples;
+    lighting.salt = salt;
+    lighting.seed = request_->settings.seed;
+    m.gather_shading.reflected_light(to, stage(), met, ways, lighting,
+                                     {{m.way_diffuse.address()}, {m.way_specular.address()}});
+  });
+  if (has_field) {
+    look_up(way_pass_, *request_->sources.field, m.way_queries, 2 * ways, CorrectionUse::corrected,
+            m.way_answers);
+  }
+  add(way_pass_, [=, this, &m](Recorder& to) {
+    if (!has_field) to.fill(m.way_answers, 0u);
+    to.fill(m.way_length, 0u);
+    to.barrier();
+    const int next = 1 - from;
+    const CoatLightArguments lit = {{m.way_points.address()},
+                                    {m.way_surfaces.address()},
+                                    {m.way_diffuse.address()},
+                                    {m.way_specular.address()},
+                                    {m.way_answers.address()},
+                                    {m.way_paths[from].address()},
+                                    {m.way_pixels[from].address()},
+                                    {m.way_rays[next].address()},
+                                    {m.way_paths[next].address()},
+                                    {m.way_pixels[next].address()},
+                                    {m.way_length.address()},
+                                    {m.coat_rays.address()},
+                                    ways,
+                                    first_index,
+                                    salt,
+                                    request_->settings.seed,
+                                    bounce,
+                                    0u};
+    to.run(kernels_.coat_light, lit, ways);
+  });
+}
+
+void FramePassesVulkan::reuse_coat_rays(const Band& around) {
+  reserve<vec4>(pixels_, "coats", memory_.coats);
+  add("glossy", [=, this](Recorder& to) {
+    const FrameMemory& m = memory_;
+    const FrameSettings& settings = request_->settings;
+    const CameraRecord camera = camera_record(request_->camera, settings.width, settings.height);
+    const CoatReuseArguments arguments = {{m.coat_points.address()},
+                                          {m.coat_surfaces.address()},
+                                          {m.coat_rays.address()},
+                                          {m.coats.address()},
+                                          camera.position_ws,
+                                          camera.axes[2],
+                                          camera.half_view / camera.half_size.y,
+                                          camera.orthographic,
+                                          static_cast<uint>(around.first_row),
+                                          static_cast<uint>(band_.first_row),
+                                          pixels_,
+                                          static_cast<uint>(settings.width),
+                                          static_cast<uint>(settings.height),
+                                          static_cast<uint>(settings.glossy_rows),
+                                          sample_,
+                                          static_cast<uint>(settings.emissive_samples)};
+    to.run(kernels_.coat_reuse, arguments, pixels_);
+  });
+}
+
+}  // namespace lambent

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light that coats reflect, by rays of their own, on the processor.
+//
+// A pixel's coat sends out one ray, drawn of its lobe. What the ray meets is lit as a pixel is:
+// directly, by the field, and where it shines by further rays. Then each pixel reflects the rays
+// around it, each with the weight of its own lobe. docs/math.md, "Reflections".
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compose/frame_passes.h"
+#include "compose/gbuffer.h"
+#include "glossy/way_math.h"
+#include "lambent/field.h"
+#include "raytracing/camera_math.h"
+
+namespace lambent {
+
+/// What a sample's reflections are made of, and how.
+struct GlossySettings {
+  const World& world;
+  const IrradianceField* field;  ///< Null: there is none.
+  const FrameSettings& frame;
+  CameraRecord camera;
+  int sample = 0;
+};
+
+/// Rows of a picture that lie one below the other, as the camera sees them.
+struct GlossyRows {
+  const GBuffer& pixels;
+  int first_row;
+};
+
+/// Rows above and below a band whose rays its pixels take.
+inline int glossy_halo(int rows) {
+  return kReuse * rows;
+}
+
+/// Share of each pixel's coat that rays light, 0 to 1: GBuffer::coat_shares.
+void find_coat_shares(GBuffer& pixels);
+
+class Glossy {
+ public:
+  /// Light of the coats of `band`'s pixels by rays (RGB, times A) and the share of their light that
+  /// this is (A). `around` lists rows from glossy_halo above the band to as many below it, as far
+  /// as the picture reaches, the band among them; all with their coat_shares. Returns the rays
+  /// traced.
+  std::uint64_t reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
+                        const GlossyRows& band, std::vector<glm::vec4>& light);
+
+  /// Light that comes through the surfaces of `band`'s pixels. Returns the rays traced.
+  std::uint64_t look_through(const GlossySettings& settings, const GlossyRows& band,
+                             std::vector<glm::vec3>& light);
+
+ private:
+  void start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt);
+  std::uint64_t send_through(const GlossySettings& settings, const GBuffer& seen);
+  std::uint64_t follow_all(const GlossySettings& settings, std::uint64_t going);
+  std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
+  std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
+  std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
+  void reuse(const GlossySettings& settings, std::span<const GlossyRows> around,
+             const GlossyRows& band, std::vector<glm::vec4>& light) const;
+
+  uint salt_ = 0;  // of the random numbers
+  // Of the rows around the band, an entry a pixel
+  int first_row_ = 0;
+  std::vector<CoatRay> rays_;
+  std::vector<CoatPath> paths_;
+  std::vector<Ray> next_;  // of paths that have not ended
+  GBuffer met_;            // by these
+  ReflectedLight direct_;
+  std::vector<FieldQuery> queries_;
+  std::vector<std::size_t> asked_;  // pixels of the queries, and what is asked for there
+  std::vector<glm::vec3> answers_;
+};
+
+/// Memory of the pass, kept from band to band.
+struct GlossyMemory {
+  Glossy coats;
+  GBuffer above, below;  ///< The band.
+  std::vector<FieldQuery> queries;
+  std::vector<std::size_t> asked;  ///< Pixels of the queries, and what is answered.
+  std::vector<glm::vec3> answers;
+};
+
+/// Has the coats of a band's pixels reflect rays; `light` as of Glossy::reflect, empty where no
+/// pixel does. Rows above and below the band are seen for that once more. Returns the rays traced.
+std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample,
+                           const GBuffer& pixels, GlossyMemory& memory,
+                           std::vector<glm::vec4>& light);
+
+/// Light that comes through the surfaces of a band's pixels. Returns the rays traced.
+std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
+                                const GBuffer& pixels, GlossyMemory& memory,
+                                std::vector<glm::vec3>& light);
+
+/// The field's irradiance where coats have light from no ray, on surfaces that face
+/// coat_direction(); 0 at other pixels.
+void look_up_coats(const FrameRequest& request, const GBuffer& pixels,
+                   const std::vector<glm::vec4>& light, GlossyMemory& memory,
+                   std::vector<glm::vec3>& irradiance);
+
+}  // namespace lambent

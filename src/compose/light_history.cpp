@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/light_history.h"
+
+#include "core/parallel.h"
+#include "denoise/history_math.h"
+#include "raytracing/camera_rays.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPixelsPerTask = 4096;
+
+/// The frame before, as history.inl.h fetches from it.
+struct FrameOfHistory {
+  explicit FrameOfHistory(const LightHistory& last) : history(last) {}
+  float fetch_depth_before(int pixel) const {
+    return history.depths[static_cast<std::size_t>(pixel)];
+  }
+  vec3 fetch_normal_before(int pixel) const {
+    return history.normals_ws[static_cast<std::size_t>(pixel)];
+  }
+
+#include "denoise/history.inl.h"
+
+  const LightHistory& history;
+};
+
+/// Width of a pixel at a depth [m].
+float width_of_pixel(const CameraRecord& camera, float depth) {
+  return camera.half_view / camera.half_size.y * (camera.orthographic != 0u ? 1.0f : depth);
+}
+
+/// The mean of a value over taps.
+template <class T>
+T mean_of(const std::vector<T>& values, const HistoryTaps& taps) {
+  T sum(0.0f);
+  for (int k = 0; k < 4; ++k) {
+    if (taps.weights[k] > 0.0f) {
+      sum += taps.weights[k] * values[static_cast<std::size_t>(taps.pixels[k])];
+    }
+  }
+  return sum;
+}
+
+/// Averages one kind of light of a pixel; `before` where there was any.
+template <class T>
+void average(const std::vector<T>& before, const HistoryTaps& taps, float frames, T& now) {
+  if (frames > 1.0f) now = mix(mean_of(before, taps), now, 1.0f / frames);
+}
+void average_variance(const std::vector<float>& before, const HistoryTaps& taps, float frames,
+                      float& now) {
+  if (frames > 1.0f) now = averaged_variance(mean_of(before, taps), now, frames);
+}
+
+void shape(const FilteredPixels& pixels, LightHistory& history) {
+  history.normals_ws = pixels.geometric_normals_ws;
+  history.depths = pixels.depths;
+  history.differences.resize(pixels.gathered.size());
+  history.excess.resize(pixels.excess.size());
+  history.emitters.resize(pixels.emitters.size());
+  history.gathered_variance.resize(pixels.gathered_variance.size());
+  history.emitter_variance.resize(pixels.emitter_variance.size());
+  history.frames.resize(pixels.depths.size());
+}
+
+/// Whether a history holds the kinds of light that are to be averaged.
+bool has_same_light(const LightHistory& last, const FilteredPixels& pixels) {
+  return last.is_there && last.depths.size() == pixels.depths.size() &&
+         last.differences.size() == pixels.gathered.size() &&
+         last.excess.size() == pixels.excess.size() &&
+         last.emitters.size() == pixels.emitters.size() &&
+         last.gathered_variance.size() == pixels.gathered_variance.size() &&
+         last.emitter_variance.size() == pixels.emitter_variance.size();
+}
+
+}  // namespace
+
+void average_light(const FrameRequest& request, std::span<const PixelMotion> motion,
+                   const LightHistory& last, FilteredPixels& pixels, LightHistory& next) {
+  const FrameSettings& settings = request.settings;
+  const ivec2 size(settings.width, settings.height);
+  const auto most = static_cast<float>(settings.averaged_frames);
+  const bool continues = request.light_continues && has_same_light(last, pixels);
+  const CameraRecord camera = camera_record(request.camera, settings.width, settings.height);
+  shape(pixels, next);
+  parallel_chunks(pixels.depths.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    FrameOfHistory before(last);
+    for (std::size_t i = begin; i < end; ++i) {
+      HistoryTaps taps = no_history();
+      if (continues && pixels.depths[i] > 0.0f && motion[i].known != 0u) {
+        const vec3 normal_ws = pixels.geometric_normals_ws[i];
+        const bool parallel = camera.orthographic != 0u;
+        const vec3 to_viewer =
+            normalize(parallel ? camera.axes[2] : camera.position_ws - pixels.positions_ws[i]);
+        const vec2 place(static_cast<float>(i % static_cast<std::size_t>(size.x)) + 0.5f,
+                         static_cast<float>(i / static_cast<std::size_t>(size.x)) + 0.5f);
+        const float depth = motion[i].depth_before;
+        taps = before.history_taps(
+            size, place + motion[i].offset, depth,
+            depth_tolerance(depth, width_of_pixel(camera, depth), dot(normal_ws, to_viewer)),
+            normal_ws);
+      }
+      const bool seen_before = is_history(taps);
+      const float frames = seen_before ? averaged_frames(mean_of(last.frames, taps), most) : 1.0f;
+      next.frames[i] = frames;
+      if (!pixels.gathered.empty()) {
+        vec3 difference = pixels.gathered[i] - pixels.looked_up[i];
+        average(last.differences, taps, frames, difference);
+        average(last.excess, taps, frames, pixels.excess[i]);
+        next.differences[i] = difference;
+        next.excess[i] = pixels.excess[i];
+        pixels.gathered[i] = pixels.looked_up[i] + difference;
+      }
+      if (!pixels.gathered_variance.empty()) {
+        average_variance(last.gathered_variance, taps, frames, pixels.gathered_variance[i]);
+        next.gathered_variance[i] = pixels.gathered_variance[i];
+      }
+      if (!pixels.emitters.empty()) {
+        average(last.emitters, taps, frames, pixels.emitters[i]);
+        next.emitters[i] = pixels.emitters[i];
+      }
+      if (!pixels.emitter_variance.empty()) {
+        average_variance(last.emitter_variance, taps, frames, pixels.emitter_variance[i]);
+        next.emitter_variance[i] = pixels.emitter_variance[i];
+      }
+    }
+  });
+  next.is_there = true;
+}
+
+}  // namespace lambent

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pass of the filter at a pixel (at several in C++, a vector's lanes), in the common subset of
+// C++ and GLSL.
+//
+// Based on: Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination
+// Filtering", HPG 2010; Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017.
+//
+// The includer provides
+//   Real, Real3              float and vec3, or lanes of them with the same operators
+//   LAMBENT_REAL_FN          before a function
+//   LAMBENT_UNROLL_TAPS      before the loop over neighbours
+//   Real zero_unless_positive(Real condition, Real value)
+//   Real fetch_guide(int plane, int x, int y)
+//       of core/cross_bilateral.h, or kLevelPlane, at the pixel that lies so far from this one
+//   Real fetch_light(int plane, int x, int y)   planes of atrous_math.h, likewise
+// In C++ it is included in the body of a struct that has these as members.
+
+/// Where a pixel is, and how it faces.
+struct AtrousGuide {
+  Real3 position_ws;
+  Real3 normal_ws;
+};
+
+/// A pixel's light, or the weighted sums of its neighbours'.
+struct AtrousLight {
+  Real3 light;
+  Real3 base;
+  /// Variance of luminance of a pixel that was not filtered, as far as is known from those that
+  /// this one was filtered with; where it is not measured, mean of squares until the blind passes
+  /// end.
+  Real spread;
+  /// Variance of this pixel's luminance over that of one that was not filtered.
+  Real share;
+};
+
+LAMBENT_REAL_FN AtrousGuide guide_at(int x, int y) {
+  AtrousGuide at;
+  at.position_ws = Real3(fetch_guide(0, x, y), fetch_guide(1, x, y), fetch_guide(2, x, y));
+  at.normal_ws = Real3(fetch_guide(3, x, y), fetch_guide(4, x, y), fetch_guide(5, x, y));
+  return at;
+}
+
+LAMBENT_REAL_FN AtrousLight light_at(AtrousPass by, int x, int y) {
+  AtrousLight at;
+  at.light = Real3(fetch_light(0, x, y), fetch_light(1, x, y), fetch_light(2, x, y));
+  at.spread = fetch_light(kSpreadPlane, x, y);
+  at.share = fetch_light(kSharePlane, x, y);
+  at.base = at.light;
+  if (by.has_base != 0u) {
+    at.base = Real3(fetch_light(kBasePlane, x, y), fetch_light(kBasePlane + 1, x, y),
+                    fetch_light(kBasePlane + 2, x, y));
+  }
+  return at;
+}
+
+/// Luminance of what is filtered: of the light's difference from its base.
+LAMBENT_REAL_FN Real filtered_luminance(AtrousPass by, AtrousLight of) {
+  Real3 rest = of.light;
+  if (by.has_base != 0u) rest = rest - of.base;
+  return rest.x * kRedLuminance + rest.y * kGreenLuminance + rest.z * kBlueLuminance;
+}
+
+/// exp(-x) for x >= 0 but for a few hundredths; exactly 0 from 4 on.
+LAMBENT_REAL_FN Real falloff(Real x) {
+  Real root = max(1.0f - 0.25f * x, 0.0f);
+  Real square = root * root;
+  return square * square;
+}
+
+/// How much a neighbour counts before anything is known of its light: the exponent of its weight.
+LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Real plane_scale,
+                                            AtrousGuide there, Real cosine) {
+  Real off_plane = dot(here.normal_ws, there.position_ws - here.position_ws) * plane_scale;
+  return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
+}
+
+/// The variance that the difference of two pixels' luminance is compared with. That of their
+/// difference is the sum. Where both were measured, twice their harmonic mean is less where one
+/// pixel knows better, and keeps noisy light out of what is known to be dark.
+LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
+  if (by.measured == 0u) return a + b;
+  return 4.0f * a * b / (a + b + kLeastContrast);
+}
+
+/// The pixel's light after the pass.
+LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
+  AtrousGuide here = guide_at(0, 0);
+  Real plane_scale = fetch_guide(6, 0, 0) * by.plane_scale;
+  Real inverse_level = plane_scale * 0.0f + 1.0f;
+  if (by.has_levels != 0u) inverse_level = 1.0f / max(fetch_guide(kLevelPlane, 0, 0), kLeastLevel);
+  AtrousLight own = light_at(by, 0, 0);
+  Real own_luminance = filtered_luminance(by, own);
+
+  // Sum over the 3 x 3 neighbours, with binomial weights over 4: 1 for the pixel itself
+  AtrousLight sum = own;
+  Real weights = own.spread * 0.0f + 1.0f;
+  LAMBENT_UNROLL_TAPS
+  for (int k = 0; k < 9; ++k) {
+    int x = k % 3 - 1;
+    int y = k / 3 - 1;
+    if (x == 0 && y == 0) continue;
+    AtrousGuide there = guide_at(x * by.apart, y * by.apart);
+    AtrousLight neighbour = light_at(by, x * by.apart, y * by.apart);
+    Real cosine = dot(here.normal_ws, there.normal_ws);
+    Real difference = difference_of_surfaces(by, here, plane_scale, there, cosine);
+    if (by.blind == 0u) {
+      Real contrast = own_luminance - filtered_luminance(by, neighbour);
+      difference +=
+          contrast * contrast * by.contrast_scale /
+          (variance_between(by, own.spread * own.share, neighbour.spread * neighbour.share) +
+           kLeastContrast);
+    }
+    Real weight = falloff(difference) * (x == 0 || y == 0 ? 0.5f : 0.25f);
+    weight = zero_unless_positive(cosine, weight);
+    if (by.has_levels != 0u) {
+      // What is over a far lower level is known far less well in terms of this pixel's
+      Real level = fetch_guide(kLevelPlane, x * by.apart, y * by.apart);
+      weight *= min(level * inverse_level, 1.0f);
+    }
+    weights += weight;
+    sum.light += neighbour.light * weight;
+    if (by.has_base != 0u) sum.base += neighbour.base * weight;
+    sum.spread += neighbour.spread * weight;
+    sum.share += neighbour.share * (weight * weight);
+  }
+
+  // Divide; what neighbours share of noise, pass by pass, is left out (Schied et al. 2017, Eq. 7)
+  Real scale = 1.0f / weights;
+  if (by.only_spread != 0u) {
+    own.spread = sum.spread * scale;
+    return own;
+  }
+  sum.light = sum.light * scale;
+  if (by.has_base != 0u) sum.base = sum.base * scale;
+  sum.spread = sum.spread * scale;
+  sum.share = sum.share * (scale * scale);
+  if (by.ends_blind != 0u && by.measured == 0u) {
+    // The unbiased estimate of a variance from several pixels
+    Real level = filtered_luminance(by, sum);
+    sum.spread = max(sum.spread - level * level, 0.0f) / (1.0f - min(sum.share, kMostKnownShare));
+  }
+  return sum;
+}

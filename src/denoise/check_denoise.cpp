@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <string>
+
+#include "denoise/denoise_passes.h"
+
+namespace lambent {
+namespace {
+
+constexpr float kMostSharpness = 1024.0f;  // and noise tolerance: more is as good as infinite
+
+Expected<void> check_range(const char* name, bool fine, const char* range) {
+  if (fine) return {};
+  return fail("", name, std::string("is not ") + range);
+}
+
+}  // namespace
+
+Expected<void> check(const DenoiseSettings& s) {
+  const Expected<void> checks[] = {
+      check_range("denoise passes", s.passes >= 1 && s.passes <= kMaxDenoisePasses, "1 to 6"),
+      check_range("blind passes", s.blind_passes >= 1 && s.blind_passes <= s.passes,
+                  "1 to the number of passes"),
+      check_range("normal sharpness",
+                  s.normal_sharpness >= 0.0f && s.normal_sharpness <= kMostSharpness, "0 to 1024"),
+      check_range("plane tolerance", s.plane_tolerance > 0.0f && s.plane_tolerance <= 1.0f,
+                  "above 0 to 1"),
+      check_range("noise tolerance",
+                  s.noise_tolerance > 0.0f && s.noise_tolerance <= kMostSharpness,
+                  "above 0 to 1024")};
+  for (const Expected<void>& fine : checks) {
+    if (!fine) return fine;
+  }
+  return {};
+}
+
+DenoiseSettings emitter_denoising() {
+  DenoiseSettings settings;
+  settings.passes = 5;
+  settings.blind_passes = 1;
+  settings.noise_tolerance = 2.5f;
+  return settings;
+}
+
+int denoise_reach(const DenoiseSettings& settings) {
+  return (1 << settings.passes) - 1;
+}
+
+std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
+                                       bool measured, bool has_levels) {
+  // Light over its level has no rare bright rays, and its samples tell how noisy it is: that alone
+  // is averaged at first, and not even the closest shadows are blurred (Schied et al. 2017, sec.
+  // 4.4: variances are filtered before they are used)
+  const bool knows_noise = has_levels && measured;
+  std::vector<AtrousPass> passes;
+  for (int i = 0; i < settings.passes; ++i) {
+    AtrousPass pass;
+    pass.apart = 1 << (knows_noise ? std::max(i - 1, 0) : i);
+    pass.normal_sharpness = settings.normal_sharpness;
+    pass.plane_scale = 1.0f / settings.plane_tolerance;
+    pass.contrast_scale = 1.0f / (settings.noise_tolerance * settings.noise_tolerance);
+    pass.blind = i < settings.blind_passes ? 1 : 0;
+    pass.ends_blind = i == settings.blind_passes - 1 ? 1 : 0;
+    pass.only_spread = knows_noise && i == 0 ? 1 : 0;
+    pass.measured = measured ? 1 : 0;
+    pass.has_base = has_base ? 1 : 0;
+    pass.has_levels = has_levels ? 1 : 0;
+    passes.push_back(pass);
+  }
+  return passes;
+}
+
+}  // namespace lambent

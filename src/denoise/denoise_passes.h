@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which passes the filter makes of its settings, on every backend.
+#pragma once
+
+#include <vector>
+
+#include "denoise/atrous_math.h"
+#include "lambent/denoise.h"
+
+namespace lambent {
+
+/// The passes, in their order.
+std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
+                                       bool measured, bool has_levels);
+
+}  // namespace lambent

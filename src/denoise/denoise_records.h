@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light that is filtered in a device's memory, and the arguments of the kernels.
+#ifndef LAMBENT_DENOISE_DENOISE_RECORDS_H
+#define LAMBENT_DENOISE_DENOISE_RECORDS_H
+
+#include "denoise/atrous_math.h"
+#include "raytracing/vulkan/scene_records.h"
+
+LAMBENT_BEGIN
+
+/// Light of a pixel between passes; members as in struct AtrousLight.
+struct DenoiseRecord {
+  vec3 light;
+  float spread;
+  vec3 base;
+  float share;
+};
+LAMBENT_DEVICE_ARRAY(DenoiseArray, DenoiseRecord, 4)
+
+/// Light of pixels as it was sampled.
+struct DenoiseStartArguments {
+  Vec3Array light;
+  Vec3Array base;       ///< Read where `has_base` is 1.
+  FloatArray variance;  ///< Of its luminance; read where `measured` is 1.
+  DenoiseArray out_light;
+  uint count;
+  uint has_base;
+  uint measured;
+  uint padding;
+};
+
+/// A pass over a picture.
+struct DenoisePassArguments {
+  Vec3Array positions_ws;
+  Vec3Array normals_ws;
+  FloatArray depths;
+  FloatArray levels;  ///< Read where `by.has_levels` is 1.
+  DenoiseArray in_light;
+  DenoiseArray out_light;
+  AtrousPass by;
+  uint width;
+  uint height;
+};
+
+/// Light of pixels once it is filtered.
+struct DenoiseFinishArguments {
+  DenoiseArray in_light;
+  Vec3Array base;
+  Vec3Array filtered;
+  uint count;
+  uint has_base;
+  uint adds;  ///< 1: to what `filtered` holds.
+  uint padding;
+};
+
+LAMBENT_END
+#endif

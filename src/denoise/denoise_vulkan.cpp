@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "denoise/denoise_vulkan.h"
+
+#include "denoise/denoise_passes.h"
+
+namespace lambent {
+
+DenoiserVulkan::DenoiserVulkan(const vulkan::Device& device)
+    : device_(device), kernels_(device_.kept<DenoiseKernels>()) {}
+
+void DenoiserVulkan::reserve(std::size_t pixels) {
+  for (vulkan::Buffer& light : light_) {
+    light.reserve(device_, pixels * sizeof(DenoiseRecord), "filtered light");
+  }
+}
+
+void DenoiserVulkan::record(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
+                            const NoisyLightOnDevice& light, const DenoiseSettings& settings,
+                            Vec3Array filtered, bool adds) const {
+  const std::uint32_t count = view.width * view.height;
+  const bool has_base = light.base.address != 0, measured = light.variance.address != 0,
+             has_levels = light.levels.address != 0;
+  DenoiseArray from{light_[0].address()}, into{light_[1].address()};
+  const DenoiseStartArguments start = {light.light, light.base,         light.variance,     from,
+                                       count,       has_base ? 1u : 0u, measured ? 1u : 0u, 0u};
+  to.run(kernels_.start, start, count);
+  to.barrier();
+  for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels)) {
+    const DenoisePassArguments pass = {
+        view.positions_ws, view.normals_ws, view.depths, light.levels, from, into, by,
+        view.width,        view.height};
+    to.run(kernels_.pass, pass, count);
+    to.barrier();
+    std::swap(from, into);
+  }
+  const DenoiseFinishArguments finish = {
+      from, light.base, filtered, count, has_base ? 1u : 0u, adds ? 1u : 0u, 0u};
+  to.run(kernels_.finish, finish, count);
+  to.barrier();
+}
+
+}  // namespace lambent

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// The filter on a Vulkan device: compute kernels over buffers.
+#pragma once
+
+#include <cstdint>
+
+#include "denoise/denoise_records.h"
+#include "lambent/denoise.h"
+#include "shaders/denoise_finish_comp.h"
+#include "shaders/denoise_pass_comp.h"
+#include "shaders/denoise_start_comp.h"
+#include "vulkan/buffer.h"
+#include "vulkan/device.h"
+#include "vulkan/kernel.h"
+#include "vulkan/recorder.h"
+
+namespace lambent {
+
+/// DenoiseView in a device's memory.
+struct DenoiseViewOnDevice {
+  std::uint32_t width = 0, height = 0;
+  Vec3Array positions_ws;
+  Vec3Array normals_ws;
+  FloatArray depths;
+};
+
+/// NoisyLight in a device's memory; addresses of 0 where there is no base, no variance, no levels.
+struct NoisyLightOnDevice {
+  Vec3Array light;
+  Vec3Array base = {};
+  FloatArray variance = {};
+  FloatArray levels = {};
+};
+
+/// Kept by the device (Device::kept).
+struct DenoiseKernels {
+  explicit DenoiseKernels(const vulkan::Device& device)
+      : start(device, shaders::denoise_start_comp(), "denoise start"),
+        pass(device, shaders::denoise_pass_comp(), "denoise pass"),
+        finish(device, shaders::denoise_finish_comp(), "denoise finish") {}
+  vulkan::Kernel start, pass, finish;
+};
+
+/// Filters pictures on a device, one after the other, and keeps its buffers there: 64 bytes a
+/// pixel.
+class DenoiserVulkan {
+ public:
+  /// The device must outlive it.
+  explicit DenoiserVulkan(const vulkan::Device& device);
+
+  /// Makes room for pictures of so many pixels, before anything is recorded that is not done yet.
+  void reserve(std::size_t pixels);
+
+  /// Records Denoiser::filter, with a barrier after each kernel. Sizes and settings must be in
+  /// range, and there must be room. `adds`: to what `filtered` holds.
+  void record(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
+              const NoisyLightOnDevice& light, const DenoiseSettings& settings, Vec3Array filtered,
+              bool adds = false) const;
+
+ private:
+  const vulkan::Device& device_;
+  const DenoiseKernels& kernels_;
+  vulkan::Buffer light_[2];
+};
+
+}  // namespace lambent

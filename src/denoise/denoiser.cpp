@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/denoise.h"
+
+#include <string>
+
+#include "core/large_pages.h"
+#include "core/parallel.h"
+#include "denoise/atrous_cpu.h"
+#include "denoise/denoise_passes.h"
+
+namespace lambent {
+namespace {
+
+constexpr int kMaxSide = 16384;  // of a picture [pixels]
+// Rows that a task filters: few enough to keep all cores busy, many enough to stay in the cache.
+constexpr std::size_t kRowsPerTask = 8;
+
+/// A picture of planes, all around which nothing is seen.
+struct PlanePicture {
+  /// Where the shape is the one before, guards still hold zeros.
+  void shape(int width, int height, int planes) {
+    if (layout.width == width && layout.height == height && layout.planes == planes) return;
+    layout = PlaneLayout(width, height, planes, kDenoiseGuard);
+    floats.assign(layout.size, 0.0f);
+  }
+  Planes row(int y) { return {floats.data() + layout.row(y), layout.stride}; }
+  std::ptrdiff_t row_floats() const { return layout.planes * layout.stride; }
+
+  PlaneLayout layout;
+  AlignedFloats floats;
+};
+
+void store_vector(const Planes& to, int plane, int x, const vec3& v) {
+  for (int c = 0; c < 3; ++c) to.at(plane + c)[x] = v[c];
+}
+
+vec3 load_vector(const Planes& from, int plane, int x) {
+  return {from.at(plane)[x], from.at(plane + 1)[x], from.at(plane + 2)[x]};
+}
+
+template <class Body>
+void for_each_row(int height, Body body) {
+  parallel_chunks(static_cast<std::size_t>(height), kRowsPerTask,
+                  [&](std::size_t begin, std::size_t end) {
+                    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
+                  });
+}
+
+void load_guide(const DenoiseView& view, std::span<const float> levels, PlanePicture& guide) {
+  guide.shape(view.width, view.height, kDenoiseGuidePlanes);
+  for_each_row(view.height, [&](int y) {
+    const Planes row = guide.row(y);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    for (int x = 0; x < view.width; ++x) {
+      const std::size_t i = first + static_cast<std::size_t>(x);
+      const bool seen = view.depths[i] > 0.0f;
+      store_vector(row, kPositionPlane, x, view.positions_ws[i]);
+      store_vector(row, kNormalPlane, x, seen ? view.normals_ws[i] : vec3(0.0f));
+      row.at(kInverseDepthPlane)[x] = seen ? 1.0f / view.depths[i] : 0.0f;
+      row.at(kLevelPlane)[x] = levels.empty() ? 0.0f : levels[i];
+    }
+  });
+}
+
+void load_light(const DenoiseView& view, const NoisyLight& light, PlanePicture& to) {
+  const bool has_base = !light.base.empty();
+  to.shape(view.width, view.height, kDenoisePlanes);
+  for_each_row(view.height, [&](int y) {
+    const Planes row = to.row(y);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    for (int x = 0; x < view.width; ++x) {
+      const std::size_t i = first + static_cast<std::size_t>(x);
+      const vec3 base = has_base ? light.base[i] : vec3(0.0f);
+      store_vector(row, 0, x, light.light[i]);
+      row.at(kSpreadPlane)[x] =
+          light.variance.empty() ? unmeasured_spread(light.light[i], base) : light.variance[i];
+      row.at(kSharePlane)[x] = 1.0f;
+      if (has_base) store_vector(row, kBasePlane, x, base);
+    }
+  });
+}
+
+Expected<void> check(const DenoiseView& view, const NoisyLight& light,
+                     std::span<glm::vec3> filtered) {
+  if (view.width < 1 || view.width > kMaxSide || view.height < 1 || view.height > kMaxSide) {
+    return fail("", "denoise view", "a side is not between 1 and 16384");
+  }
+  const std::size_t pixels =
+      static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
+  const bool whole = view.positions_ws.size() == pixels && view.normals_ws.size() == pixels &&
+                     view.depths.size() == pixels;
+  if (!whole) return fail("", "denoise view", "has not one element a pixel");
+  const auto fits = [&](std::size_t size, bool optional) {
+    return size == pixels || (optional && size == 0);
+  };
+  if (fits(light.light.size(), false) && fits(light.base.size(), true) &&
+      fits(light.variance.size(), true) && fits(light.levels.size(), true) &&
+      fits(filtered.size(), false)) {
+    if (!light.base.empty() && !light.levels.empty()) {
+      return fail("", "noisy light", "has both a base and levels");
+    }
+    return {};
+  }
+  return fail("", "noisy light", "has not one element a pixel");
+}
+
+}  // namespace
+
+struct Denoiser::State {
+  PlanePicture guide, light[2];
+
+  /// Runs a pass from one picture of light to the other.
+  void run(const AtrousPass& pass, int from) {
+    const PlaneLayout& layout = guide.layout;
+    for_each_row(layout.height, [&](int y) {
+      filter_row(pass, {guide.row(y), light[from].row(y), light[1 - from].row(y),
+                        guide.row_floats(), light[from].row_floats(), layout.width});
+    });
+  }
+};
+
+Denoiser::Denoiser() : state_(new State) {}
+Denoiser::~Denoiser() = default;
+Denoiser::Denoiser(Denoiser&&) noexcept = default;
+Denoiser& Denoiser::operator=(Denoiser&&) noexcept = default;
+
+Expected<void> Denoiser::filter(const DenoiseView& view, const NoisyLight& light,
+                                const DenoiseSettings& settings, std::span<glm::vec3> filtered) {
+  if (const Expected<void> fine = lambent::check(settings); !fine) return fine;
+  if (const Expected<void> fine = check(view, light, filtered); !fine) return fine;
+  State& s = *state_;
+  load_guide(view, light.levels, s.guide);
+  load_light(view, light, s.light[0]);
+  const bool has_base = !light.base.empty();
+  s.light[1].shape(view.width, view.height, kDenoisePlanes);
+  int at = 0;
+  for (const AtrousPass& pass :
+       denoise_passes(settings, has_base, !light.variance.empty(), !light.levels.empty())) {
+    s.run(pass, at);
+    at = 1 - at;
+  }
+  for_each_row(view.height, [&](int y) {
+    const Planes row = s.light[at].row(y);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    for (int x = 0; x < view.width; ++x) {
+      const std::size_t i = first + static_cast<std::size_t>(x);
+      const vec3 mean = load_vector(row, 0, x);
+      filtered[i] =
+          has_base ? with_detail(mean, load_vector(row, kBasePlane, x), light.base[i]) : mean;
+    }
+  });
+  return {};
+}
+
+}  // namespace lambent

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pass of the filter.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "denoise/denoise_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  DenoisePassArguments args;
+};
+
+#define Real float
+#define Real3 vec3
+#define LAMBENT_REAL_FN
+#define LAMBENT_UNROLL_TAPS
+
+ivec2 pixel;
+
+float zero_unless_positive(float condition, float value) {
+  return condition > 0.0f ? value : 0.0f;
+}
+
+/// The pixel that lies so far from this one; none where that is outside the picture.
+bool pixel_at(int x, int y, out uint i) {
+  ivec2 place = pixel + ivec2(x, y);
+  i = uint(place.y) * args.width + uint(place.x);
+  return place.x >= 0 && place.y >= 0 && place.x < int(args.width) && place.y < int(args.height);
+}
+
+float fetch_guide(int plane, int x, int y) {
+  uint i;
+  if (!pixel_at(x, y, i)) return 0.0f;
+  if (plane == kLevelPlane) return args.levels.at[i];
+  float depth = args.depths.at[i];
+  if (plane == 6) return depth > 0.0f ? 1.0f / depth : 0.0f;
+  if (plane < 3) return args.positions_ws.at[i][plane];
+  return depth > 0.0f ? args.normals_ws.at[i][plane - 3] : 0.0f;
+}
+
+float fetch_light(int plane, int x, int y) {
+  uint i;
+  if (!pixel_at(x, y, i)) return 0.0f;
+  if (plane == kSpreadPlane) return args.in_light.at[i].spread;
+  if (plane == kSharePlane) return args.in_light.at[i].share;
+  return plane < kSpreadPlane ? args.in_light.at[i].light[plane]
+                              : args.in_light.at[i].base[plane - kBasePlane];
+}
+
+#include "denoise/atrous.inl.h"
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.width * args.height) return;
+  pixel = ivec2(int(i % args.width), int(i / args.width));
+  AtrousLight filtered = filtered_pixel(args.by);
+  args.out_light.at[i] =
+      DenoiseRecord(filtered.light, filtered.spread, filtered.base, filtered.share);
+}

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light as it was sampled becomes what passes of the filter read.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "denoise/denoise_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  DenoiseStartArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  vec3 light = args.light.at[i];
+  vec3 base = args.has_base != 0u ? args.base.at[i] : vec3(0.0f);
+  float spread = args.measured != 0u ? args.variance.at[i] : unmeasured_spread(light, base);
+  args.out_light.at[i] = DenoiseRecord(light, spread, base, 1.0f);
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Irradiance of pixels from what their rays gathered: rays are drawn in proportion to the cosine,
+// so it is pi times their mean radiance.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "denoise/variance.h"
+#include "gather/gather_math.h"
+#include "gather/gather_records.h"
+#include "shared/color.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  GatherSumArguments args;
+};
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= args.count) return;
+  uint i = args.first + k;
+  vec3 geometric_normal_ws = args.points.at[i].geometric_normal_ws;
+  float share = 1.0f / float(args.rays_per_pixel);
+  vec3 sum = vec3(0.0f);
+  vec3 above = vec3(0.0f);
+  vec3 known = args.keeps_excess != 0u ? args.known.at[i] : vec3(0.0f);
+  float luminances = 0.0f;
+  float squares = 0.0f;
+  for (uint r = 0u; r < args.rays_per_pixel; ++r) {
+    uint at = k * args.rays_per_pixel + r;
+    RayRecord ray = args.rays.at[at];
+    // A bent normal's hemisphere reaches below the surface, where no light comes from
+    if (ray.mask == 0u || dot(geometric_normal_ws, ray.direction_ws) <= 0.0f) continue;
+    vec3 brought =
+        kPi * gathered_radiance(args.shaded.at[at], args.direct.at[at], args.field.at[at]);
+    vec3 kept = args.keeps_excess != 0u ? kept_of_ray(brought, known) : brought;
+    float level = luminance(kept);
+    sum += kept;
+    above += brought - kept;
+    luminances += level;
+    squares += level * level;
+  }
+  args.irradiance.at[i] = share * sum;
+  if (args.keeps_excess != 0u) args.excess.at[i] = share * above;
+  if (args.rays_per_pixel > 1u) {
+    args.variance.at[i] =
+        share * share * variance_of_sum(luminances, squares, args.rays_per_pixel);
+  }
+}

@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that coats send out, what they bring, and what a coat makes of the rays around it.
+//
+// Based on: Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018; Stachowiak,
+// "Stochastic Screen-Space Reflections", SIGGRAPH courses 2015 (rays of neighbours, each with the
+// weight of the pixel's own lobe); Karis, "Real Shading in Unreal Engine 4", SIGGRAPH courses 2013
+// (split sum).
+#ifndef LAMBENT_GLOSSY_GLOSSY_MATH_H
+#define LAMBENT_GLOSSY_GLOSSY_MATH_H
+
+#include "raytracing/camera_math.h"
+#include "raytracing/coat_share.h"
+#include "raytracing/ray_records.h"
+#include "shared/cross_bilateral.h"
+#include "shared/random.h"
+
+LAMBENT_BEGIN
+
+/// The ray that a pixel's coat sends out, and the light that it brings.
+struct CoatRay {
+  vec3 direction_ws;  ///< Unit.
+  float distance;     ///< To what it met first [m]; infinite: it left the scene.
+  vec3 radiance;      ///< But for what the first surface emits [W/(m^2 sr)].
+  float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
+                      ///< into the surface and brings nothing.
+  vec3 emission;      ///< By the first surface [W/(m^2 sr)].
+};
+LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
+
+/// A ray's way through the scene.
+struct CoatPath {
+  vec3 throughput;  ///< Share of the light that the ray meets next which the pixel's ray brings.
+  float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
+                    ///< 0: the way has ended.
+  float alpha;      ///< GGX width of the widest lobe on the way.
+};
+LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
+
+/// Pixels to each side of one whose rays it takes, along a row; and rows of rays.
+const int kReuse = 2;
+
+// Coats up to this roughness have a ray at every pixel, whatever the rows between rays: their lobes
+// are narrower than what the mirrored directions of neighbouring pixels differ by on a curved
+// surface, so that neighbours' rays do not help.
+const float kEveryPixelRoughness = 0.5f;
+
+/// A ray goes on from coats that it meets up to this often; the field's light ends it.
+const uint kMaxCoatBounces = 4u;
+
+/// Surfaces that a ray meets in all, with those that it crosses.
+const uint kMaxWays = 12u;
+
+/// CoatPath::pdf of ways whose lights nobody else looks for: those that begin through a surface.
+const float kFoundByNobodyElse = 1e30f;
+
+/// ... where the light that is met next would count by at least this share in the pixel's ray.
+const float kMinThroughput = 0.1f;
+
+/// GGX width of coats that end a ray, at least: of roughness 0.5. The samples of their direct light
+/// cannot find a lamp in narrower lobes.
+const float kLeastEndAlpha = 0.25f;
+
+/// Share of its own ray that a pixel has for each pixel around it: one over the rays in reach.
+const float kOwnShare = 1.0f / 16.0f;
+
+/// Most that a ray weighs where a pixel has none of its own. One that was drawn far off its own
+/// lobe, and by chance falls into the pixel's, would outweigh all others.
+const float kMaxReuseWeight = 4.0f;
+
+/// So many rays that fit a lobe, or more, tell its albedo well enough to correct their mean by the
+/// known one.
+const float kRaysOfMean = 4.0f;
+
+/// Neighbours of less weight count for nothing: one over it would be no number.
+const float kLeastPixelWeight = 1e-12f;
+
+/// Neighbours count for nothing this far from a pixel's plane [pixels' widths at its depth]: the
+/// plane of a sphere of few pixels falls off as much over the pixels in reach.
+const float kPlaneTolerance = 4.0f;
+
+// Keep the random numbers of rays and of lights at what they meet apart from those of other passes.
+const uint kCoatSalt = 0x434F4154u;
+const uint kCoatBounceSalt = 0x9E3779B9u;
+const uint kThroughSalt = 0x5448524Fu;
+
+/// The salt of a sample's random numbers at what rays meet on their way's bounce 1, 2, ...
+LAMBENT_FN uint coat_salt(uint sample_index, uint bounce) {
+  return (sample_index ^ kCoatSalt) + bounce * kCoatBounceSalt;
+}
+
+/// Whether a row has rays, of every `rows`-th one; the next sample has those of the next row.
+LAMBENT_FN bool has_coat_rays(int row, uint sample_index, uint rows) {
+  return (uint(row) + sample_index) % rows == 0u;
+}
+
+/// Whether a pixel has a ray.
+LAMBENT_FN bool traces_coat(Reflectance surface, float coat_share, int row, uint sample_index,
+                            uint rows) {
+  if (coat_share <= 0.0f) return false;
+  bool sharp = surface.alpha <= kEveryPixelRoughness * kEveryPixelRoughness;
+  return sharp || has_coat_rays(row, sample_index, rows);
+}
+
+/// Place of a pixel in tiles of 4 x 4 pixels with rays: neighbours are far apart in the order
+/// (Bayer's). A window of as many pixels, wherever it lies, has every place once.
+LAMBENT_FN uint place_in_tile(uint x, uint y) {
+  uint differs = x ^ y;
+  return ((differs & 1u) << 3u) | ((y & 1u) << 2u) | (differs & 2u) | ((y & 2u) >> 1u);
+}
+
+/// Where in the unit square a pixel draws its ray: windows of 4 x 4 rays cover it evenly, and so do
+/// the samples of a pixel.
+LAMBENT_FN vec2 coat_uniforms(uvec2 pixel, uint sample_index, uint rows, uint seed) {
+  RandomStream random = make_random_stream(kCoatSalt, 0u, seed);
+  vec2 shift = next_uniform2(random);
+  uint place = place_in_tile(pixel.x, pixel.y / rows);
+  // Steps of samples: fractions of the golden ratio and of the square root of two
+  vec2 step = float(sample_index) * vec2(kGoldenRatio - 1.0f, 0.41421356f);
+  return fract(shift + plastic_sequence(place) + step);
+}
+
+/// A direction drawn of a coat's lobe.
+struct CoatDraw {
+  vec3 direction_ws;
+  float pdf;    ///< [1/sr]; 0: it is below the surface, where no light comes from.
+  vec3 weight;  ///< Share of the light from there that the coat reflects.
+};
+
+/// Walter et al. 2007, Eq. 33, of a half vector: exact for the narrowest lobes, too, where the
+/// cosine alone tells nothing.
+LAMBENT_FN float ggx_density(vec3 normal, vec3 h, float alpha) {
+  float a2 = alpha * alpha;
+  float cosine = dot(normal, h);
+  vec3 sine = cross(normal, h);
+  float d = cosine * cosine * a2 + dot(sine, sine);
+  return a2 * kInvPi / (d * d);
+}
+
+LAMBENT_FN CoatDraw draw_coat_ray(Reflectance surface, Frame frame, vec3 to_viewer_ws, vec2 u) {
+  CoatDraw drawn = {vec3(0.0f, 0.0f, 1.0f), 0.0f, vec3(0.0f)};
+  vec3 v = to_local(frame, to_viewer_ws);
+  if (v.z <= 0.0f) return drawn;
+  vec3 h = sample_ggx_visible_normal(v, surface.alpha, u);
+  vec3 l = reflect(-v, h);
+  if (l.z <= 0.0f) return drawn;
+  float lambda_v = ggx_lambda(v.z, surface.alpha);
+  float lambda_l = ggx_lambda(l.z, surface.alpha);
+  drawn.direction_ws = normalize(to_world(frame, l));
+  drawn.pdf =
+      ggx_density(vec3(0.0f, 0.0f, 1.0f), h, surface.alpha) / (4.0f * v.z * (1.0f + lambda_v));
+  drawn.weight = fresnel(surface, dot(v, h)) * ((1.0f + lambda_v) / (1.0f + lambda_v + lambda_l));
+  return drawn;
+}
+
+/// Where a coat's light comes from on average: the rougher, the nearer to the normal. Lagarde and
+/// de Rousiers, "Moving Frostbite to PBR", SIGGRAPH courses 2014, sec. 4.9.3.
+LAMBENT_FN vec3 coat_direction(vec3 normal_ws, vec3 to_viewer_ws, float alpha) {
+  // Filtered textures bring roughness to a rounding above 1
+  float sharpness = max(1.0f - alpha, 0.0f);
+  float mirrored = sharpness * (sqrt(sharpness) + alpha);
+  vec3 mirror = reflect(-to_viewer_ws, normal_ws);
+  return normalize(normal_ws + (mirror - normal_ws) * mirrored);
+}
+
+/// Radiance that a surface's base, under its coat, makes of indirect irradiance.
+LAMBENT_FN vec3 reflected_indirect(Reflectance reflectance, vec3 irradiance) {
+  return reflectance.diffuse * (vec3(1.0f) - reflectance.f0) * irradiance * kInvPi;
+}
+
+/// Radiance that its coat makes of the irradiance on a surface that faces coat_direction(); 0
+/// without a coat. Split sum, the field's cosine lobe in place of the coat's own.
+LAMBENT_FN vec3 reflected_glossy(Reflectance reflectance, float n_dot_v, vec3 mirror_irradiance) {
+  if (reflectance.f90 <= 0.0f) return vec3(0.0f);
+  return specular_albedo(reflectance, n_dot_v) * mirror_irradiance * kInvPi;
+}
+
+/// A pixel's coat, where it is and to whom.
+struct CoatLobe {
+  vec3 position_ws;
+  vec3 geometric_normal_ws;
+  vec3 normal_ws;
+  vec3 to_viewer_ws;
+  float alpha;
+};
+
+/// What a lobe makes of light from a direction, and with which density it draws that [1/sr].
+struct LobeValue {
+  float value;  ///< BRDF times cosine over the Fresnel term [1/sr]; 0 below the surface.
+  float pdf;
+  float v_dot_h;
+};
+
+LAMBENT_FN LobeValue coat_lobe(CoatLobe of, vec3 direction_ws) {
+  LobeValue none = {0.0f, 0.0f, 0.0f};
+  float n_dot_v = dot(of.normal_ws, of.to_viewer_ws);
+  float n_dot_l = dot(of.normal_ws, direction_ws);
+  if (n_dot_v <= 0.0f || n_dot_l <= 0.0f) return none;
+  vec3 h = normalize(of.to_viewer_ws + direction_ws);
+  float density = ggx_density(of.normal_ws, h, of.alpha) / (4.0f * n_dot_v);
+  float lambda_v = ggx_lambda(n_dot_v, of.alpha);
+  LobeValue lobe = {density / (1.0f + lambda_v + ggx_lambda(n_dot_l, of.alpha)),
+                    density / (1.0f + lambda_v), dot(of.to_viewer_ws, h)};
+  return lobe;
+}
+
+/// The direction from `position_ws` to where a ray ends that starts at `origin_ws`.
+LAMBENT_FN vec3 direction_to_end(vec3 position_ws, vec3 origin_ws, CoatRay ray) {
+  if (floatBitsToUint(ray.distance) == kMissedDistanceBits) return ray.direction_ws;
+  return normalize(ray.direction_ws * ray.distance + (origin_ws - position_ws));
+}
+
+LAMBENT_FN float inverse_plane_tolerance(CameraRecord camera, vec3 position_ws) {
+  return 1.0f / (kPlaneTolerance * pixel_width(camera, position_ws));
+}
+
+/// A pixel that reflects rays, its own and those around it.
+struct CoatReceiver {
+  CoatLobe lobe;
+  Reflectance reflectance;
+  float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
+  uint emitter_samples;     ///< Of its direct light.
+  CoatRay own;              ///< Of density 0 where it has no ray.
+  LobeValue at_own;         ///< Its lobe there.
+  vec3 mirror_ws;           ///< Where its lobe is about densest, and how dense it is there [1/sr].
+  float mirror_pdf;
+};
+
+/// Fills in what follows from a receiver's lobe and its own ray.
+LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
+  LobeValue none = {0.0f, 0.0f, 0.0f};
+  at.at_own = at.own.pdf > 0.0f ? coat_lobe(at.lobe, at.own.direction_ws) : none;
+  at.mirror_ws = reflect(-at.lobe.to_viewer_ws, at.lobe.normal_ws);
+  at.mirror_pdf = coat_lobe(at.lobe, at.mirror_ws).pdf;
+}
+
+/// Weighted sums over rays.
+struct CoatSums {
+  vec3 light;        ///< Reflected, but for what the rays' first surfaces emit,
+  vec3 emission;     ///< and that.
+  float weight;      ///< Of the rays around,
+  float own_weight;  ///< the weight of the pixel's own ray,
+  float pixels;      ///< and that of the pixels that rays were taken of;
+  float fitting;     ///< so many of these have the pixel's lobe.
+};
+
+/// Adds the light of a ray that a receiver's lobe gives this value, over the value and with this
+/// weight. What emitters send counts by the weight that rays of the receiver's own have: its direct
+/// light has left out as much.
+LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction_ws, CoatRay ray,
+                                 float weight, LAMBENT_INOUT(CoatSums) sums) {
+  if (dot(at.lobe.geometric_normal_ws, direction_ws) <= 0.0f) return;
+  vec3 reflected = weight * fresnel(at.reflectance, lobe.v_dot_h);
+  sums.light += reflected * ray.radiance;
+  sums.emission += reflected * (found_emitter_weight(lobe.pdf, at.emitter_samples) * ray.emission);
+}
+
+/// Adds what a receiver makes of a neighbour's ray, and of its own beside that one.
+///
+/// Where a ray ends is seen from both. Both rays could have ended there, drawn by the neighbour's
+/// lobe or by the receiver's, whose one ray is shared out among all neighbours: the two have the
+/// weights of the balance heuristic, which are bounded, for pairs of two densities (pairwise
+/// multiple importance sampling: Bitterli, "Correlations and Reuse for Fast and Accurate Physically
+/// Based Light Transport", 2022, ch. 9). Lobes that hardly overlap so leave each other alone.
+LAMBENT_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, float weight,
+                             LAMBENT_INOUT(CoatSums) sums) {
+  float similar =
+      relit_bilateral_weight(from.position_ws - at.lobe.position_ws, at.lobe.geometric_normal_ws,
+                             from.geometric_normal_ws, at.inverse_tolerance);
+  float pixel = weight * similar;
+  if (pixel < kLeastPixelWeight) return;
+  sums.pixels += pixel;
+  if (at.mirror_pdf > 0.0f) {
+    sums.fitting += pixel * min(coat_lobe(from, at.mirror_ws).pdf / at.mirror_pdf, 1.0f);
+  }
+  if (at.own.pdf > 0.0f) {
+    LobeValue beside =
+        coat_lobe(from, direction_to_end(from.position_ws, at.lobe.position_ws, at.own));
+    sums.own_weight +=
+        pixel * kOwnShare * at.at_own.value / (beside.pdf + kOwnShare * at.at_own.pdf);
+  }
+  if (ray.pdf < 0.0f) return;
+  vec3 direction = direction_to_end(at.lobe.position_ws, from.position_ws, ray);
+  LobeValue lobe = coat_lobe(at.lobe, direction);
+  if (lobe.value <= 0.0f) return;
+  float w = at.own.pdf != 0.0f ? lobe.value / (ray.pdf + kOwnShare * lobe.pdf)
+                               : min(lobe.value / ray.pdf, kMaxReuseWeight);
+  sums.weight += pixel * w;
+  add_light_of_ray(at, lobe, direction, ray, pixel * w, sums);
+}
+
+/// Light that the receiver reflects, without bias: the mean over pixels. Where many rays make it
+/// up, the mean over their weights times the known albedo of the lobe has less noise. How much of
+/// it counts is decided by the lobes and not by the rays: where rays of large weights would decide
+/// for the known albedo and those of small ones against it, energy would be lost. What emitters
+/// send straight comes with weights of its own, by which that mean would be off. Negative where
+/// there is no ray.
+LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
+  if (sums.pixels <= 0.0f) {
+    if (at.own.pdf == 0.0f) return vec3(-1.0f);
+    sums.pixels = 1.0f;
+    sums.own_weight = at.own.pdf > 0.0f ? at.at_own.value / at.at_own.pdf : 0.0f;
+  }
+  if (sums.own_weight > 0.0f) {
+    add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, sums.own_weight, sums);
+  }
+  float weight = sums.weight + sums.own_weight;
+  if (weight <= 0.0f) return vec3(0.0f);
+  float known = clamp((sums.fitting - 1.0f) / (kRaysOfMean - 1.0f), 0.0f, 1.0f);
+  // One over the smallest of weights is no number
+  if (weight < kLeastPixelWeight) known = 0.0f;
+  float mean = known > 0.0f ? known / weight : 0.0f;
+  float n_dot_v = dot(at.lobe.normal_ws, at.lobe.to_viewer_ws);
+  float albedo = ggx_albedo(n_dot_v, at.lobe.alpha);
+  return sums.light * ((1.0f - known) / sums.pixels + mean * albedo) + sums.emission / sums.pixels;
+}
+
+/// All that a pixel's coat reflects but for what lights sent it straight: by rays, if any reached
+/// it, and by the field for the rest.
+LAMBENT_FN vec3 coat_light(Reflectance reflectance, float n_dot_v, float gi_share, vec4 by_rays,
+                           vec3 mirror_irradiance) {
+  if (gi_share <= 0.0f) return vec3(0.0f);
+  return vec3(by_rays.x, by_rays.y, by_rays.z) +
+         (1.0f - by_rays.w) * reflected_glossy(reflectance, n_dot_v, mirror_irradiance);
+}
+
+LAMBENT_END
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arguments of the kernels of reflections. Ways of rays that have not ended lie one after the other
+// in lists, in any order; everything else has an entry for each pixel of the rows around a band.
+#ifndef LAMBENT_GLOSSY_GLOSSY_RECORDS_H
+#define LAMBENT_GLOSSY_GLOSSY_RECORDS_H
+
+#include "field/vulkan/device_records.h"
+#include "glossy/way_math.h"
+#include "raytracing/vulkan/shading_records.h"
+
+LAMBENT_BEGIN
+
+/// Draws the pixels' rays.
+struct CoatRaysArguments {
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  CoatRayArray coat_rays;
+  RayArray rays;  ///< A list, as are:
+  CoatPathArray paths;
+  UintArray pixels;  ///< Of the ways.
+  UintArray ways;    ///< How many these are: one number.
+  uint count;        ///< Pixels.
+  uint first_row;    ///< In the picture.
+  uint width;        ///< Of the picture [pixels].
+  uint rows;         ///< Every so manieth has rays.
+  uint sample_index;
+  uint seed;
+};
+
+/// Draws the rays that pixels send through their surfaces.
+struct ThroughRaysArguments {
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  CoatRayArray coat_rays;
+  RayArray rays;  ///< A list, as are:
+  CoatPathArray paths;
+  UintArray pixels;  ///< Of the ways.
+  UintArray ways;    ///< How many these are: one number.
+  uint count;        ///< Pixels.
+  uint first_index;  ///< Of the first one among those of the picture.
+  uint salt;
+  uint seed;
+};
+
+/// What rays met becomes what shading reads, and questions to the field: two a way.
+struct CoatHitsArguments {
+  HitArray hits;  ///< A list, as are:
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  CoatPathArray paths;
+  UintArray pixels;
+  QueryArray queries;
+  CoatRayArray coat_rays;
+  uint count;  ///< Ways.
+  uint bounce;
+  uint emitter_samples;
+  uint first_index;  ///< Of the first pixel among those of the picture.
+  uint has_field;    ///< 1: there is a field to be asked.
+  uint padding;
+};
+
+/// Adds the light of what rays met, and lets ways go on.
+struct CoatLightArguments {
+  LitPointArray points;  ///< Lists:
+  PixelSurfaceArray surfaces;
+  Vec3Array diffuse;
+  Vec3Array specular;
+  Vec3Array field;  ///< Answers, two a way.
+  CoatPathArray paths;
+  UintArray pixels;
+  RayArray next_rays;
+  CoatPathArray next_paths;
+  UintArray next_pixels;
+  UintArray next_ways;
+  CoatRayArray coat_rays;
+  uint count;
+  uint first_index;
+  uint salt;
+  uint seed;
+  uint bounce;
+  uint padding;
+};
+
+/// Has the band's pixels reflect the rays around them.
+struct CoatReuseArguments {
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  CoatRayArray coat_rays;
+  Vec4Array light;  ///< As Glossy::reflect, a pixel of the band each.
+  vec3 camera_ws;
+  vec3 camera_back;   ///< Unit; against the direction of view.
+  float pixel_width;  ///< At a distance of one metre; of an orthographic camera everywhere.
+  uint orthographic;
+  uint first_row;  ///< Of the rows around the band.
+  uint band_row;   ///< The band's first.
+  uint count;      ///< Pixels of the band.
+  uint width;      ///< Of the picture [pixels].
+  uint height;
+  uint rows;
+  uint sample_index;
+  uint emitter_samples;
+};
+
+LAMBENT_END
+#endif

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What coats' rays met: their light of the sky and of what emits, and what the field is asked for.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "glossy/glossy_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  CoatHitsArguments args;
+};
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= args.count) return;
+  uint i = args.pixels.at[k];
+  CoatPath path = args.paths.at[k];
+  LitPointRecord point = args.points.at[k];
+  PixelSurfaceRecord surface = args.surfaces.at[k];
+  QueryRecord base = QueryRecord(point.position_ws, point.normal_ws, surface.to_viewer_ws);
+  args.queries.at[2u * k] = base;
+  args.queries.at[2u * k + 1u] = base;
+  if (args.bounce == 1u) args.coat_rays.at[i].distance = args.hits.at[k].distance;
+  if ((surface.flags & kSurfaceMissed) != 0u) {
+    args.coat_rays.at[i].radiance += path.throughput * surface.emission;
+    return;
+  }
+  path.throughput *= left_of_light(surface.transmission, args.hits.at[k].distance);
+  if (args.bounce == 1u && path.pdf != kFoundByNobodyElse) {
+    args.coat_rays.at[i].emission = surface.emission;
+  } else {
+    args.coat_rays.at[i].radiance +=
+        path.throughput * surface.emission * found_emitter_weight(path.pdf, args.emitter_samples);
+  }
+  float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
+  float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
+  surface.coat_share = meet_coat(n_dot_v, gi_share, args.bounce, surface.reflectance, path);
+  args.paths.at[k] = path;
+  args.surfaces.at[k] = surface;
+  args.points.at[k].random_index = args.first_index + i;
+  args.queries.at[2u * k + 1u].normal_ws =
+      coat_direction(point.normal_ws, surface.to_viewer_ws, surface.reflectance.alpha);
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Adds the light that the hits of coats' rays reflect, and lets ways go on.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "glossy/glossy_records.h"
+#include "shared/rays.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  CoatLightArguments args;
+};
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= args.count) return;
+  PixelSurfaceRecord surface = args.surfaces.at[k];
+  if ((surface.flags & kSurfaceMissed) != 0u) return;
+  uint i = args.pixels.at[k];
+  LitPointRecord point = args.points.at[k];
+  CoatPath path = args.paths.at[k];
+  float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
+  vec3 light = reflected_indirect(surface.reflectance, surface.gi_share * args.field.at[2u * k]) +
+               coat_light(surface.reflectance, n_dot_v, surface.gi_share,
+                          vec4(vec3(0.0f), surface.coat_share), args.field.at[2u * k + 1u]) +
+               args.diffuse.at[k] + args.specular.at[k];
+  args.coat_rays.at[i].radiance += path.throughput * light;
+
+  RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
+  NextRay next = go_on(surface.transmission, surface.reflectance, surface.coat_share,
+                       point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
+                       args.bounce, random, path);
+  if (path.pdf <= 0.0f) return;
+  uint at = atomicAdd(args.next_ways.at[0], 1u);
+  args.next_paths.at[at] = path;
+  args.next_pixels.at[at] = i;
+  args.next_rays.at[at] =
+      RayRecord(offset_ray_origin(point.position_ws, next.side * point.geometric_normal_ws), 0.0f,
+                next.direction_ws, infinity(), kRayMeetsAll);
+}

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the rays that pixels' coats send out.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "glossy/glossy_records.h"
+#include "shared/rays.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  CoatRaysArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f));
+  PixelSurfaceRecord surface = args.surfaces.at[i];
+  uvec2 pixel = uvec2(i % args.width, args.first_row + i / args.width);
+  if (!traces_coat(surface.reflectance, surface.coat_share, int(pixel.y), args.sample_index,
+                   args.rows)) {
+    return;
+  }
+  LitPointRecord point = args.points.at[i];
+  vec2 u = coat_uniforms(pixel, args.sample_index, args.rows, args.seed);
+  CoatDraw drawn =
+      draw_coat_ray(surface.reflectance, make_frame(point.normal_ws), surface.to_viewer_ws, u);
+  if (drawn.pdf <= 0.0f) {
+    args.coat_rays.at[i].pdf = -1.0f;
+    return;
+  }
+  args.coat_rays.at[i].direction_ws = drawn.direction_ws;
+  args.coat_rays.at[i].pdf = drawn.pdf;
+  uint at = atomicAdd(args.ways.at[0], 1u);
+  args.paths.at[at] = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha);
+  args.pixels.at[at] = i;
+  args.rays.at[at] = RayRecord(offset_ray_origin(point.position_ws, point.geometric_normal_ws),
+                               0.0f, drawn.direction_ws, infinity(), kRayMeetsAll);
+}

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of pixels' coats from the rays around them.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "glossy/glossy_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  CoatReuseArguments args;
+};
+
+#define CoatViewRef CoatReuseArguments
+
+uint index_of(CoatReuseArguments view, ivec2 pixel) {
+  return (uint(pixel.y) - view.first_row) * view.width + uint(pixel.x);
+}
+CoatLobe fetch_lobe(CoatReuseArguments view, ivec2 pixel) {
+  uint i = index_of(view, pixel);
+  LitPointRecord point = view.points.at[i];
+  PixelSurfaceRecord surface = view.surfaces.at[i];
+  return CoatLobe(point.position_ws, point.geometric_normal_ws, point.normal_ws,
+                  surface.to_viewer_ws, surface.reflectance.alpha);
+}
+CoatRay fetch_ray(CoatReuseArguments view, ivec2 pixel) {
+  return view.coat_rays.at[index_of(view, pixel)];
+}
+ivec2 view_size(CoatReuseArguments view) {
+  return ivec2(view.width, view.height);
+}
+
+#include "glossy/reuse.inl.h"
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= args.count) return;
+  args.light.at[k] = vec4(0.0f);
+  ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
+  uint i = index_of(args, pixel);
+  PixelSurfaceRecord surface = args.surfaces.at[i];
+  if (surface.coat_share <= 0.0f) return;
+  CameraRecord camera;
+  camera.axes = mat3(1.0f);
+  camera.axes[2] = args.camera_back;
+  camera.position_ws = args.camera_ws;
+  camera.half_view = args.pixel_width;
+  camera.half_size = vec2(1.0f);
+  camera.orthographic = args.orthographic;
+  CoatReceiver at;
+  at.lobe = fetch_lobe(args, pixel);
+  at.reflectance = surface.reflectance;
+  at.inverse_tolerance = inverse_plane_tolerance(camera, at.lobe.position_ws);
+  at.emitter_samples = args.emitter_samples;
+  at.own = fetch_ray(args, pixel);
+  find_lobe(at);
+  args.light.at[k] =
+      surface.coat_share * reuse_rays(args, pixel, at, args.sample_index, args.rows);
+}

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws the rays that pixels send through their surfaces.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "glossy/glossy_records.h"
+#include "shared/rays.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  ThroughRaysArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f));
+  PixelSurfaceRecord surface = args.surfaces.at[i];
+  if ((surface.flags & kSurfaceMissed) != 0u || !lets_light_through(surface.transmission)) return;
+  LitPointRecord point = args.points.at[i];
+  RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
+  CoatPath path = CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha);
+  vec2 u = next_uniform2(random);
+  NextRay next = go_on_through(surface.transmission, surface.reflectance, point.normal_ws,
+                               surface.to_viewer_ws, vec3(u, next_uniform(random)), path);
+  if (path.pdf <= 0.0f) return;
+  uint at = atomicAdd(args.ways.at[0], 1u);
+  args.paths.at[at] = path;
+  args.pixels.at[at] = i;
+  args.rays.at[at] =
+      RayRecord(offset_ray_origin(point.position_ws, next.side * point.geometric_normal_ws), 0.0f,
+                next.direction_ws, infinity(), kRayMeetsAll);
+}

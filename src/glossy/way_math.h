@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where rays of coats, and rays through surfaces, go on from what they meet.
+#ifndef LAMBENT_GLOSSY_WAY_MATH_H
+#define LAMBENT_GLOSSY_WAY_MATH_H
+
+#include "glossy/glossy_math.h"
+#include "raytracing/transmission_math.h"
+
+LAMBENT_BEGIN
+
+/// Share of a coat's light that further rays bring where a ray met it: the `throughput` is the
+/// ray's so far.
+LAMBENT_FN float further_coat_share(Reflectance surface, float n_dot_v, vec3 throughput,
+                                    uint bounce) {
+  if (bounce >= kMaxCoatBounces) return 0.0f;
+  float share = traced_coat_share(surface);
+  if (share <= 0.0f) return 0.0f;
+  vec3 carried = throughput * specular_albedo(surface, n_dot_v) * share;
+  return max(carried.x, max(carried.y, carried.z)) < kMinThroughput ? 0.0f : share;
+}
+
+/// Takes a coat that a way met: returns the share of its light that further rays bring, and widens
+/// its lobe to the widest on the way, which blurs it as much, and to some roughness where no
+/// further ray looks for the lamps that it mirrors. Narrower lobes would be found by hardly any
+/// ray, and be a spark where they are. Kaplanyan and Dachsbacher, "Path Space Regularization for
+/// Holistic and Robust Light Transport", Eurographics 2013.
+LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
+                           LAMBENT_INOUT(Reflectance) coat, CoatPath path) {
+  coat.alpha = max(coat.alpha, path.alpha);
+  float share = gi_share > 0.0f ? further_coat_share(coat, n_dot_v, path.throughput, bounce) : 0.0f;
+  if (share <= 0.0f) coat.alpha = max(coat.alpha, kLeastEndAlpha);
+  return share;
+}
+
+/// Where a way goes on.
+struct NextRay {
+  vec3 direction_ws;
+  float side;  ///< 1: on the side of the surface that it came from; -1: behind it.
+};
+
+/// Has a way go on from a coat, of whose light further rays bring `coat_share`. The path's pdf
+/// becomes 0 where it does not go on.
+LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 normal_ws,
+                                   vec3 geometric_normal_ws, vec3 to_viewer_ws, vec2 u,
+                                   LAMBENT_INOUT(CoatPath) path) {
+  NextRay next = {normal_ws, 1.0f};
+  path.pdf = 0.0f;
+  if (coat_share <= 0.0f) return next;
+  CoatDraw drawn = draw_coat_ray(coat, make_frame(normal_ws), to_viewer_ws, u);
+  if (dot(geometric_normal_ws, drawn.direction_ws) <= 0.0f) return next;
+  path.throughput *= coat_share * drawn.weight;
+  path.pdf = drawn.pdf;
+  path.alpha = coat.alpha;
+  next.direction_ws = drawn.direction_ws;
+  return next;
+}
+
+/// Has a way go on through a surface, or from the inside of its volume.
+LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 normal_ws,
+                                 vec3 to_viewer_ws, vec3 u, LAMBENT_INOUT(CoatPath) path) {
+  ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
+  path.throughput *= drawn.weight;
+  path.alpha = max(path.alpha, through.alpha);
+  if (drawn.weight == vec3(0.0f)) path.pdf = 0.0f;
+  NextRay next = {drawn.direction_ws, drawn.crosses != 0u ? -1.0f : 1.0f};
+  return next;
+}
+
+/// Has a way go on from what it met on its so manieth bounce: through the surface, or from its
+/// coat. Chance decides where it could do either.
+LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_share, vec3 normal_ws,
+                         vec3 geometric_normal_ws, vec3 to_viewer_ws, uint bounce,
+                         RandomStream random, LAMBENT_INOUT(CoatPath) path) {
+  vec2 u = next_uniform2(random);
+  float crossing = 0.0f;
+  if (bounce < kMaxWays && lets_light_through(through)) {
+    float n_dot_v = dot(normal_ws, to_viewer_ws);
+    crossing = crossing_probability(passing_share(through, coat, n_dot_v),
+                                    coat_share * specular_albedo(coat, n_dot_v));
+  }
+  // Nothing further is drawn where nothing lets light through
+  if (crossing > 0.0f && (crossing >= 1.0f || next_uniform(random) < crossing)) {
+    path.throughput /= crossing;
+    return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, next_uniform(random)),
+                         path);
+  }
+  if (crossing > 0.0f) path.throughput /= 1.0f - crossing;
+  return go_on_from_coat(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u, path);
+}
+
+LAMBENT_END
+#endif

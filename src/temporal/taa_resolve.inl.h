@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pixel of a frame and what was kept of the frames before become what is shown and kept, in the
+// common subset of C++ and GLSL. Included after taa_math.h, taa_records.h and motion_math.h. The
+// includer provides the types
+//   TaaPictureRef    the frame as it was rendered
+//   TaaHistoryRef    what was kept
+// and, of pixels within the picture,
+//   vec3 fetch_radiance(TaaPictureRef picture, ivec2 pixel)
+//   PixelMotion fetch_motion(TaaPictureRef picture, ivec2 pixel)
+//   TaaPixel fetch_history(TaaHistoryRef history, ivec2 pixel)
+
+/// The pixel, or the nearest within the picture.
+LAMBENT_FN ivec2 within_picture(TaaFrame frame, int x, int y) {
+  return ivec2(clamp(x, 0, frame.width - 1), clamp(y, 0, frame.height - 1));
+}
+
+/// What a pixel shows. What is no number is taken for black: it would spread from pixel to pixel
+/// and from frame to frame.
+LAMBENT_FN vec3 radiance_at(TaaPictureRef picture, ivec2 pixel) {
+  vec3 radiance = fetch_radiance(picture, pixel);
+  float brightness = luminance(radiance);
+  return brightness >= 0.0f && brightness < infinity() ? radiance : vec3(0.0f);
+}
+
+/// What a pixel and the eight around it show.
+struct TaaSurroundings {
+  PixelMotion
+      nearest;  ///< Motion of the nearest of them, so that edges move with what is in front.
+  float mean;   ///< Luminance; see compress_radiance.
+};
+
+LAMBENT_FN TaaSurroundings look_around(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
+  TaaSurroundings found;
+  found.nearest = fetch_motion(picture, pixel);
+  float sum = 0.0f;
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      ivec2 at = within_picture(frame, pixel.x + dx, pixel.y + dy);
+      PixelMotion motion = fetch_motion(picture, at);
+      found.nearest = nearer_motion(found.nearest, motion);
+      sum += luminance(radiance_at(picture, at));
+    }
+  }
+  // A black neighbourhood has no scale; any will do
+  found.mean = sum > 0.0f ? sum / 9.0f : 1.0f;
+  return found;
+}
+
+LAMBENT_FN TaaNeighbourhood neighbourhood_at(TaaFrame frame, TaaPictureRef picture, ivec2 pixel,
+                                             float mean) {
+  vec3 sum = vec3(0.0f);
+  vec3 sum_of_squares = vec3(0.0f);
+  for (int dy = -1; dy <= 1; ++dy) {
+    for (int dx = -1; dx <= 1; ++dx) {
+      ivec2 at = within_picture(frame, pixel.x + dx, pixel.y + dy);
+      vec3 color = ycocg_from_rgb(compress_radiance(radiance_at(picture, at), mean));
+      sum += color;
+      sum_of_squares += color * color;
+    }
+  }
+  vec3 now = ycocg_from_rgb(compress_radiance(radiance_at(picture, pixel), mean));
+  return taa_neighbourhood(sum, sum_of_squares, 9.0f, now, frame.clip_deviations);
+}
+
+/// The history at a place between pixels' centres [pixels], by sixteen of them.
+LAMBENT_FN vec3 history_at(TaaFrame frame, TaaHistoryRef history, vec2 place) {
+  vec2 corner = floor(place - vec2(0.5f));
+  vec2 t = place - vec2(0.5f) - corner;
+  ivec2 first = ivec2(int(corner.x), int(corner.y));
+  // On a pixel's centre it is that pixel's
+  if (t.x == 0.0f && t.y == 0.0f) {
+    return fetch_history(history, within_picture(frame, first.x, first.y)).radiance;
+  }
+  vec4 across = catmull_rom_weights(t.x);
+  vec4 down = catmull_rom_weights(t.y);
+  vec3 sum = vec3(0.0f);
+  for (int j = 0; j < 4; ++j) {
+    for (int i = 0; i < 4; ++i) {
+      ivec2 at = within_picture(frame, first.x - 1 + i, first.y - 1 + j);
+      sum += across[i] * down[j] * fetch_history(history, at).radiance;
+    }
+  }
+  return max(sum, vec3(0.0f));
+}
+
+LAMBENT_FN float depth_at(TaaFrame frame, TaaPictureRef picture, int x, int y) {
+  return fetch_motion(picture, within_picture(frame, x, y)).depth;
+}
+
+/// Depth that a surface may gain between the places that its samples are taken at [m].
+LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel, float depth) {
+  // The sky has no slope
+  if (depth == infinity()) return 0.0f;
+  // At the picture's edge there is one neighbour for both sides
+  int left = pixel.x > 0 ? pixel.x - 1 : pixel.x + 1;
+  int right = pixel.x < frame.width - 1 ? pixel.x + 1 : pixel.x - 1;
+  int above = pixel.y > 0 ? pixel.y - 1 : pixel.y + 1;
+  int below = pixel.y < frame.height - 1 ? pixel.y + 1 : pixel.y - 1;
+  float across = depth_step(depth_at(frame, picture, left, pixel.y), depth,
+                            depth_at(frame, picture, right, pixel.y));
+  float down = depth_step(depth_at(frame, picture, pixel.x, above), depth,
+                          depth_at(frame, picture, pixel.x, below));
+  return kDepthSteps * (across + down);
+}
+
+/// What a pixel shows, and what is kept of it.
+LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistoryRef history,
+                                ivec2 pixel) {
+  TaaSurroundings found = look_around(frame, picture, pixel);
+  vec3 radiance = radiance_at(picture, pixel);
+  float depth = fetch_motion(picture, pixel).depth;
+  uint moves = found.nearest.known == kMotionOfItself ? 1u : 0u;
+  TaaPixel fresh = {radiance, depth, depth, moves, 1.0f};
+  if (frame.has_history == 0u || found.nearest.known == 0u) return fresh;
+
+  // Find the place of the point in the frame before, and whether it was seen there
+  vec2 place = vec2(float(pixel.x), float(pixel.y)) + vec2(0.5f) + found.nearest.offset;
+  bool on_picture = place.x >= 0.0f && place.y >= 0.0f && place.x < float(frame.width) &&
+                    place.y < float(frame.height);
+  if (!on_picture) return fresh;
+  TaaPixel before =
+      fetch_history(history, within_picture(frame, int(floor(place.x)), int(floor(place.y))));
+  // Where the edge of a moving thing was in the frame before, the history still has its light
+  if (before.moved > moves) return fresh;
+  float slack = depth_slack(frame, picture, pixel, depth);
+  if (was_hidden(found.nearest.depth_before, before.farthest_depth, slack)) return fresh;
+
+  // Hold the history to what is around the pixel now
+  vec3 now = compress_radiance(radiance, found.mean);
+  vec3 kept = compress_radiance(history_at(frame, history, place), found.mean);
+  bool rests = found.nearest.offset.x == 0.0f && found.nearest.offset.y == 0.0f;
+  float most_frames = rests ? frame.most_frames : kMovingHistoryFrames;
+  float frames = min(before.frames, most_frames);
+  if (frame.clip_deviations > 0.0f) {
+    TaaNeighbourhood around = neighbourhood_at(frame, picture, pixel, found.mean);
+    vec3 color = ycocg_from_rgb(kept);
+    float distance = distance_over_box(around, color);
+    kept = rgb_from_ycocg(clip_history(around, color, distance));
+    // History far outside of the box is old light: the farther, the fewer frames it counts for.
+    // After an edit of light it falls with the square; otherwise a thin thing that single frames
+    // miss may be the cause
+    float outside = max(distance, 1.0f);
+    frames /= frame.relit != 0u ? outside * outside : outside;
+  }
+  vec3 mean = mix(kept, now, 1.0f / (frames + 1.0f));
+  // Edges are met by some samples and missed by others: both are remembered for a frame
+  TaaPixel result = {max(expand_radiance(mean, found.mean), vec3(0.0f)), depth,
+                     max(depth, before.depth), moves, frames + 1.0f};
+  return result;
+}
