@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "raytracing/transmission_math.h"
 #include "raytracing/world_access.h"
+#include "reference/glass.h"
+#include "reference/vertex.h"
 #include "scene/light_sampling.h"
 #include "shared/brdf.h"
 #include "shared/constants.h"
@@ -25,83 +28,20 @@ float max_component(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-Ray ray_from(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,
-             const glm::vec3& direction_ws) {
-  Ray ray;
-  ray.origin = offset_ray_origin(position_ws, geometric_normal_ws);
-  ray.direction = direction_ws;
-  return ray;
-}
-
 }  // namespace
-
-// A point at which a path scatters.
-struct PathIntegrator::Vertex {
-  glm::vec3 position_ws;
-  glm::vec3 geometric_normal_ws;
-  Frame frame;          // around the shading normal
-  glm::vec3 to_viewer;  // in the frame
-  Reflectance reflectance;
-  float specular_share;
-
-  Vertex(const Surface& surface, const glm::vec3& to_viewer_ws, float max_specular_share)
-      : position_ws(surface.position_ws),
-        geometric_normal_ws(surface.geometric_normal_ws),
-        frame(make_frame(surface.normal_ws)),
-        to_viewer(to_local(frame, to_viewer_ws)),
-        reflectance(surface.reflectance),
-        specular_share(
-            std::min(specular_probability(reflectance, to_viewer.z), max_specular_share)) {}
-
-  bool is_black() const {
-    return reflectance.diffuse == glm::vec3(0.0f) && reflectance.f90 <= 0.0f;
-  }
-  // Light reaches the surface only where both normals agree that it does.
-  bool is_lit_from(const glm::vec3& direction_ws) const {
-    return glm::dot(geometric_normal_ws, direction_ws) > 0.0f &&
-           glm::dot(frame.normal, direction_ws) > 0.0f;
-  }
-  ReflectedPair evaluate(const glm::vec3& direction_ws) const {
-    return evaluate_reflectance(reflectance, to_viewer, to_local(frame, direction_ws));
-  }
-  glm::vec3 sample(const glm::vec3& u) const {
-    return to_world(frame, sample_lobes(reflectance, to_viewer, specular_share, u));
-  }
-  float pdf(const glm::vec3& direction_ws) const {
-    return pdf_lobes(reflectance, to_viewer, specular_share, to_local(frame, direction_ws));
-  }
-};
-
-// Light that arrives at a vertex straight from lights drawn at random.
-struct PathIntegrator::Lighting {
-  struct Sample {
-    glm::vec3 to_light_ws;
-    float distance;
-    glm::vec3 weight;  // radiance over density; times BRDF and cosine it is the estimate
-    bool from_sky;
-  };
-  std::array<Sample, 3> samples;
-  int count = 0;
-
-  void add(const Sample& sample) { samples[count++] = sample; }
-};
-
-// Light that arrives along a scattered ray.
-struct PathIntegrator::Incident {
-  glm::vec3 emitted{0.0f};  // by the surface that the ray meets
-  glm::vec3 other{0.0f};
-};
 
 PathIntegrator::PathIntegrator(const World& world, int max_bounces, Strategy strategy)
     : world_(world),
       scene_(world.scene()),
       max_bounces_(max_bounces),
       strategy_(strategy),
-      environment_(world.scene().environment) {}
+      environment_(world.scene().environment),
+      media_(world.scene().fog) {}
 
 // Weight of light that a scattered ray of density `pdf` found, and that could also have been drawn.
 float PathIntegrator::found_weight(float pdf, float light_pdf) const {
   if (light_pdf <= 0.0f || strategy_ == Strategy::scatter) return 1.0f;
+  if (pdf == kFoundByScatteringAlone) return 1.0f;
   return strategy_ == Strategy::light ? 0.0f : mis_power_weight(pdf, light_pdf);
 }
 
@@ -116,19 +56,20 @@ glm::vec3 PathIntegrator::sky_found(const glm::vec3& direction_ws, float pdf) co
 }
 
 glm::vec3 PathIntegrator::emission_found(const Surface& surface, const Ray& ray, const Hit& hit,
-                                         float pdf) const {
+                                         const Traveller& traveller) const {
   if (surface.emission == glm::vec3(0.0f)) return surface.emission;
+  const float distance = traveller.distance + hit.distance;
   const float cosine = std::abs(glm::dot(surface.geometric_normal_ws, ray.direction));
   const float pdf_area = emissive_of(world_).pdf_area(hit.instance, hit.triangle);
-  const float light_pdf = cosine > 0.0f ? pdf_area * hit.distance * hit.distance / cosine : 0.0f;
-  return surface.emission * found_weight(pdf, light_pdf);
+  const float light_pdf = cosine > 0.0f ? pdf_area * distance * distance / cosine : 0.0f;
+  return surface.emission * found_weight(traveller.pdf, light_pdf);
 }
 
 // Picks one light with probability proportional to what it sends here if nothing is in between.
 void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& lighting) const {
   const auto importance = [&](const PunctualSample& light) {
     return vertex.is_lit_from(light.to_light)
-               ? max_component(light.irradiance) * glm::dot(vertex.frame.normal, light.to_light)
+               ? max_component(light.irradiance) * vertex.cosine(light.to_light)
                : 0.0f;
   };
   float total = 0.0f;
@@ -148,15 +89,14 @@ void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& light
     left -= share;
     if (left < 0.0f) break;
   }
-  lighting.add(
-      {picked.to_light, picked.distance, picked.irradiance * (total / picked_importance), false});
+  lighting.add({picked.to_light, picked.distance, picked.irradiance * (total / picked_importance),
+                false, true});
 }
 
 void PathIntegrator::add_emissive(const Vertex& vertex, const glm::vec3& u,
                                   Lighting& lighting) const {
   const EmissiveSample light = emissive_of(world_).sample(u);
-  const glm::vec3 offset =
-      light.position_ws - offset_ray_origin(vertex.position_ws, vertex.geometric_normal_ws);
+  const glm::vec3 offset = light.position_ws - vertex.ray_origin();
   const float squared_distance = glm::dot(offset, offset);
   if (light.pdf_area <= 0.0f || squared_distance <= 0.0f) return;
   const float distance = std::sqrt(squared_distance);
@@ -178,15 +118,16 @@ void PathIntegrator::add_environment(const Vertex& vertex, const glm::vec2& u,
                 true});
 }
 
-void PathIntegrator::drop_occluded(const Vertex& vertex, Lighting& lighting,
-                                   std::uint64_t& rays) const {
+void PathIntegrator::dim(const Vertex& vertex, Lighting& lighting, std::uint64_t& rays) const {
   int kept = 0;
   for (int i = 0; i < lighting.count; ++i) {
-    Ray ray =
-        ray_from(vertex.position_ws, vertex.geometric_normal_ws, lighting.samples[i].to_light_ws);
-    ray.t_max = lighting.samples[i].distance;
-    ++rays;
-    if (!tracer_of(world_).occluded(ray)) lighting.samples[kept++] = lighting.samples[i];
+    Lighting::Sample& sample = lighting.samples[i];
+    Ray ray = vertex.ray_to(sample.to_light_ws);
+    ray.t_max = sample.distance;
+    const glm::vec3 share = light_through(world_, ray, sample.punctual, rays);
+    if (share == glm::vec3(0.0f)) continue;
+    sample.weight *= share * transmittance(media_, ray.origin, ray.direction, sample.distance);
+    lighting.samples[kept++] = sample;
   }
   lighting.count = kept;
 }
@@ -202,28 +143,49 @@ PathIntegrator::Lighting PathIntegrator::sample_lights(const Vertex& vertex, Sob
     }
     if (!environment_.empty()) add_environment(vertex, random.next2(), lighting);
   }
-  drop_occluded(vertex, lighting, rays);
+  dim(vertex, lighting, rays);
   return lighting;
+}
+
+// The point in fog at which a ray's light is scattered before `t_max`, if it is.
+std::optional<PathIntegrator::Vertex> PathIntegrator::scatter_in_fog(const Ray& ray, float t_max,
+                                                                     SobolSampler& random) const {
+  if (media_.empty()) return std::nullopt;
+  const glm::vec2 u = random.next2();
+  const float depth = -std::log1p(-u.x);
+  if (depth >= optical_depth(media_, ray.origin, ray.direction, 0.0f, t_max)) return std::nullopt;
+  return Vertex(ray, media_.event_at(ray.origin, ray.direction, t_max, depth, u.y));
 }
 
 PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, SobolSampler& random,
                                                          std::uint64_t& rays) const {
   Incident incident;
   glm::vec3 throughput(1.0f);
+  Traveller traveller{pdf, 0.0f, 0};
   for (int bounce = 1;; ++bounce) {
     ++rays;
     const Hit hit = tracer_of(world_).closest_hit(ray);
-    if (hit.missed()) {
-      incident.other += throughput * sky_found(ray.direction, pdf);
-      return incident;
+    std::optional<Vertex> found = scatter_in_fog(ray, hit.distance, random);
+    if (!found) {
+      if (hit.missed()) {
+        incident.other += throughput * sky_found(ray.direction, traveller.pdf);
+        return incident;
+      }
+      const Surface surface = surface_at(scene_, ray, hit);
+      throughput *= left_of_light(surface.transmission, hit.distance);
+      (bounce == 1 ? incident.emitted : incident.other) +=
+          throughput * emission_found(surface, ray, hit, traveller);
+      if (cross(surface, ray, throughput, traveller, random)) {
+        traveller.distance += hit.distance;
+        --bounce;  // of diffuse and glossy bounces alone
+        continue;
+      }
+      found.emplace(surface, -ray.direction, 1.0f);
     }
-    const Surface surface = surface_at(scene_, ray, hit);
-    (bounce == 1 ? incident.emitted : incident.other) +=
-        throughput * emission_found(surface, ray, hit, pdf);
     if (bounce > max_bounces_) return incident;
 
     // Add the light that the vertex reflects straight from lights
-    const Vertex vertex(surface, -ray.direction, 1.0f);
+    const Vertex& vertex = *found;
     if (vertex.is_black()) return incident;
     const Lighting lighting = sample_lights(vertex, random, rays);
     for (int i = 0; i < lighting.count; ++i) {
@@ -236,6 +198,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
     const glm::vec3 direction_ws = vertex.sample(random.next3());
     pdf = vertex.pdf(direction_ws);
     if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return incident;
+    traveller = {pdf, 0.0f, traveller.crossed};
     const ReflectedPair reflected = vertex.evaluate(direction_ws);
     throughput *= (reflected.diffuse + reflected.specular) / pdf;
     if (bounce >= kBouncesBeforeRoulette) {
@@ -243,15 +206,67 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
       if (random.next1() >= survival) return incident;
       throughput /= survival;
     }
-    ray = ray_from(vertex.position_ws, vertex.geometric_normal_ws, direction_ws);
+    ray = vertex.ray_to(direction_ws);
   }
+}
+
+// Light that comes through a surface along a camera ray.
+glm::vec3 PathIntegrator::sample_through(const Surface& surface, const Ray& ray,
+                                         SobolSampler& random, std::uint64_t& rays) const {
+  const ThroughDraw drawn = draw_through(surface.transmission, surface.reflectance,
+                                         surface.normal_ws, -ray.direction, random.next3());
+  if (drawn.weight == glm::vec3(0.0f)) return glm::vec3(0.0f);
+  const glm::vec3 side =
+      drawn.crosses != 0u ? -surface.geometric_normal_ws : surface.geometric_normal_ws;
+  const Incident incident = sample_incident(ray_from(surface.position_ws, side, drawn.direction_ws),
+                                            kFoundByScatteringAlone, random, rays);
+  return drawn.weight * (incident.emitted + incident.other);
+}
+
+// Light that fog scatters to the eye along a camera ray, where the optical depth up to `t_max` is
+// `depth`.
+glm::vec3 PathIntegrator::sample_fog(const Ray& ray, float t_max, float depth, SobolSampler& random,
+                                     std::uint64_t& rays) const {
+  if (!(depth > 0.0f)) return glm::vec3(0.0f);
+  // An event is drawn among those before `t_max` alone: its weight is their whole share
+  const float share = -std::expm1(-depth);
+  const glm::vec2 u = random.next2();
+  const float event_depth = std::min(-std::log1p(-u.x * share), depth);
+  const Vertex vertex(ray, media_.event_at(ray.origin, ray.direction, t_max, event_depth, u.y));
+  if (vertex.is_black()) return glm::vec3(0.0f);
+  glm::vec3 scattered(0.0f);
+  const Lighting lighting = sample_lights(vertex, random, rays);
+  for (int i = 0; i < lighting.count; ++i) {
+    const Lighting::Sample& light = lighting.samples[i];
+    scattered += vertex.evaluate(light.to_light_ws).diffuse * light.weight;
+  }
+  const glm::vec3 direction_ws = vertex.sample(random.next3());
+  const Incident incident =
+      sample_incident(vertex.ray_to(direction_ws), vertex.pdf(direction_ws), random, rays);
+  scattered += vertex.reflectance.diffuse * (incident.emitted + incident.other);
+  return share * scattered;
 }
 
 PixelSample PathIntegrator::sample_pixel(const Ray& ray, SobolSampler& random,
                                          std::uint64_t& rays) const {
-  PixelSample sample;
   ++rays;
   const Hit hit = tracer_of(world_).closest_hit(ray);
+  if (media_.empty()) return sample_seen(ray, hit, random, rays);
+  const float depth = optical_depth(media_, ray.origin, ray.direction, 0.0f, hit.distance);
+  const float share = std::exp(-depth);
+  PixelSample sample = sample_seen(ray, hit, random, rays);
+  for (glm::vec3* light :
+       {&sample.direct, &sample.indirect, &sample.glossy, &sample.transmission, &sample.emission}) {
+    *light *= share;
+  }
+  sample.fog = sample_fog(ray, hit.distance, depth, random, rays);
+  return sample;
+}
+
+// What a camera ray sees at its end, without what is on the way.
+PixelSample PathIntegrator::sample_seen(const Ray& ray, const Hit& hit, SobolSampler& random,
+                                        std::uint64_t& rays) const {
+  PixelSample sample;
   if (hit.missed()) {
     sample.emission = sky_radiance(scene_.environment, ray.direction);
     return sample;
@@ -260,6 +275,10 @@ PixelSample PathIntegrator::sample_pixel(const Ray& ray, SobolSampler& random,
   sample.emission = surface.emission;
   sample.albedo = surface.reflectance.diffuse;
   sample.normal = surface.normal_ws;
+
+  if (lets_light_through(surface.transmission)) {
+    sample.transmission = sample_through(surface, ray, random, rays);
+  }
 
   const Vertex vertex(surface, -ray.direction, kMaxFirstSpecularShare);
   const auto add = [&](const glm::vec3& direction_ws, const glm::vec3& direct_weight,
@@ -281,8 +300,7 @@ PixelSample PathIntegrator::sample_pixel(const Ray& ray, SobolSampler& random,
   const glm::vec3 direction_ws = vertex.sample(random.next3());
   const float pdf = vertex.pdf(direction_ws);
   if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return sample;
-  const Incident incident = sample_incident(
-      ray_from(vertex.position_ws, vertex.geometric_normal_ws, direction_ws), pdf, random, rays);
+  const Incident incident = sample_incident(vertex.ray_to(direction_ws), pdf, random, rays);
   add(direction_ws, incident.emitted / pdf, incident.other / pdf);
   return sample;
 }
@@ -307,8 +325,8 @@ IrradianceSample PathIntegrator::sample_irradiance(const glm::vec3& position_ws,
   }
   const glm::vec3 direction_ws = vertex.sample(random.next3());
   if (!vertex.is_lit_from(direction_ws)) return sample;
-  const Incident incident = sample_incident(ray_from(position_ws, normal_ws, direction_ws),
-                                            vertex.pdf(direction_ws), random, rays);
+  const Incident incident =
+      sample_incident(vertex.ray_to(direction_ws), vertex.pdf(direction_ws), random, rays);
   sample.direct += incident.emitted * kPi;  // cosine over its density
   sample.indirect += incident.other * kPi;
   return sample;

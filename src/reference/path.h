@@ -6,28 +6,34 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "lambent/scene.h"
 #include "lambent/world.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/surface.h"
+#include "reference/glass.h"
 #include "reference/sampler.h"
 #include "reference/strategy.h"
 #include "scene/environment_sampling.h"
+#include "scene/media/media.h"
 
 namespace lambent::reference {
 
-/// One sample of a pixel, its light split by how the surface that is seen reflects it.
+/// One sample of a pixel, its light split by how the surface that is seen reflects it. Fog between
+/// takes its share of each part but of `irradiance`, `albedo` and `normal`.
 struct PixelSample {
-  glm::vec3 direct{0.0f};      ///< Diffuse, from punctual lights and emissive surfaces.
-  glm::vec3 indirect{0.0f};    ///< Diffuse, all other light.
-  glm::vec3 irradiance{0.0f};  ///< What `indirect` reflects [W/m^2].
-  glm::vec3 glossy{0.0f};      ///< Specular, all light.
-  glm::vec3 emission{0.0f};    ///< Emitted towards the camera; the sky where nothing is hit.
-  glm::vec3 albedo{0.0f};      ///< Of the diffuse part.
-  glm::vec3 normal{0.0f};      ///< Shading normal.
+  glm::vec3 direct{0.0f};        ///< Diffuse, from punctual lights and emissive surfaces.
+  glm::vec3 indirect{0.0f};      ///< Diffuse, all other light.
+  glm::vec3 irradiance{0.0f};    ///< What `indirect` reflects [W/m^2].
+  glm::vec3 glossy{0.0f};        ///< Specular, all light.
+  glm::vec3 transmission{0.0f};  ///< Through the surface.
+  glm::vec3 emission{0.0f};      ///< Emitted towards the camera; the sky where nothing is hit.
+  glm::vec3 fog{0.0f};           ///< Scattered to the camera on the way, all light.
+  glm::vec3 albedo{0.0f};        ///< Of the diffuse part.
+  glm::vec3 normal{0.0f};        ///< Shading normal.
 
-  glm::vec3 radiance() const { return direct + indirect + glossy + emission; }
+  glm::vec3 radiance() const { return direct + indirect + glossy + transmission + emission + fog; }
 };
 
 /// Irradiance at a point, split as in PixelSample.
@@ -40,7 +46,7 @@ struct IrradianceSample {
 class PathIntegrator {
  public:
   /// Refers to the world, which must outlive it. `max_bounces` counts the bounces of indirect
-  /// light.
+  /// light, off surfaces and in fog.
   PathIntegrator(const World& world, int max_bounces, Strategy strategy);
 
   /// An unbiased estimate of what arrives along a camera ray. Adds the rays it took to `rays`.
@@ -59,11 +65,19 @@ class PathIntegrator {
   void add_punctual(const Vertex& vertex, float u, Lighting& lighting) const;
   void add_emissive(const Vertex& vertex, const glm::vec3& u, Lighting& lighting) const;
   void add_environment(const Vertex& vertex, const glm::vec2& u, Lighting& lighting) const;
-  void drop_occluded(const Vertex& vertex, Lighting& lighting, std::uint64_t& rays) const;
+  void dim(const Vertex& vertex, Lighting& lighting, std::uint64_t& rays) const;
+  glm::vec3 sample_through(const Surface& surface, const Ray& ray, SobolSampler& random,
+                           std::uint64_t& rays) const;
+  PixelSample sample_seen(const Ray& ray, const Hit& hit, SobolSampler& random,
+                          std::uint64_t& rays) const;
+  glm::vec3 sample_fog(const Ray& ray, float t_max, float depth, SobolSampler& random,
+                       std::uint64_t& rays) const;
+  std::optional<Vertex> scatter_in_fog(const Ray& ray, float t_max, SobolSampler& random) const;
 
   Incident sample_incident(Ray ray, float pdf, SobolSampler& random, std::uint64_t& rays) const;
   glm::vec3 sky_found(const glm::vec3& direction_ws, float pdf) const;
-  glm::vec3 emission_found(const Surface& surface, const Ray& ray, const Hit& hit, float pdf) const;
+  glm::vec3 emission_found(const Surface& surface, const Ray& ray, const Hit& hit,
+                           const Traveller& traveller) const;
   float found_weight(float pdf, float light_pdf) const;
   float drawn_weight(float light_pdf, float pdf) const;
 
@@ -72,6 +86,7 @@ class PathIntegrator {
   int max_bounces_;
   Strategy strategy_;
   EnvironmentDistribution environment_;
+  Media media_;
 };
 
 }  // namespace lambent::reference

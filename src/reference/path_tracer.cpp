@@ -33,12 +33,14 @@ struct LayerSource {
   glm::vec3 PixelSample::*value;
   bool is_light;
 };
-constexpr std::array<LayerSource, 7> kLayers = {{
+constexpr std::array<LayerSource, 9> kLayers = {{
     {"direct", &PixelSample::direct, true},
     {"indirect", &PixelSample::indirect, true},
     {"irradiance", &PixelSample::irradiance, true},
     {"glossy", &PixelSample::glossy, true},
+    {"transmission", &PixelSample::transmission, true},
     {"emission", &PixelSample::emission, true},
+    {"fog", &PixelSample::fog, true},
     {"albedo", &PixelSample::albedo, false},
     {"normal", &PixelSample::normal, false},
 }};
@@ -196,7 +198,7 @@ void Renderer::write_layers(ReferenceResult& result) const {
   }
   // The whole is the sum of its parts to the bit
   Image& whole = *image.find("");
-  for (const char* part : {"direct", "indirect", "glossy", "emission"}) {
+  for (const char* part : {"direct", "indirect", "glossy", "transmission", "emission", "fog"}) {
     const Image& layer = *image.find(part);
     for (std::size_t i = 0; i < whole.pixels.size(); ++i) whole.pixels[i] += layer.pixels[i];
   }

@@ -34,9 +34,9 @@ struct ReferenceSettings {
 
 /// A reference image, made progressively in independent passes that tell how far they agree.
 struct ReferenceResult {
-  /// Pixel means (box filter): "" (= direct + indirect + glossy + emission), direct, indirect,
-  /// irradiance, glossy, emission, albedo, normal. Of the ray through the pixel's middle: position,
-  /// depth (both 0 where nothing is hit). "error" is the standard error of "".
+  /// Pixel means (box filter): "" (= direct + indirect + glossy + emission + fog), direct,
+  /// indirect, irradiance, glossy, emission, fog, albedo, normal. Of the ray through the pixel's
+  /// middle: position, depth (both 0 where nothing is hit). "error" is the standard error of "".
   LayeredImage image;
   /// Root mean square of "error" over the mean of "", of luminance; infinite with a single sample.
   double relative_standard_error = 0.0;

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where paths of the reference scatter, and the light that they find there.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <glm/glm.hpp>
+
+#include "reference/glass.h"
+#include "reference/path.h"
+#include "shared/brdf.h"
+#include "shared/rays.h"
+#include "shared/sampling.h"
+
+namespace lambent::reference {
+
+// A point at which a path scatters: of a surface, or in fog.
+struct PathIntegrator::Vertex {
+  glm::vec3 position_ws;
+  glm::vec3 geometric_normal_ws;  // 0: the point is in fog
+  Frame frame;                    // around the shading normal, or the way of light to the viewer
+  glm::vec3 to_viewer;            // in the frame
+  Reflectance reflectance;        // in fog the diffuse part is the albedo
+  float specular_share;
+  float anisotropy = 0.0f;  // of fog
+
+  Vertex(const Surface& surface, const glm::vec3& to_viewer_ws, float max_specular_share)
+      : position_ws(surface.position_ws),
+        geometric_normal_ws(surface.geometric_normal_ws),
+        frame(make_frame(surface.normal_ws)),
+        to_viewer(to_local(frame, to_viewer_ws)),
+        reflectance(surface.reflectance),
+        specular_share(
+            std::min(specular_probability(reflectance, to_viewer.z), max_specular_share)) {}
+
+  // In fog, where a ray comes to an event.
+  Vertex(const Ray& ray, const MediumEvent& event)
+      : position_ws(ray.origin + event.distance * ray.direction),
+        geometric_normal_ws(0.0f),
+        frame(make_frame(ray.direction)),
+        to_viewer(0.0f, 0.0f, -1.0f),
+        reflectance{event.albedo, 1.0f, glm::vec3(0.0f), 0.0f},
+        specular_share(0.0f),
+        anisotropy(event.anisotropy) {}
+
+  bool in_fog() const { return geometric_normal_ws == glm::vec3(0.0f); }
+  bool is_black() const {
+    return reflectance.diffuse == glm::vec3(0.0f) && reflectance.f90 <= 0.0f;
+  }
+  // Light reaches the surface only where both normals agree that it does.
+  bool is_lit_from(const glm::vec3& direction_ws) const {
+    return in_fog() || (glm::dot(geometric_normal_ws, direction_ws) > 0.0f &&
+                        glm::dot(frame.normal, direction_ws) > 0.0f);
+  }
+  // Share of light from a direction that counts, whatever the reflectance.
+  float cosine(const glm::vec3& direction_ws) const {
+    return in_fog() ? 1.0f : glm::dot(frame.normal, direction_ws);
+  }
+  // BRDF times cosine, or the phase function times albedo.
+  ReflectedPair evaluate(const glm::vec3& direction_ws) const {
+    if (in_fog()) return {reflectance.diffuse * pdf(direction_ws), glm::vec3(0.0f)};
+    return evaluate_reflectance(reflectance, to_viewer, to_local(frame, direction_ws));
+  }
+  glm::vec3 sample(const glm::vec3& u) const {
+    if (!in_fog()) return to_world(frame, sample_lobes(reflectance, to_viewer, specular_share, u));
+    const float z = sample_phase(anisotropy, u.x);
+    const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z)), angle = kTwoPi * u.y;
+    return to_world(frame, {radius * std::cos(angle), radius * std::sin(angle), z});
+  }
+  float pdf(const glm::vec3& direction_ws) const {
+    if (in_fog()) return phase(anisotropy, glm::dot(frame.normal, direction_ws));
+    return pdf_lobes(reflectance, to_viewer, specular_share, to_local(frame, direction_ws));
+  }
+  glm::vec3 ray_origin() const {
+    return in_fog() ? position_ws : offset_ray_origin(position_ws, geometric_normal_ws);
+  }
+  Ray ray_to(const glm::vec3& direction_ws) const {
+    Ray ray;
+    ray.origin = ray_origin();
+    ray.direction = direction_ws;
+    return ray;
+  }
+};
+
+// Light that arrives at a vertex straight from lights drawn at random.
+struct PathIntegrator::Lighting {
+  struct Sample {
+    glm::vec3 to_light_ws;
+    float distance;
+    glm::vec3 weight;  // radiance over density; times BRDF and cosine it is the estimate
+    bool from_sky;
+    bool punctual = false;  // no scattered ray can find it
+  };
+  std::array<Sample, 3> samples;
+  int count = 0;
+
+  void add(const Sample& sample) { samples[count++] = sample; }
+};
+
+// Light that arrives along a scattered ray.
+struct PathIntegrator::Incident {
+  glm::vec3 emitted{0.0f};  // by the surface that the ray meets
+  glm::vec3 other{0.0f};
+};
+
+}  // namespace lambent::reference
