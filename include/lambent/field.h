@@ -83,6 +83,14 @@ struct FieldSettings {
   /// Moves probes off the grid by at most 45 % of a cell: out of geometry, and to just in front of
   /// the surfaces near them.
   bool relocation = true;
+  /// Learns, on small cells of the surfaces, by which factor lookups are off, and corrects them:
+  /// probes stand in the air and see more than a surface in a nook does. Some of an update's
+  /// surfels gather light with rays of their own, which costs up to as much as the update at first,
+  /// and less later. Takes 4.4 KB a probe, and on a device as much again as it learns of an
+  /// update's samples. With all bounces (`max_bounces` -1), and in volumes that do not follow the
+  /// viewer. Fields that engines record (vulkan::RecordedField) read corrections of files and learn
+  /// none.
+  bool corrections = true;
   /// How lookups determine which probes they see: those of surfels and, where a world is given,
   /// those of queries.
   Visibility visibility = Visibility::moments;
@@ -99,8 +107,8 @@ struct FieldSettings {
   /// Albedo is clamped to this at surfels, so that light always dies out, 0 to 0.99.
   float max_albedo = 0.95f;
 
-  /// Points drawn on emissive triangles for a surfel's direct light, 1 to 64. Each costs a shadow
-  /// ray a surfel.
+  /// Samples of emissive triangles, and of point and spot lights where there are many, for a
+  /// surfel's direct light, 1 to 64. Each costs a shadow ray.
   int emissive_samples = 1;
   /// Added to the MIP level that a probe ray's footprint asks for [levels], finite. Lower is
   /// sharper and slower.
@@ -136,7 +144,8 @@ struct FieldQuery {
 
 /// What an update may cost, and for whom.
 struct UpdateRequest {
-  /// Probe rays to trace at most; 0: no bound (so it is, too, where FieldSettings::max_bounces is
+  /// Probe rays to trace at most, without those of FieldSettings::corrections, which are in
+  /// proportion; 0: no bound (so it is, too, where FieldSettings::max_bounces is
   /// not -1: an exact number of bounces takes all probes at once), and every probe is traced with
   /// as many rays as the settings say, whether its light has settled or not. With a bound, probes
   /// whose light is least settled go first, with 32 to 512 rays each as their noise asks for, and
@@ -172,12 +181,15 @@ struct UpdateStatistics {
   /// date with edits of the world. "schedule": choosing the probes to trace. "trace": closest hits
   /// of their rays. "shade": surfaces, and direct light with shadow rays. "blend_distances":
   /// distances into the store. "visibility": which probes see each other, with hybrid visibility.
-  /// "lookups": lookup weights of surfels. "solve": multi-bounce solve, of edits too.
+  /// "corrections": gathers that tell how far lookups are off. "lookups": lookup weights of
+  /// surfels. "solve": multi-bounce solve, of edits too.
   /// "variability": how much the light changed. "store": irradiance into the store.
   std::vector<PassTime> passes;
   /// Time of a pass [ms]; 0 where it did not run.
   double ms(std::string_view pass) const;
-  std::uint64_t probe_rays = 0;   ///< Traced from probes.
+  std::uint64_t probe_rays = 0;  ///< Traced from probes.
+  /// Traced to learn how far lookups are off, shadow rays included.
+  std::uint64_t correction_rays = 0;
   std::uint64_t shadow_rays = 0;  ///< Traced from surfels to lights and emissive surfaces.
   int probes_traced = 0;          ///< With new rays.
   int probes_recycled = 0;        ///< Moved to a new place by a scrolling volume.

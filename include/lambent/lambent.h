@@ -8,9 +8,11 @@
 #define LAMBENT_VERSION_PATCH 0
 
 #include "lambent/animation.h"
+#include "lambent/denoise.h"
 #include "lambent/error.h"
 #include "lambent/field.h"
 #include "lambent/first_picture.h"
+#include "lambent/fog.h"
 #include "lambent/image.h"
 #include "lambent/pass_time.h"
 #include "lambent/progress.h"

@@ -11,6 +11,7 @@
 
 #include "lambent/animation.h"
 #include "lambent/error.h"
+#include "lambent/fog.h"
 #include "lambent/image.h"
 
 namespace lambent {
@@ -64,7 +65,15 @@ struct Material {
   float normal_scale = 1.0f;   ///< Factor on the tilt that the normal map tells, -1e6 to 1e6.
   float ior = 1.5f;            ///< Index of refraction, 1 to 1e6 (KHR_materials_ior).
   float specular = 1.0f;  ///< Strength of dielectric reflection, 0 to 1 (KHR_materials_specular).
-  glm::vec3 specular_color{1.0f};            ///< Tint of dielectric F0, 0 to 1e6.
+  glm::vec3 specular_color{1.0f};  ///< Tint of dielectric F0, 0 to 1e6.
+  /// Share of the light that enters a dielectric which it lets through, tinted by base_color, in
+  /// place of reflecting it diffusely; 0 to 1 (KHR_materials_transmission).
+  float transmission = 0.0f;
+  /// The surface bounds a volume, which refracts by `ior`: the mesh must be closed, with triangles
+  /// that run counter-clockwise as seen from outside. Else it is a thin pane, which light crosses
+  /// straight (KHR_materials_volume).
+  bool bounds_volume = false;
+  glm::vec3 absorption{0.0f};  ///< Of that volume [1/m], 0 to 1e6: light falls by e^(-a d) over d.
   AlphaMode alpha_mode = AlphaMode::opaque;  ///< What base_color.a does.
   float alpha_cutoff = 0.5f;  ///< Coverage below which AlphaMode::mask lets rays through.
   /// A probe ray that meets the back of a single-sided surface brings no light.
@@ -78,6 +87,7 @@ struct Material {
   TextureView emission_texture;            ///< RGB, sRGB.
   TextureView specular_texture;            ///< A strength.
   TextureView specular_color_texture;      ///< RGB, sRGB.
+  TextureView transmission_texture;        ///< R transmission.
 
   bool operator==(const Material&) const = default;
 };
@@ -202,6 +212,7 @@ struct Scene {
   std::vector<Animation> animations;  ///< The scene stands in its rest pose until `animate`.
   Rig rig;                            ///< What they move.
   std::vector<ProbeVolume> volumes;   ///< Where the scene's author wants finer light.
+  std::vector<FogVolume> fog;         ///< At most kMaxFogVolumes. Frames see edits at once.
   SceneSource source;                 ///< Nothing is rendered from it.
 };
 

@@ -90,8 +90,9 @@ struct LookupBuffers {
   BufferRange offsets;     ///< One word per probe.
   BufferRange irradiance;  ///< Irradiance tiles, one after the other.
   BufferRange distance;    ///< Distance tiles, one after the other.
-  /// A FieldRecord (field/lookup/field_record.h) that names the four: what
-  /// lambent/shaders/field_lookup.glsl takes.
+  /// A FieldRecord (field/lookup/field_record.h) that names the four, and the corrections of
+  /// lookups that came with a file: what lambent/shaders/field_lookup.glsl takes.
+  /// RecordedField::start_from changes what it holds.
   BufferRange record;
 };
 
@@ -154,6 +155,11 @@ class RecordedField {
   /// average. Lookups find that light once the call returns; updates add to it, with the random
   /// numbers that come next. Probes stay where they stand until UpdatePlan::place_again. Submits to
   /// the device's queue, and waits; memory that the copy takes is given back before it returns.
+  ///
+  /// The file's corrections of lookups (FieldSettings::corrections) are read from then on, by
+  /// surfels and by lambent/shaders/field_lookup.glsl; not by lookup.hlsl and lookup.wgsl. They
+  /// stay as the bake left them: gathers would have engines shade the hits of further rays, so that
+  /// recorded fields learn none, and edits do not change them.
   ///
   /// Fails, naming the file, where it cannot be read, is broken, or does not fit, and leaves the
   /// field as it was. Formats and texels must be those of the field's settings, and volumes those

@@ -98,7 +98,8 @@ class World {
 /// fitted to it has its outermost probes in front of the walls and not inside. A side counts as
 /// walled where most rays from outside pass through no more than a tenth of the scene before they
 /// reach open space. Where surfaces of an object, rather than a room, face out of another side,
-/// some air is added, so that probes stand in front of them, too; all else stays as it is.
-Bounds open_bounds(const World& world);
+/// some air is added, so that probes stand in front of them, too; all else stays as it is. A viewer
+/// outside of the world's bounds adds air in front of the walls that face it.
+Bounds open_bounds(const World& world, std::optional<glm::vec3> viewer_ws = std::nullopt);
 
 }  // namespace lambent

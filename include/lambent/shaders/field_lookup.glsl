@@ -37,6 +37,12 @@ FieldRecord lambent_field;
 #define args lambent_field
 #include "field/probes/shaders/store.glsl"
 #undef args
+#include "field/correction/shaders/corrections.glsl"
+
+float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal_ws) {
+  return correction_of(lambent_field.corrections, grid, volume, position_ws, normal_ws);
+}
+
 #include "field/lookup/lookup.inl.h"
 
 vec3 field_irradiance(FieldRecord field, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) {
