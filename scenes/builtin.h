@@ -3,11 +3,15 @@
 //
 //   cornell                the Cornell box from its published measurements; one unit is 100 mm
 //   cornell-spot           the same with a spot light in place of its lamp
+//   spheres                the Cornell box with metal spheres of roughness 0, 0.1, 0.2, 0.4, 0.6,
+//                          0.8
 //   furnace                a closed room whose radiance is 1 everywhere and in every direction
 //   furnace-sky            a sphere that reflects a radiance of exactly its albedo, 0.5
+//   glass                  a room whose one half is lit through a tinted pane, and a glass ball
 //   two-rooms              a lit and a dark room, a 5 cm wall between them, a gap in it
 //   two-rooms-sealed       the same without the gap: the second room is exactly black
 //   house                  sixteen rooms joined by doorways, a lamp in each
+//   lamps                  a street at night: 1,000 lamps, and 1,000 lanterns of 100 triangles
 //   cube                   a 10 m cube around a point light, with solved radiosity
 //   squares-parallel       unit squares one metre apart: form factor 0.1998249
 //   squares-perpendicular  unit squares that share an edge: form factor 0.2000438
@@ -17,7 +21,8 @@
 // radiance L arrives from everywhere, every surface sends out e + a L; the room is closed, so L = e
 // + a L and L = e / (1 - a) = 0.5 / (1 - 0.5) = 1, whatever stands in the room. The sky furnace: a
 // convex body sees sky alone, so its irradiance is pi * 1 and the radiance it reflects 0.5 / pi *
-// pi = 0.5. Materials of all scenes but the atrium are exact Lambert (Material::lambert).
+// pi = 0.5. Materials of all scenes but the atrium, the spheres and what is of glass are exact
+// Lambert (Material::lambert).
 #pragma once
 
 #include <string>

@@ -3,10 +3,13 @@
 // https://www.graphics.cornell.edu/online/box/data.html (geometry in millimetres, as published).
 // Reflectances and emission are the measured spectra as linear Rec. 709; one unit here is 100 mm.
 #include <array>
+#include <cmath>
+#include <cstdio>
 
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
 #include "scenes/recipes.h"
+#include "shared/constants.h"
 
 namespace lambent::scenes {
 namespace {
@@ -40,7 +43,13 @@ Mesh quads(std::initializer_list<Corners> list, const char* name, int material) 
   return builder.take(name, material);
 }
 
-/// The box, its lamp sending out this radiance.
+/// The spheres' reflectance, and how they lie: in two rows of three, none touching another.
+constexpr glm::vec3 kMetal{0.9f, 0.88f, 0.85f};
+constexpr std::array kRoughnesses{0.0f, 0.1f, 0.2f, 0.4f, 0.6f, 0.8f};
+constexpr float kSphereRadius = 75.0f;  // [mm]
+constexpr int kSphereSegments = 96, kSphereSteps = 48;
+
+/// The box without its blocks, its lamp sending out this radiance.
 Scene make_box(const glm::vec3& lamp_radiance) {
   Scene scene;
   const int white = add_lambert(scene, "white", kWhite);
@@ -72,7 +81,13 @@ Scene make_box(const glm::vec3& lamp_radiance) {
   add_object(scene,
              quads({Corners{mm(343, h, 227), mm(343, h, 332), mm(213, h, 332), mm(213, h, 227)}},
                    "light", lamp));
-  // The blocks stand on the floor; their undersides were not measured and are not made.
+  add_camera(scene, "cornell", mm(278, 273, -800), mm(278, 273, 0), kFieldOfView, 1.0f);
+  return scene;
+}
+
+/// The blocks stand on the floor; their undersides were not measured and are not made.
+void add_blocks(Scene& scene) {
+  constexpr int white = 0;
   add_object(
       scene,
       quads({Corners{mm(130, 165, 65), mm(82, 165, 225), mm(240, 165, 272), mm(290, 165, 114)},
@@ -89,19 +104,54 @@ Scene make_box(const glm::vec3& lamp_radiance) {
              Corners{mm(314, 0, 456), mm(314, 330, 456), mm(265, 330, 296), mm(265, 0, 296)},
              Corners{mm(265, 0, 296), mm(265, 330, 296), mm(423, 330, 247), mm(423, 0, 247)}},
             "tall_block", white));
+}
 
-  add_camera(scene, "cornell", mm(278, 273, -800), mm(278, 273, 0), kFieldOfView, 1.0f);
-  return scene;
+/// A metal sphere of smooth normals.
+void add_sphere(Scene& scene, const glm::vec3& centre, float roughness) {
+  std::array<char, 32> name;
+  std::snprintf(name.data(), name.size(), "roughness_%.1f", roughness);
+  Material metal;
+  metal.name = name.data();
+  metal.base_color = glm::vec4(kMetal, 1.0f);
+  metal.metallic = 1.0f;
+  metal.roughness = roughness;
+  scene.materials.push_back(metal);
+  const float radius = kSphereRadius / 100.0f;
+  std::vector<glm::vec2> profile;
+  for (int i = 0; i <= kSphereSteps; ++i) {
+    const float angle = kPi * static_cast<float>(i) / kSphereSteps;
+    const bool pole = i == 0 || i == kSphereSteps;
+    profile.emplace_back(pole ? 0.0f : radius * std::sin(angle), -radius * std::cos(angle));
+  }
+  MeshBuilder builder;
+  builder.lathe(centre, profile, kSphereSegments);
+  add_object(scene, builder.take(metal.name, static_cast<int>(scene.materials.size()) - 1));
 }
 
 }  // namespace
 
 AnimatedScene make_cornell() {
-  return {make_box(kLampRadiance), {}};
+  Scene scene = make_box(kLampRadiance);
+  add_blocks(scene);
+  return {std::move(scene), {}};
+}
+
+AnimatedScene make_spheres() {
+  Scene scene = make_box(kLampRadiance);
+  for (int i = 0; i < static_cast<int>(kRoughnesses.size()); ++i) {
+    // As the camera sees them, from the left to the right: +X is to the left
+    const int column = i % 3;
+    const bool upper = i < 3;
+    const glm::vec3 centre =
+        mm(448.0f - 170.0f * column, upper ? 345.0f : 80.0f, upper ? 330.0f : 200.0f);
+    add_sphere(scene, centre, kRoughnesses[i]);
+  }
+  return {std::move(scene), {}};
 }
 
 AnimatedScene make_cornell_spot() {
   Scene scene = make_box(glm::vec3(0.0f));
+  add_blocks(scene);
   Light spot;
   spot.name = "spot";
   spot.type = Light::Type::spot;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Khronos Group, glTF 2.0 specification, and the extensions KHR_lights_punctual,
-// KHR_materials_emissive_strength, _ior, _specular, _unlit and KHR_texture_transform.
+// KHR_materials_emissive_strength, _ior, _specular, _transmission, _volume, _unlit and
+// KHR_texture_transform.
 #include "scenes/glb_writer.h"
 
 #include <cstdint>
@@ -149,6 +150,7 @@ class Document {
     if (m.normal_texture.texture >= 0) out["normalTexture"]["scale"] = m.normal_scale;
     write_emission(m, out);
     write_specular(m, out);
+    write_transmission(m, out);
     if (m.alpha_mode == AlphaMode::mask) {
       out["alphaMode"] = "MASK";
       out["alphaCutoff"] = m.alpha_cutoff;
@@ -186,6 +188,18 @@ class Document {
     specular = {{"specularFactor", m.specular}, {"specularColorFactor", array(m.specular_color)}};
     write_texture(specular, "specularTexture", m.specular_texture);
     write_texture(specular, "specularColorTexture", m.specular_color_texture);
+  }
+
+  void write_transmission(const Material& m, json& out) {
+    if (m.lambert || m.transmission <= 0.0f) return;
+    json& transmission = use(out, "KHR_materials_transmission");
+    transmission = {{"transmissionFactor", m.transmission}};
+    write_texture(transmission, "transmissionTexture", m.transmission_texture);
+    if (!m.bounds_volume) return;
+    // Absorption is what is left after one metre; any thickness but 0 says that there is a volume
+    use(out, "KHR_materials_volume") = {{"thicknessFactor", 1.0f},
+                                        {"attenuationDistance", 1.0f},
+                                        {"attenuationColor", array(glm::exp(-m.absorption))}};
   }
 
   void write_mesh(const Mesh& mesh) {

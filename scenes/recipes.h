@@ -8,11 +8,14 @@ namespace lambent::scenes {
 
 AnimatedScene make_cornell();
 AnimatedScene make_cornell_spot();
+AnimatedScene make_spheres();
 AnimatedScene make_furnace();
+AnimatedScene make_glass();
 AnimatedScene make_furnace_sky();
 AnimatedScene make_two_rooms();
 AnimatedScene make_two_rooms_sealed();
 AnimatedScene make_house();
+AnimatedScene make_lamps();
 AnimatedScene make_cube();
 AnimatedScene make_squares_parallel();
 AnimatedScene make_squares_perpendicular();

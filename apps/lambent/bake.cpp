@@ -87,7 +87,7 @@ Expected<void> bake(const Options& options) {
   const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
   begin_step("updating the field");
-  Expected<IrradianceField> field = make_field(*settings, options.field, world, 1);
+  Expected<IrradianceField> field = make_field(*settings, options.field, world, view->camera, 1);
   if (!field) return tl::unexpected(field.error());
 
   nlohmann::ordered_json stats;

@@ -17,9 +17,9 @@ namespace {
 
 // Passes whose rows statistics have whether or not they ran, by the names of
 // UpdateStatistics::passes.
-constexpr const char* kPasses[] = {"placement",  "edits",   "schedule",   "trace",
-                                   "shade",      "lookups", "solve",      "blend_distances",
-                                   "visibility", "store",   "variability"};
+constexpr const char* kPasses[] = {"placement",  "edits",   "schedule",    "trace",
+                                   "shade",      "lookups", "solve",       "blend_distances",
+                                   "visibility", "store",   "variability", "corrections"};
 
 // Light is called settled when an update changes the field by less than this share of it ...
 constexpr double kSettledChange = 0.002;
@@ -75,6 +75,7 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
     for (const PassTime& pass : last.passes) pass_ms[pass.name] += pass.ms;
     sum.probe_rays += last.probe_rays;
     sum.shadow_rays += last.shadow_rays;
+    sum.correction_rays += last.correction_rays;
     sum.probes_traced += last.probes_traced;
     sum.probes_invalidated += last.probes_invalidated;
     sum.probes_changed += last.probes_changed;
@@ -95,6 +96,7 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
   stats["surfel_bytes"] = field.surfel_bytes();
   stats["probe_rays"] = sum.probe_rays;
   stats["surfel_shadow_rays"] = sum.shadow_rays;
+  stats["correction_rays"] = sum.correction_rays;
   stats["probes_traced"] = sum.probes_traced;
   stats["probes_invalidated"] = sum.probes_invalidated;
   stats["probes_changed"] = sum.probes_changed;
@@ -168,6 +170,8 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       ->check(whole_number(4, 32))
       ->capture_default_str()
       ->type_name("N");
+  command.add_flag("!--no-corrections", o.settings.corrections,
+                   "Do not learn how far lookups are off");
   of_shape(
       command.add_flag("!--no-relocation", o.settings.relocation, "Keep the probes on the grid"));
   command

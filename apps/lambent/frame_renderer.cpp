@@ -14,6 +14,7 @@
 #include "lambent/console.h"
 #include "lambent/memory_check.h"
 #include "lambent/progress_bar.h"
+#include "lambent/quality.h"
 #include "lambent/render_output.h"
 #include "lambent/renderer.h"
 #include "lambent/step.h"
@@ -28,8 +29,7 @@ using Json = nlohmann::ordered_json;
 // structure.
 constexpr int kVerifyBlock = 8;
 
-// Defaults of --samples: enough for smooth edges, and for a picture in which noise is fine grain.
-constexpr int kFieldSamples = 4;
+// Default of --samples of the reference: noise is fine grain.
 constexpr int kReferenceSamples = 64;
 
 // Of the picture that tells the field what is seen [pixels].
@@ -41,10 +41,11 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
                                                           {"age", ProbeAspect::age}};
 
 /// The field that the options ask for, as yet without updates.
-Expected<IrradianceField> open_field(const RenderOptions& options, const World& world) {
+Expected<IrradianceField> open_field(const RenderOptions& options, const World& world,
+                                     const Camera& camera) {
   const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  if (options.field_file.empty()) return make_field(*settings, options.field, world, 1);
+  if (options.field_file.empty()) return make_field(*settings, options.field, world, camera, 1);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
   if (!loaded) return tl::unexpected(loaded.error());
   const auto probes = static_cast<std::uint64_t>(loaded->field.probes());
@@ -104,7 +105,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
     update_field(world_, options_.frame_updates, request, *field_, progress_, stats);
     return {};
   }
-  Expected<IrradianceField> opened = open_field(options_, world_);
+  Expected<IrradianceField> opened = open_field(options_, world_, camera);
   if (!opened) return tl::unexpected(opened.error());
   field_.emplace(std::move(*opened));
   if (options_.converge) {
@@ -121,14 +122,15 @@ Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
   const auto settings =
       field_settings(options_.field, world_.scene(), options_.seed, options_.bounces);
   if (!settings) return tl::unexpected(settings.error());
-  Expected<IrradianceField> all = make_field(*settings, options_.field, world_, 2);
+  const glm::vec3 viewer(camera.world_from_view[3]);
+  Expected<IrradianceField> all = make_field(*settings, options_.field, world_, camera, 2);
   if (!all) return tl::unexpected(all.error());
   field_.emplace(std::move(*all));
   first_bounce_.emplace(
-      *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world_)));
+      *IrradianceField::make(FirstBounce::settings(*settings), open_bounds(world_, viewer)));
   const FirstBounce lights_alone(world_.scene());
   Json ignored;
-  const UpdateRequest request{0, 0.0, glm::vec3(camera.world_from_view[3])};
+  const UpdateRequest request{0, 0.0, viewer};
   update_field(lights_alone.world(), options_.updates, request, *first_bounce_, progress_, ignored);
   update_field(world_, options_.updates, request, *field_, progress_, stats);
   return {};
@@ -139,16 +141,6 @@ Expected<void> FrameRenderer::light(const Camera& camera, Json& stats) {
   if (!uses_field(options_)) return {};
   begin_step("updating the field");
   return options_.method == "rsm+field" ? split_bounces(camera, stats) : follow(camera, stats);
-}
-
-FrameSettings FrameRenderer::frame_settings() const {
-  FrameSettings frame;
-  frame.width = size_.x;
-  frame.height = size_.y;
-  frame.samples = options_.samples > 0 ? options_.samples : kFieldSamples;
-  frame.gather_rays = options_.gather_rays;
-  frame.seed = options_.seed;
-  return frame;
 }
 
 Expected<IndirectSources> FrameRenderer::sources() const {
@@ -179,7 +171,11 @@ Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
     return {};
   }
   if (const auto lit = light(camera, stats); !lit) return lit;
-  if (const auto done = render(camera, frame_settings(), progress_); !done) return done;
+  FrameSettings settings = frame_settings(options_, size_);
+  // Frames of which a mean is taken must have different noise. Averaged light draws its own
+  const bool averages = settings.averaged_frames > 1;
+  if (settings.temporal_antialiasing && !averages) settings.seed += painted_++;
+  if (const auto done = render(camera, settings, progress_); !done) return done;
   book(frame_, stats);
   if (!options_.show_probes.empty()) {
     const ProbeViewSettings view{.aspect = kProbeAspects.at(options_.show_probes)};
@@ -197,12 +193,13 @@ Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::str
     return file.finish();
   }
   if (const auto lit = light(camera, stats); !lit) return lit;
-  FrameSettings settings = frame_settings();
+  FrameSettings settings = frame_settings(options_, size_);
+  settings.averaged_frames = 1;  // of whole pictures alone
   if (file.needs_stops()) {
     if (const auto done = render(camera, preview_of(settings), {}); !done) return done;
     stops = automatic_stops(*frame_.image.find(""));
   }
-  settings.rows = rows_of_a_band(size_);
+  settings.rows = rows_of_a_band(options_, size_);
   for (; settings.first_row < size_.y; settings.first_row += settings.rows) {
     settings.rows = std::min(settings.rows, size_.y - settings.first_row);
     const auto of_all = [&](std::string_view stage, double share_done) {
@@ -239,14 +236,17 @@ Expected<void> FrameRenderer::verify(const World& world, const Camera& camera, J
       world, camera, reference_settings(options_, size_, options_.verify_samples), progress_);
   std::printf("error against %d path-traced samples a pixel (their own: %.4f)\n",
               options_.verify_samples, reference.relative_standard_error);
-  for (const char* name : {"", "direct", "indirect", "irradiance"}) {
+  for (const char* name :
+       {"", "direct", "indirect", "irradiance", "glossy", "transmission", "fog"}) {
     const Image* ours = frame_.image.find(name);
     const Image* truth = reference.image.find(name);
     if (ours == nullptr || truth == nullptr) continue;
+    if (std::string_view(name) == "fog" && world.scene().fog.empty()) continue;
     const Expected<Metrics> metrics =
         compare_images(*ours, *truth, {.block = kVerifyBlock, .perceptual = false});
     if (!metrics) return tl::unexpected(metrics.error());
     const std::string label = *name == '\0' ? "all" : name;
+    if (label == "transmission" && metrics->mean_a == 0.0 && metrics->mean_b == 0.0) continue;
     if (metrics->mean_b == 0.0) {
       std::printf("  %-11s black in truth, mean %g here\n", label.c_str(), metrics->mean_a);
       continue;

@@ -43,7 +43,6 @@ class FrameRenderer {
   Expected<IndirectSources> sources() const;
   Expected<void> render(const Camera& camera, const FrameSettings& settings,
                         const ProgressFn& progress);
-  FrameSettings frame_settings() const;
   Expected<void> follow(const Camera& camera, nlohmann::ordered_json& stats);
   Expected<void> split_bounces(const Camera& camera, nlohmann::ordered_json& stats);
   void paint_by_reference(const Camera& camera, nlohmann::ordered_json& stats);
@@ -56,6 +55,7 @@ class FrameRenderer {
   std::optional<IrradianceField> first_bounce_;  // what is taken out of it, of rsm+field
   std::optional<Renderer> renderer_;             // refers to both
   RenderedFrame frame_;
+  std::uint32_t painted_ = 0;  // frames
 };
 
 }  // namespace lambent::cli

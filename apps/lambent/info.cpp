@@ -101,9 +101,12 @@ std::vector<std::string> features_of(const Material& m) {
   add(m.emission_texture.texture >= 0, "emission map");
   add(m.specular_texture.texture >= 0, "specular map");
   add(m.specular_color_texture.texture >= 0, "specular color map");
+  add(m.transmission_texture.texture >= 0, "transmission map");
   add(may_emit(m) && !m.unlit, "emissive");
   add(m.alpha_mode == AlphaMode::mask, "alpha mask");
   add(m.alpha_mode == AlphaMode::blend, "alpha blend");
+  add(lets_light_through(m) && !m.bounds_volume, "thin glass");
+  add(lets_light_through(m) && m.bounds_volume, "refracting volume");
   add(m.double_sided, "double-sided");
   add(m.unlit, "unlit");
   add(m.lambert, "lambert");

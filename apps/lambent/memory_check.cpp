@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/memory.h"
+#include "lambent/denoise.h"
+#include "lambent/quality.h"
 #include "lambent/render_output.h"
 
 namespace lambent::cli {
@@ -13,11 +15,20 @@ namespace {
 
 // Floats a pixel [bytes]: a layer of three, and all layers of a frame.
 constexpr std::uint64_t kLayerBytes = 3 * sizeof(float);
-constexpr std::uint64_t kFrameBytes = 9 * kLayerBytes + sizeof(float);
+constexpr std::uint64_t kFrameBytes = 10 * kLayerBytes + sizeof(float);
+// Motion of a pixel: its record of five words, and a layer of two.
+constexpr std::uint64_t kMotionBytes = (5 + 2) * sizeof(float);
+// The record of motion again, and what anti-aliasing keeps of this frame and of the one before,
+// seven words each.
+constexpr std::uint64_t kTaaBytes = (5 + 2 * 7) * sizeof(float);
 // A picture that is written or compared, beside the frame: as the display shows it, and copied.
 constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
-// The path tracer's sums of its seven layers and their squares in doubles, and its own layers.
-constexpr std::uint64_t kReferenceBytes = 16 * 3 * sizeof(double) + 10 * kLayerBytes + 4;
+// The path tracer's sums of its eight layers and their squares in doubles, and its own layers.
+constexpr std::uint64_t kReferenceBytes = 18 * 3 * sizeof(double) + 11 * kLayerBytes + 4;
+// What is kept of a pixel's sample to filter its light, and what the filter itself takes.
+constexpr std::uint64_t kFilterBytes = 10 * kLayerBytes + 4 * sizeof(float) + 92;
+// Light of the frame before and of this one, where it is averaged over frames, and its motion.
+constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)) + 20;
 // A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,
 // the picture out of the mosaic, and what is gathered.
 constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);
@@ -26,6 +37,8 @@ constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
 // Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP
 // (measured).
 constexpr std::uint64_t kComparisonBytes = 180;
+// A froxel of fog, as it is lit, smoothed, and averaged over frames.
+constexpr std::uint64_t kFroxelBytes = 3 * 4 * sizeof(float);
 // What is taken whatever the size [bytes]: bands, maps, buffers of files, and heaps of threads.
 constexpr std::uint64_t kFixedBytes = std::uint64_t{100} << 20;
 // Fewest rays that a probe may have.
@@ -39,6 +52,15 @@ std::uint64_t bytes_a_pixel(const RenderOptions& options) {
   std::uint64_t bytes = kWritingBytes;
   if (options.method == "reference" || options.verify_samples > 0) bytes += kReferenceBytes;
   if (options.method != "reference") bytes += kFrameBytes;
+  if (is_filtered(options)) bytes += kFilterBytes;
+  if (options.frames > 0 && is_filtered(options)) bytes += kHistoryBytes;
+  if (keeps_motion(options)) bytes += kMotionBytes;
+  if (uses_taa(options)) bytes += kTaaBytes;
+  if (!options.stage.fog.empty() && options.method != "reference") {
+    const FogSettings fog = frame_settings(options, glm::ivec2(1)).fog;
+    bytes += kFroxelBytes * static_cast<std::uint64_t>(fog.slices) /
+             static_cast<std::uint64_t>(fog.froxel_pixels * fog.froxel_pixels);
+  }
   if (uses_rsm(options.method)) {
     const auto scale = static_cast<std::uint64_t>(options.rsm.settings.downscale);
     bytes += kRsmBytes / (scale * scale) + (options.layers ? kRsmStageBytes : 0);
@@ -57,8 +79,12 @@ std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size
   if (!made_in_bands(options, size)) {
     return kFixedBytes + pixels_of(size) * bytes_a_pixel(options);
   }
-  const std::uint64_t rows = static_cast<std::uint64_t>(rows_of_a_band(size));
-  const std::uint64_t band = rows * static_cast<std::uint64_t>(size.x) * bytes_a_pixel(options);
+  const auto width = static_cast<std::uint64_t>(size.x);
+  const auto rows = static_cast<std::uint64_t>(rows_of_a_band(options, size));
+  std::uint64_t band = rows * width * bytes_a_pixel(options);
+  if (is_filtered(options)) {
+    band += 2 * static_cast<std::uint64_t>(denoise_reach({})) * width * kFilterBytes;
+  }
   return kFixedBytes + band + (keeps_all_rows(options, size) ? pixels_of(size) * kLayerBytes : 0);
 }
 
@@ -122,8 +148,8 @@ int host_rays(const FieldSettings& settings, const World& world) {
 }
 
 Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
-                                     const World& world, int fields) {
-  const Bounds bounds = open_bounds(world);
+                                     const World& world, const Camera& camera, int fields) {
+  const Bounds bounds = open_bounds(world, glm::vec3(camera.world_from_view[3]));
   const Expected<FieldMemory> memory = planned_memory(settings, bounds);
   if (!memory) return tl::unexpected(in_options(memory.error(), options));
   const auto fits =

@@ -35,9 +35,10 @@ Expected<void> check_comparison_memory(const glm::ivec2& size, std::uint64_t ava
 /// which tells on its own what it can hold.
 int host_rays(const FieldSettings& settings, const World& world);
 
-/// A field without light, one of so many that there will be at a time. Fails where they would not
-/// fit. `options` are those that the settings came from: errors name them.
+/// A field without light, one of so many that there will be at a time, for a scene that is first
+/// seen by `camera`. Fails where they would not fit. `options` are those that the settings came
+/// from: errors name them.
 Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
-                                     const World& world, int fields);
+                                     const World& world, const Camera& camera, int fields);
 
 }  // namespace lambent::cli

@@ -55,11 +55,7 @@ tl::unexpected<Error> malformed(const std::string& option, const std::string& te
 
 Expected<std::vector<float>> parse_floats(const std::string& option, const std::string& text,
                                           std::size_t count, const char* wanted) {
-  std::vector<float> numbers = split_numbers<float>(text, ',');
-  bool fine = numbers.size() == count;
-  for (const float number : numbers) fine = fine && std::isfinite(number);
-  if (!fine) return malformed(option, text, wanted);
-  return numbers;
+  return parse_numbers(option, text, count, count, wanted);
 }
 
 Expected<std::vector<int>> parse_ints(const std::string& option, const std::string& text,
@@ -106,6 +102,16 @@ bool has_ending(const std::string& path, const char* ending) {
   std::string extension = std::filesystem::path(path).extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return extension == ending;
+}
+
+Expected<std::vector<float>> parse_numbers(const std::string& option, const std::string& text,
+                                           std::size_t least, std::size_t most,
+                                           const char* wanted) {
+  std::vector<float> numbers = split_numbers<float>(text, ',');
+  bool fine = numbers.size() >= least && numbers.size() <= most;
+  for (const float number : numbers) fine = fine && std::isfinite(number);
+  if (!fine) return malformed(option, text, wanted);
+  return numbers;
 }
 
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text) {

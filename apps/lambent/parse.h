@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lambent/error.h"
 #include "lambent/scene.h"
@@ -17,7 +18,11 @@ bool has_ending(const std::string& path, const char* ending);
 /// "x,y,z", finite numbers. `option` names the culprit in the error.
 Expected<glm::vec3> parse_vec3(const std::string& option, const std::string& text);
 
-/// The same for a place [m], no coordinate of which is beyond kMaxCoordinate (scene/limits.h).
+/// "a,b,...": `least` to `most` finite numbers. `wanted` says what the option takes.
+Expected<std::vector<float>> parse_numbers(const std::string& option, const std::string& text,
+                                           std::size_t least, std::size_t most, const char* wanted);
+
+/// As parse_vec3 for a place [m], no coordinate of which is beyond kMaxCoordinate (scene/limits.h).
 Expected<glm::vec3> parse_place(const std::string& option, const std::string& text);
 
 /// "x0,y0,z0,x1,y1,z1": two corners of a box with min < max, within kMaxCoordinate.

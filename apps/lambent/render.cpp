@@ -13,6 +13,7 @@
 #include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
+#include "lambent/quality.h"
 #include "lambent/render_options.h"
 #include "lambent/render_output.h"
 #include "lambent/render_sequence.h"
@@ -80,7 +81,9 @@ Expected<void> render(const RenderOptions& options) {
   if (!device) return tl::unexpected(device.error());
 
   begin_step("reading the scene");
-  Expected<Scene> scene = open_stage(options.stage);
+  StageOptions stage = options.stage;
+  stage.no_fog = leaves_out(options, "fog");
+  Expected<Scene> scene = open_stage(stage);
   if (!scene) return tl::unexpected(scene.error());
   const auto animation = chosen_animation(options, *scene);
   if (!animation) return tl::unexpected(animation.error());

@@ -6,15 +6,13 @@
 
 #include "lambent/help.h"
 #include "lambent/parse.h"
+#include "lambent/quality.h"
 #include "lambent/render_output.h"
 #include "lambent/threads.h"
 #include "lambent/validators.h"
 
 namespace lambent::cli {
 namespace {
-
-// Typing errors are caught before they cost days: more samples leave no noise to see.
-constexpr int kMaxSamples = 1 << 20;
 
 // One probe's fewest rays; more rays than a probe has for as many probes as there can be.
 constexpr std::int64_t kMinRayBudget = 32;
@@ -69,14 +67,20 @@ void add_sequence_options(CLI::App& command, RenderOptions& o) {
   o.of_the_field = o.of_running_fields;
 }
 
-void add_light_options(CLI::App& command, RenderOptions& o) {
+void add_field_render_options(CLI::App& command, RenderOptions& o) {
   const std::size_t others = command.get_options().size();
   add_field_options(command, o.field);
   command
       .add_option("--gather", o.gather_rays,
-                  "Rays a sample gathers indirect light with, up to 4096; 0: look the field up")
+                  "Rays a sample gathers indirect light with, up to 4096; 0: look the field up "
+                  "(the quality's)")
       ->check(whole_number(0, 4096))
-      ->capture_default_str()
+      ->type_name("N");
+  command
+      .add_option("--glossy-rows", o.glossy_rows,
+                  "Trace reflections in every Nth row of pixels, up to 8; 0: reflect the field "
+                  "(the quality's)")
+      ->check(whole_number(0, 8))
       ->type_name("N");
   command.add_option("--field", o.field_file, "Start from the field in this file, of lambent bake")
       ->type_name("FILE");
@@ -117,12 +121,9 @@ void add_output_options(CLI::App& command, RenderOptions& o) {
       ->type_name("N");
 }
 
-void add_quality_options(CLI::App& command, RenderOptions& o) {
+void add_machine_options(CLI::App& command, RenderOptions& o) {
   command.option_defaults()->group("Quality and machine");
-  command
-      .add_option("--samples", o.samples, "Rays or paths a pixel (4; with --method reference 64)")
-      ->check(whole_number(1, kMaxSamples))
-      ->type_name("N");
+  add_quality_options(command, o);
   command.add_option("--bounces", o.bounces, "Bounces of indirect light (all of them)")
       ->check(whole_number(0, kMaxBounces))
       ->type_name("N");
@@ -142,6 +143,10 @@ bool uses_field(const RenderOptions& options) {
   return options.method == "field" || options.method == "rsm+field";
 }
 
+bool keeps_motion(const RenderOptions& options) {
+  return options.layers && options.frames > 0 && options.method != "reference";
+}
+
 Expected<void> check_options(const RenderOptions& options) {
   if (const auto exposure = parse_exposure(options.exposure); !exposure) {
     return tl::unexpected(exposure.error());
@@ -154,6 +159,7 @@ Expected<void> check_options(const RenderOptions& options) {
     if (uses_field(options) || option->count() == 0) continue;
     return fail(option->get_name(), "", "goes with --method field and rsm+field alone");
   }
+  if (const auto fine = check_quality(options); !fine) return fine;
   if (const auto fine = check_rsm_use(options.rsm, options.method, options.bounces,
                                       options.gather_rays, options.converge);
       !fine) {
@@ -224,10 +230,10 @@ void add_render_options(CLI::App& command, RenderOptions& o) {
       ->check(one_of({"field", "rsm", "rsm+field", "direct", "reference"}))
       ->capture_default_str()
       ->type_name("M");
-  add_quality_options(command, o);
+  add_machine_options(command, o);
   add_output_options(command, o);
   add_sequence_options(command, o);
-  add_light_options(command, o);
+  add_field_render_options(command, o);
   add_rsm_options(command, o.rsm);
 }
 

@@ -20,6 +20,10 @@ class Option;
 
 namespace lambent::cli {
 
+/// Most samples a pixel that may be asked for. Typing errors are caught before they cost days: more
+/// samples leave no noise to see.
+inline constexpr int kMaxSamples = 1 << 20;
+
 /// What `lambent render` was asked for.
 struct RenderOptions {
   StageOptions stage;
@@ -27,9 +31,13 @@ struct RenderOptions {
   std::string method = "field";
   BackendOptions backend;
   std::string size = "1280x720";
-  int samples = 0;  // 0: the method's own default
-  int gather_rays = 0;
-  int bounces = -1;  // -1: all
+  std::string quality;               // empty: what suits the rest
+  std::vector<std::string> without;  // passes
+  int samples = 0;                   // 0: the quality's, or the reference's own default
+  int gather_rays = -1;              // -1: the quality's
+  int glossy_rows = -1;              // -1: the quality's
+  int froxel_pixels = 0;             // 0: the quality's
+  int bounces = -1;                  // -1: all
   std::uint32_t seed = 1;
   int threads = 0;  // 0: all
   bool layers = false;
@@ -60,6 +68,9 @@ struct RenderOptions {
 
 /// Whether the method looks a field up ("field", "rsm+field").
 bool uses_field(const RenderOptions& options);
+
+/// Whether the layer "motion" is written: of a sequence's frames, with all other layers.
+bool keeps_motion(const RenderOptions& options);
 
 /// Declares all options on `command`; `options` must outlive it.
 void add_render_options(CLI::App& command, RenderOptions& options);

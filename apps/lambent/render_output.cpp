@@ -10,6 +10,7 @@
 #include "lambent/command_files.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
+#include "lambent/quality.h"
 
 namespace lambent::cli {
 namespace {
@@ -18,12 +19,19 @@ constexpr const char* kFramePlace = "####";
 
 /// Rendered and written at a time: about 120 MB with all layers, and enough to keep all cores busy.
 constexpr std::size_t kBandPixels = std::size_t{1} << 20;
+/// The same of pictures that are filtered, of which each band takes rows of its neighbours with it:
+/// about 0.7 GB.
+constexpr std::size_t kFilteredBandPixels = std::size_t{1} << 21;
 /// Pictures of no more are kept until their exposure is known (400 MB, an 8K frame); of larger ones
 /// a small picture of the same view tells it.
 constexpr std::size_t kKeptPixels = std::size_t{1} << 25;
 
 std::size_t pixels_of(const glm::ivec2& size) {
   return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+}
+
+std::size_t band_pixels(const RenderOptions& options) {
+  return is_filtered(options) ? kFilteredBandPixels : kBandPixels;
 }
 
 }  // namespace
@@ -65,12 +73,12 @@ Expected<void> check_outputs(const RenderOptions& options) {
 
 bool made_in_bands(const RenderOptions& options, const glm::ivec2& size) {
   const bool can = (options.method == "field" || options.method == "direct") &&
-                   options.show_probes.empty() && options.verify_samples == 0;
-  return can && pixels_of(size) > kBandPixels;
+                   options.show_probes.empty() && options.verify_samples == 0 && !uses_taa(options);
+  return can && pixels_of(size) > band_pixels(options);
 }
 
-int rows_of_a_band(const glm::ivec2& size) {
-  return std::max(1, static_cast<int>(kBandPixels / static_cast<std::size_t>(size.x)));
+int rows_of_a_band(const RenderOptions& options, const glm::ivec2& size) {
+  return std::max(1, static_cast<int>(band_pixels(options) / static_cast<std::size_t>(size.x)));
 }
 
 bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size) {
@@ -138,7 +146,7 @@ Expected<void> PictureFile::add(const Image& shown) {
 /// Writes rows as a display shows them.
 Expected<void> PictureFile::show(const Image& rows) {
   const ToneMap tone_map = *tone_map_from_name(options_.tone_map);
-  const int at_once = rows_of_a_band(size_);
+  const int at_once = rows_of_a_band(options_, size_);
   for (int first = 0; first < rows.height; first += at_once) {
     Image some(rows.width, std::min(at_once, rows.height - first), rows.channels);
     std::copy_n(rows.at(0, first), some.pixels.size(), some.pixels.begin());

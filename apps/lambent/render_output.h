@@ -27,7 +27,7 @@ std::string frame_path(const std::string& pattern, int frame);
 /// the method can.
 bool made_in_bands(const RenderOptions& options, const glm::ivec2& size);
 /// How many rows at a time.
-int rows_of_a_band(const glm::ivec2& size);
+int rows_of_a_band(const RenderOptions& options, const glm::ivec2& size);
 /// Whether all rows of such a picture are kept until its exposure is known.
 bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size);
 

@@ -11,9 +11,11 @@
 #include "lambent/first_picture.h"
 #include "lambent/input.h"
 #include "lambent/parse.h"
+#include "lambent/stage_fog.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
 #include "lambent/world.h"
+#include "scene/validate.h"
 
 namespace lambent::cli {
 namespace {
@@ -54,6 +56,7 @@ void add_scene_options(CLI::App& command, StageOptions& o) {
 
 void add_stage_options(CLI::App& command, StageOptions& o) {
   add_scene_options(command, o);
+  add_fog_option(command, o.fog);
   command.option_defaults()->group("Where to look from");
   command
       .add_option("--camera", o.camera,
@@ -83,6 +86,12 @@ Expected<Scene> open_stage(const StageOptions& options) {
   if (const auto done = add_asked_light(options.light, *scene); !done) {
     return tl::unexpected(done.error());
   }
+  if (options.no_fog) scene->fog.clear();
+  if (options.fog.empty()) return scene;
+  Expected<FogVolume> fog = parse_fog(options.fog, world_bounds(*scene));
+  if (!fog) return tl::unexpected(fog.error());
+  scene->fog.push_back(std::move(*fog));
+  if (const auto fine = validate_fog(*scene); !fine) return tl::unexpected(fine.error());
   return scene;
 }
 

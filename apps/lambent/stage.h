@@ -28,6 +28,8 @@ struct StageOptions {
   LightOptions light;
   std::string materials = "gltf";
   bool no_normal_maps = false;
+  std::string fog;      // empty: the scene's own
+  bool no_fog = false;  // the scene's own is left out
 };
 
 /// What is there and in which light, without from where.

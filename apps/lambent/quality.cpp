@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/quality.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "lambent/validators.h"
+
+namespace lambent::cli {
+namespace {
+
+// Frames of a sequence over which light is averaged: each counts a tenth.
+constexpr int kAveragedFrames = 10;
+
+const std::map<std::string, Quality> kQualities = {
+    {"draft", Quality::draft}, {"interactive", Quality::interactive}, {"high", Quality::high}};
+
+/// What is left of noise in single pictures would flicker in a sequence of them.
+Quality chosen_quality(const RenderOptions& options) {
+  if (!options.quality.empty()) return kQualities.at(options.quality);
+  return options.frames > 0 ? Quality::draft : Quality::high;
+}
+
+}  // namespace
+
+bool leaves_out(const RenderOptions& options, const char* pass) {
+  return std::find(options.without.begin(), options.without.end(), pass) != options.without.end();
+}
+
+void add_quality_options(CLI::App& command, RenderOptions& o) {
+  command
+      .add_option("--quality", o.quality,
+                  "draft: light between probes as it is looked up; interactive: one ray a pixel; "
+                  "high: some 64 (high; with --frames draft)")
+      ->check(one_of({"draft", "interactive", "high"}))
+      ->type_name("Q");
+  command
+      .add_option("--without", o.without,
+                  "Passes to leave out: gather, glossy, fog, denoise; of sequences taa")
+      ->delimiter(',')
+      ->check(one_of({"gather", "glossy", "fog", "denoise", "taa"}))
+      ->type_name("PASS,...");
+  command
+      .add_option("--froxel", o.froxel_pixels,
+                  "Edge of the cells of the view in which fog is lit [pixels], up to 64 (the "
+                  "quality's)")
+      ->check(whole_number(1, 64))
+      ->type_name("N");
+  command
+      .add_option("--samples", o.samples,
+                  "Rays or paths a pixel (the quality's; with --method reference 64)")
+      ->check(whole_number(1, kMaxSamples))
+      ->type_name("N");
+}
+
+FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size) {
+  FrameSettings frame = quality_settings(chosen_quality(options));
+  frame.width = size.x;
+  frame.height = size.y;
+  frame.motion = keeps_motion(options);
+  frame.temporal_antialiasing = uses_taa(options);
+  frame.seed = options.seed;
+  if (options.samples > 0) frame.samples = options.samples;
+  // Gathering rays add a bounce to the field's. Where a number of bounces was asked for, there are
+  // none
+  if (options.method != "field" || options.bounces >= 0) frame.gather_rays = 0;
+  if (options.gather_rays >= 0) frame.gather_rays = options.gather_rays;
+  if (leaves_out(options, "gather")) frame.gather_rays = 0;
+  if (options.glossy_rows >= 0) frame.glossy_rows = options.glossy_rows;
+  if (leaves_out(options, "glossy")) frame.glossy_rows = 0;
+  if (options.froxel_pixels > 0) frame.fog.froxel_pixels = options.froxel_pixels;
+  if (leaves_out(options, "denoise")) frame.denoise = false;
+  const bool averages = options.frames > 0 && frame.denoise && frame.samples == 1;
+  if (averages && options.backend.name == "cpu") frame.averaged_frames = kAveragedFrames;
+  return frame;
+}
+
+bool uses_taa(const RenderOptions& options) {
+  return options.frames > 0 && options.method != "reference" && !leaves_out(options, "taa");
+}
+
+bool is_filtered(const RenderOptions& options) {
+  return options.method != "reference" && frame_settings(options, glm::ivec2(1)).denoise;
+}
+
+Expected<void> check_quality(const RenderOptions& options) {
+  if (options.method == "reference" && !options.quality.empty()) {
+    return fail("--quality", "", "does not go with --method reference: it traces paths alone");
+  }
+  for (const std::string& pass : options.without) {
+    if (options.method == "reference" && pass != "fog") {
+      return fail("--without", pass, "is no pass of --method reference: it traces paths alone");
+    }
+  }
+  if (options.gather_rays > 0 && leaves_out(options, "gather")) {
+    return fail("--gather", "", "does not go with --without gather");
+  }
+  if (options.frames == 0 && leaves_out(options, "taa")) {
+    return fail("--without", "", "taa goes with --frames: single pictures have none");
+  }
+  if (!options.stage.fog.empty() && leaves_out(options, "fog")) {
+    return fail("--fog", "", "does not go with --without fog");
+  }
+  if (options.froxel_pixels > 0 && leaves_out(options, "fog")) {
+    return fail("--froxel", "", "does not go with --without fog");
+  }
+  if (options.glossy_rows > 0 && leaves_out(options, "glossy")) {
+    return fail("--glossy-rows", "", "does not go with --without glossy");
+  }
+  return {};
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// What --quality, --without, --samples and --gather make of a picture.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "lambent/error.h"
+#include "lambent/render_options.h"
+#include "lambent/renderer.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace lambent::cli {
+
+/// Declares --quality, --without and --samples.
+void add_quality_options(CLI::App& command, RenderOptions& options);
+
+/// Settings of a picture of this size: those of the quality, where no other option says otherwise.
+FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);
+
+/// Whether a sequence's frames are anti-aliased over time.
+bool uses_taa(const RenderOptions& options);
+
+/// Whether some of its light is filtered.
+bool is_filtered(const RenderOptions& options);
+
+/// Fails on options that each make sense, but not together.
+Expected<void> check_quality(const RenderOptions& options);
+
+/// Whether --without names a pass.
+bool leaves_out(const RenderOptions& options, const char* pass);
+
+}  // namespace lambent::cli
