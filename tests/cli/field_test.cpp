@@ -113,7 +113,7 @@ TEST_F(FieldFiles, InfoPrintsWhatTheyHold) {
     EXPECT_THAT(text.output, HasSubstr(part));
   }
   const auto json = nlohmann::json::parse(run_program("field info --json " + field).output);
-  EXPECT_EQ(json["version"], 2);
+  EXPECT_EQ(json["version"], 3);
   EXPECT_EQ(json["updates"], 2);
   EXPECT_EQ(json["probe_counts"][0], (std::vector<int>{4, 5, 3}));
   EXPECT_EQ(json["mean_samples"][0], 2.0 * 32 / 32);

@@ -76,7 +76,9 @@ TEST_F(RenderRsm, WithTheFieldBringsTheLightOfLaterBounces) {
 }
 
 TEST_F(RenderRsm, WithTheFieldCountsEmissionOnce) {
-  const std::string common = "cornell --size 16x16 --samples 1 --layers --probes 6x6x6 --rays 64 ";
+  const std::string common =
+      "cornell --size 16x16 --samples 1 --layers --probes 6x6x6 --rays 64 "
+      "--quality draft --no-corrections ";
   ASSERT_EQ(render(common + "--method field").status, 0);
   const double all = mean("indirect");
   ASSERT_EQ(render(common + "--method rsm+field").status, 0);

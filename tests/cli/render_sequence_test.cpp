@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -83,9 +84,10 @@ TEST_F(RenderSequence, PutsTheNumberWhereThePatternAsksForIt) {
 
 TEST_F(RenderSequence, StartsAtTheTimeThatIsAskedFor) {
   const std::string one = directory.file("one.exr"), many = directory.file("many.exr");
-  const std::string direct = "render atrium --method direct --size 24x16 --samples 1 --time 9 ";
+  const std::string direct =
+      "render atrium --method direct --quality draft --size 24x16 --samples 1 --time 9 ";
   ASSERT_EQ(run_program(direct + "-o " + one).status, 0);
-  ASSERT_EQ(run_program(direct + "--frames 1 -o " + many).status, 0);
+  ASSERT_EQ(run_program(direct + "--frames 1 --without taa -o " + many).status, 0);
   EXPECT_EQ(mean_of(one), mean_of(directory.file("many.0000.exr")));
   ASSERT_EQ(run_program("render atrium --method direct --size 24x16 --samples 1 -o " + one).status,
             0);
@@ -179,6 +181,35 @@ INSTANTIATE_TEST_SUITE_P(
         BadUse{"verify_of_a_sequence", "cornell --frames 2 --verify 4", "--verify"},
         BadUse{"updates_without_field", "cornell --frames 2 --frame-updates 2", "--frame-updates"}),
     [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST_F(RenderSequence, IsAntialiasedOverTimeUnlessThatIsLeftOut) {
+  const auto rendered = [&](const std::string& options, const std::string& name) {
+    const ProgramResult result = run_program("render cornell-spot --frames 2 --layers " + options +
+                                             kQuick + "-o " + directory.file(name));
+    EXPECT_EQ(result.status, 0) << result.errors;
+    return read_image(directory.file(name.substr(0, 1) + ".0001.exr")).value();
+  };
+  /// How far the picture is from the sum of what it is made of.
+  const auto from_its_parts = [](const LayeredImage& image) {
+    double difference = 0.0;
+    for (std::size_t i = 0; i < image.find("")->pixels.size(); ++i) {
+      double sum = 0.0;
+      for (const char* part : {"direct", "indirect", "glossy", "emission"}) {
+        sum += image.find(part)->pixels[i];
+      }
+      difference = std::max(difference, std::abs(sum - image.find("")->pixels[i]));
+    }
+    return difference;
+  };
+  const LayeredImage with = rendered("", "a.exr"), without = rendered("--without taa", "b.exr");
+  EXPECT_GT(from_its_parts(with), 1e-2);
+  EXPECT_LT(from_its_parts(without), 1e-4);
+  EXPECT_EQ(with.find("motion")->channels, 2);
+  const ProgramResult single =
+      run_program("render cornell-spot --without taa" + kQuick + "-o " + directory.file("c.exr"));
+  EXPECT_EQ(single.status, 2);
+  EXPECT_THAT(single.errors, HasSubstr("--without"));
+}
 
 }  // namespace
 }  // namespace lambent

@@ -69,8 +69,8 @@ TEST_F(Render, WritesTheLayersThatTheDocumentsPromise) {
     ASSERT_EQ(render("cornell --layers --method " + method + field, exr).status, 0);
     const auto image = read_image(exr);
     ASSERT_TRUE(image) << image.error().message();
-    for (const char* name : {"", "direct", "indirect", "irradiance", "glossy", "emission", "albedo",
-                             "normal", "position", "depth"}) {
+    for (const char* name : {"", "direct", "indirect", "irradiance", "glossy", "transmission",
+                             "emission", "albedo", "normal", "position", "depth"}) {
       const Image* layer = image->find(name);
       ASSERT_NE(layer, nullptr) << method << ": " << name;
       EXPECT_EQ(layer->channels, std::string(name) == "depth" ? 1 : 3);
@@ -79,7 +79,8 @@ TEST_F(Render, WritesTheLayersThatTheDocumentsPromise) {
     const auto at = [&](const char* name, std::size_t i) { return image->find(name)->pixels[i]; };
     for (std::size_t i = 0; i < image->find("")->pixels.size(); ++i) {
       EXPECT_NEAR(at("", i),
-                  at("direct", i) + at("indirect", i) + at("glossy", i) + at("emission", i),
+                  at("direct", i) + at("indirect", i) + at("glossy", i) + at("transmission", i) +
+                      at("emission", i),
                   1e-4f * (1.0f + at("", i)));
     }
   }

@@ -28,6 +28,10 @@ vec3 fetch_irradiance(int probe, vec3 direction) {
   return probes.irradiance_and_distance[probe].xyz + vec3(0.0 * direction.x);
 }
 
+float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal_ws) {
+  return 1.0 + 0.0 * (float(volume) + position_ws.x + normal_ws.x);
+}
+
 #include "field/lookup/lookup.inl.h"
 
 void main() {

@@ -22,6 +22,7 @@ struct SharedLookup {
   }
   vec3 fetch_offset(int probe) { return store.probe_offset(probe); }
   vec3 fetch_irradiance(int probe, vec3 direction) { return store.irradiance(probe, direction); }
+  float fetch_correction(const ProbeGrid&, int, vec3, vec3) { return 1.0f; }
 #include "field/lookup/lookup.inl.h"
 };
 

@@ -5,7 +5,7 @@
 #include "lambent/world.h"
 #include "raytracing/vulkan/device_scene.h"
 #include "scene/attributes.h"
-#include "scene/light_sampling.h"
+#include "scene/light_tree/light_tree.h"
 #include "shaders/coverage_comp.h"
 #include "shared/sampling.h"
 #include "support/vulkan_device.h"
@@ -40,7 +40,8 @@ std::vector<Hit> random_hits(const Scene& scene) {
 TEST_F(CoverageTwin, StopsTheRaysThatTheHostStops) {
   const Scene scene = test::material_scene();
   const EmissiveTriangles emissive(scene);
-  const DeviceScene on_device(device(), scene, emissive);
+  const LightTree lights(scene, emissive);
+  const DeviceScene on_device(device(), scene, emissive, lights);
   const std::vector<Hit> hits = random_hits(scene);
   std::vector<HitRecord> records;
   for (const Hit& hit : hits) records.push_back(test::record_of(hit));

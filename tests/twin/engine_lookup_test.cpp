@@ -37,6 +37,7 @@ class EngineLookup : public test::OnDevice {
                                "found");
     const FieldRecord field = {
         {{grids.address()}, {offsets.address()}, {light.address()}, {far.address()}},
+        {},
         store.volumes(),
         0};
     const auto count = static_cast<std::uint32_t>(queries.size());

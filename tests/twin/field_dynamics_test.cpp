@@ -101,6 +101,10 @@ TEST_F(FieldOverTime, AveragesAlike) {
   EXPECT_NEAR(static_cast<double>(twins.on_device.shadow_rays),
               static_cast<double>(twins.on_cpu.shadow_rays),
               kTolerance * static_cast<double>(twins.on_cpu.shadow_rays));
+  EXPECT_GT(twins.on_device.correction_rays, 0u);
+  EXPECT_NEAR(static_cast<double>(twins.on_device.correction_rays),
+              static_cast<double>(twins.on_cpu.correction_rays),
+              kTolerance * static_cast<double>(twins.on_cpu.correction_rays));
   EXPECT_EQ(twins.on_device.solve_iterations, twins.on_cpu.solve_iterations);
   EXPECT_NEAR(twins.on_device.change, twins.on_cpu.change, 0.01 * twins.on_cpu.change);
 }
@@ -182,6 +186,9 @@ TEST_F(FieldOverTime, SeesByRaysAlike) {
     EXPECT_NEAR(static_cast<double>(twins.on_device.shadow_rays),
                 static_cast<double>(twins.on_cpu.shadow_rays),
                 kTolerance * static_cast<double>(twins.on_cpu.shadow_rays));
+    EXPECT_NEAR(static_cast<double>(twins.on_device.correction_rays),
+                static_cast<double>(twins.on_cpu.correction_rays),
+                kTolerance * static_cast<double>(twins.on_cpu.correction_rays));
     EXPECT_LE(twins.difference(/*by_rays=*/false), kTolerance);
   }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole frames: what the device renders is what the processor does, on the same seeds and schedule.
+#include <algorithm>
 #include <cmath>
 
 #include "lambent/field.h"
@@ -41,6 +42,7 @@ struct Job {
   FrameSettings frame;
   int updates = 2;
   bool with_rsm = false;
+  std::vector<FogVolume> fog = {};
 };
 
 LayeredImage render(const Scene& scene, const World& world, const Job& job) {
@@ -58,7 +60,8 @@ LayeredImage render(const Scene& scene, const World& world, const Job& job) {
 class Frame : public test::OnDevice {
  protected:
   static Frames render_both(const Job& job) {
-    const Scene scene = *scenes::make(job.scene);
+    Scene scene = *scenes::make(job.scene);
+    scene.fog = job.fog;
     const World here(scene), there(scene, shared_device());
     return {render(scene, here, job), render(scene, there, job)};
   }
@@ -87,8 +90,76 @@ TEST_F(Frame, OfTwoRoomsIsTheSame) {
   expect_alike(render_both(small("two-rooms")));
 }
 
+// Its bumps turn reflections: directions of rays hang on textures that both sides filter alike.
 TEST_F(Frame, OfTheAtriumIsTheSame) {
   expect_alike(render_both(small("atrium")));
+}
+
+// A pane, and a ball that refracts; half of the light comes through the pane. A hash of a ray's
+// bits decides whether it crosses glass. Rays of probes have the same bits on both sides; those
+// that learn corrections start at hits, which are rounded differently, so that what they learn of
+// glass differs by noise.
+TEST_F(Frame, OfGlassIsTheSame) {
+  Job job = small("glass");
+  job.field.corrections = false;
+  expect_alike(render_both(job));
+}
+
+// A ray that grazes a lamp or a sphere on one side and misses it on the other changes a pixel and
+// those that take its rays.
+TEST_F(Frame, WithReflectionsIsTheSame) {
+  constexpr double kGrazing = 0.02;
+  for (const int rows : {0, 1, 2}) {
+    Job job = small("spheres");
+    job.frame.glossy_rows = rows;
+    job.frame.samples = 2;
+    const Frames frames = render_both(job);
+    EXPECT_LE(relative_rmse(frames, "glossy"), rows == 0 ? kTolerance : kGrazing) << rows;
+    EXPECT_LE(relative_rmse(frames, "direct"), kTolerance) << rows;
+  }
+}
+
+// Rows of a picture rendered in parts take the rays of those above and below on the device, too.
+TEST_F(Frame, WithReflectionsIsTheSameInRows) {
+  Job job = small("spheres");
+  job.frame.first_row = 13;
+  job.frame.rows = 6;
+  EXPECT_LE(relative_rmse(render_both(job), "glossy"), 0.02);
+}
+
+// Light that lamps send through fog, that surfaces send on, and that it scatters to the camera.
+TEST_F(Frame, InFogIsTheSame) {
+  FogVolume thin, low;
+  thin.size = low.size = glm::vec3(20.0f);
+  thin.density = 0.05f;
+  thin.anisotropy = 0.4f;
+  low.centre.y = 10.0f;
+  low.density = 0.5f;
+  low.scale_height = 0.5f;
+  low.albedo = {0.9f, 0.5f, 0.2f};
+  for (const char* scene : {"cornell", "two-rooms"}) {
+    for (const bool filters : {false, true}) {
+      Job job = small(scene);
+      job.fog = {thin, low};
+      job.frame.fog = {4, 24, 2};
+      job.frame.denoise = filters;
+      job.frame.gather_rays = filters ? 1 : 0;
+      const Frames frames = render_both(job);
+      expect_alike(frames);
+      const std::vector<float>& fog = frames.device.find("fog")->pixels;
+      EXPECT_GT(*std::min_element(fog.begin(), fog.end()), 0.0f);
+    }
+  }
+}
+
+TEST_F(Frame, InFogIsTheSameInRows) {
+  Job job = small("cornell");
+  job.fog = {FogVolume{}};
+  job.fog[0].size = glm::vec3(20.0f);
+  job.frame.samples = 2;
+  job.frame.first_row = 13;
+  job.frame.rows = 6;
+  expect_alike(render_both(job));
 }
 
 TEST_F(Frame, SeenByRaysIsTheSame) {
@@ -103,6 +174,29 @@ TEST_F(Frame, WithGatheredLightIsTheSame) {
   job.frame.height = 16;
   job.frame.gather_rays = 4;
   job.frame.samples = 2;
+  expect_alike(render_both(job));
+}
+
+TEST_F(Frame, WithFilteredLightIsTheSame) {
+  // Of one ray a pixel, whose variance is estimated, and of several, whose variance is measured
+  for (const int rays : {1, 4}) {
+    Job job = small("cornell");
+    job.frame.width = 32;
+    job.frame.height = 24;
+    job.frame.gather_rays = rays;
+    job.frame.denoise = true;
+    expect_alike(render_both(job));
+  }
+}
+
+TEST_F(Frame, WithRowsOfFilteredLightIsTheSame) {
+  Job job = small("cornell");
+  job.frame.width = 20;
+  job.frame.height = 150;
+  job.frame.first_row = 70;
+  job.frame.rows = 9;
+  job.frame.gather_rays = 1;
+  job.frame.denoise = true;
   expect_alike(render_both(job));
 }
 

@@ -42,11 +42,13 @@ class PassOrder : public test::RecordedFieldTest {
 TEST_F(PassOrder, OfAnUpdateIsTheSameOnTheProcessorAndOnADevice) {
   const World there = on_device();
   FieldSettings settings = recorded_settings();
+  settings.corrections = true;
   for (const Visibility visibility : {Visibility::moments, Visibility::hybrid}) {
     settings.visibility = visibility;
     const Names on_cpu = passes_in(cornell().world, settings);
     EXPECT_EQ(on_cpu.front(), "placement");
     EXPECT_EQ(on_cpu.back(), "store");
+    EXPECT_EQ(std::count(on_cpu.begin(), on_cpu.end(), "corrections"), 1);
     EXPECT_EQ(passes_in(there, settings), on_cpu);
   }
 }

@@ -256,16 +256,21 @@ TEST_F(TracerTwin, TracesBatchesThatStayOnTheDevice) {
 }
 
 TEST(DeviceMasks, TellInstancesApartAsTheHostsDo) {
-  for (const bool casts : {false, true}) {
-    for (const bool ignored : {false, true}) {
-      Instance instance;
-      instance.casts_gi = casts;
-      instance.ignored_by_probes = ignored;
-      const std::uint32_t mask = instance_mask(instance);
-      for (const std::uint32_t ray : {kRayMeetsAll, kRayGathers, kRayOfProbe, 0u, 1u << 31}) {
-        EXPECT_LT(device_mask(ray), 256u);
-        EXPECT_EQ((device_mask(mask) & device_mask(ray)) != 0, (mask & ray) != 0);
-      }
+  Scene scene;
+  scene.materials.resize(2);
+  scene.materials[1].alpha_mode = AlphaMode::blend;
+  scene.meshes.resize(2);
+  scene.meshes[1].material = 1;
+  for (const unsigned kind : {0u, 1u, 2u, 3u, 4u, 5u, 6u, 7u}) {
+    Instance instance;
+    instance.casts_gi = (kind & 1u) != 0;
+    instance.ignored_by_probes = (kind & 2u) != 0;
+    instance.mesh = (kind & 4u) != 0 ? 1 : 0;
+    const std::uint32_t mask = instance_mask(scene, instance);
+    for (const std::uint32_t ray :
+         {kRayMeetsAll, kRayGathers, kRayOfProbe, kRayOfMotion, 0u, 1u << 31}) {
+      EXPECT_LT(device_mask(ray), 256u);
+      EXPECT_EQ((device_mask(mask) & device_mask(ray)) != 0, (mask & ray) != 0);
     }
   }
 }

@@ -110,7 +110,8 @@ TEST_F(RecordedCascades, KnowNothingOfTheirOldPlaces) {
   update(field, {.viewer_ws = here});
   update(fresh, {.viewer_ws = here});
   const std::vector<FieldQuery> queries = test::seen_points(cornell());
-  EXPECT_LE(difference(look_up(field, queries), look_up(fresh, queries)), 0.001);
+  // Rounding of positions changes which of their candidates a few surfels choose
+  EXPECT_LE(difference(look_up(field, queries), look_up(fresh, queries)), 0.002);
 }
 
 TEST_F(RecordedCascades, HaveNoWeightBeforeTheyAreTraced) {

@@ -34,6 +34,7 @@ inline FieldSettings recorded_settings() {
   settings.probe_count = {5, 4, 4};
   settings.rays_per_probe = 72;
   settings.relocation = false;
+  settings.corrections = false;  // engines' fields do not learn them
   return settings;
 }
 

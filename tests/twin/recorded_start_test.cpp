@@ -99,6 +99,23 @@ TEST_F(RecordedStart, HasTheLightOfTheFileBeforeAnyUpdateAndAddsToItAfterwards) 
   EXPECT_EQ(download<uint>(field.lookup_buffers().offsets), places);
 }
 
+TEST_F(RecordedStart, ReadsTheCorrectionsOfTheFile) {
+  FieldSettings settings = recorded_settings();
+  settings.corrections = true;
+  bake(settings);
+  IrradianceField on_cpu = loaded(settings);
+  RecordedField field = started(settings);
+  const std::vector<vec3> baked = test::look_up(on_cpu, queries);
+  std::vector<vec3> uncorrected(queries.size());
+  uncorrected_irradiance(on_cpu, queries, uncorrected, cornell().world);
+  EXPECT_GT(difference(uncorrected, baked), 0.02);
+  EXPECT_LE(difference(look_up(field, queries), baked), kSameWords);
+  // Surfels read them, too: no light is lost or added at the next bounces
+  update(field);
+  on_cpu.update(cornell().world);
+  EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), kStillThere);
+}
+
 TEST_F(RecordedStart, LeavesProbesInSolidMatterOff) {
   const FieldSettings settings = recorded_settings();
   bake(settings);

@@ -8,6 +8,7 @@
 #include "raytracing/surface_math.h"
 #include "scene/coverage.h"
 #include "scene/latitude_longitude.h"
+#include "scene/light_tree/unoccluded_math.h"
 #include "scene/punctual_light.h"
 #include "scene/texture_lookup.h"
 
@@ -15,7 +16,7 @@ LAMBENT_BEGIN
 
 /// What comes out as numbers that differ by rounding.
 struct ShadingNumbers {
-  vec3 position, edges, area_normal;
+  vec3 position, area_normal;
   float cone_share;
   vec4 tangent;
   vec3 orthogonal, mapped, shading_normal;
@@ -24,17 +25,21 @@ struct ShadingNumbers {
   vec2 uv;
   float wrapped[3];
   vec2 map_fraction;
-  EmitterDraw draw;
-  EmitterPoint drawn;
+  TrianglePointSeen near, far;
   vec3 shadow_direction;
   LightCandidate candidate;
   float shadow_length, stopping;
+  float importance[2];
+  float unoccluded[2];
+  float opened[2];
+  float form_factor;
 };
 
 /// What comes of inverse sines and tangents, which devices approximate.
 struct AngleNumbers {
   vec2 map_point;
   vec3 map_direction;
+  float solid_angle;
 };
 
 /// What decides, and must be the same.
@@ -85,7 +90,6 @@ LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
   vec3 edge1 = random_vec3(random, -1.0f, 1.0f);
   vec3 edge2 = random_vec3(random, -1.0f, 1.0f);
   n.position = transform_point(place, edge1);
-  n.edges = edge_product(place, edge1, edge2);
   n.area_normal = cofactors(place) * cross(edge1, edge2);
   n.cone_share = share_of_triangle(next_uniform(random), length(edge1));
   vec2 uv1 = next_uniform2(random);
@@ -128,15 +132,48 @@ LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOU
     if (type == kLightDirectional) n.punctual[type].distance = 0.0f;
   }
   vec3 normal = random_direction(random);
-  n.draw = draw_emitter(random, 1, 0.5f);
-  EmissiveSample sampled = {random_vec3(random, -3.0f, 3.0f), random_direction(random),
-                            random_vec3(random, 0.0f, 5.0f), next_uniform(random)};
-  n.drawn = emitter_seen(sampled, point);
-  vec3 direction = sample_cosine_about(normal, vec2(n.draw.u.y, n.draw.u.z));
-  n.candidate = emitter_candidate(n.drawn, normal, 0.5f);
+  // Triangles about as large as their distance, and small ones
+  vec3 corner = random_vec3(random, 1.0f, 3.0f);
+  vec3 edge1 = random_vec3(random, -1.0f, 1.0f);
+  vec3 edge2 = random_vec3(random, -1.0f, 1.0f) + vec3(0.0f, 0.0f, 2.0f);
+  vec2 u = next_uniform2(random);
+  n.near = draw_on_triangle(corner, edge1, edge2, u);
+  n.far = draw_on_triangle(50.0f * corner, edge1 * 0.1f, edge2 * 0.1f, u);
+  angles.solid_angle = 1.0f / n.near.pdf;
+  n.near.pdf = 0.0f;
+  n.far.pdf = 1.0f / max(n.far.pdf, 1.0f);
+  vec3 direction = sample_cosine_about(normal, u);
+  Resampling resampling = begin_resampling(next_uniform(random));
+  for (int i = 0; i < 4; ++i) {
+    LightCandidate offered = {random_direction(random), 1.0f + float(i),
+                              random_vec3(random, 0.0f, 5.0f), 0u};
+    offer(resampling, offered, offered.perpendicular_irradiance.x);
+  }
+  n.candidate = resampled(resampling, 0.25f);
   RayRecord shadow = shadow_ray_record(point, direction, n.candidate);
   n.shadow_direction = shadow.direction_ws;
   n.shadow_length = shadow.t_max;
+  for (uint both_sides = 0u; both_sides < 2u; ++both_sides) {
+    float spread = next_uniform(random);
+    vec3 center = random_vec3(random, -3.0f, 3.0f);
+    LightTreeNode node = {center,
+                          random_vec3(random, 0.0f, 1.0f),
+                          random_direction(random),
+                          sqrt(1.0f - spread * spread),
+                          spread,
+                          1.0f,
+                          0.3f,
+                          0.0f,
+                          both_sides,
+                          0u};
+    n.importance[both_sides] = min(light_importance(node, point, normal), 10.0f);
+    n.unoccluded[both_sides] = min(light_of_cluster(node, point, normal), 10.0f);
+    n.opened[both_sides] = opened_share(node, point);
+  }
+  vec3 far_corner = random_vec3(random, -2.0f, 2.0f);
+  vec3 first_edge = random_vec3(random, 1.0f, 2.0f);
+  vec3 second_edge = random_vec3(random, -2.0f, -1.0f);
+  n.form_factor = triangle_form_factor(far_corner, first_edge, second_edge, normal);
   vec3 towards = random_direction(random);
   angles.map_point = latitude_longitude_from_direction(towards, 0.7f);
   angles.map_direction = direction_from_latitude_longitude(angles.map_point, 0.7f);

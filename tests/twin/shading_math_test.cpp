@@ -58,7 +58,7 @@ TEST_F(ShadingOnDevice, ComputesTheSameNumbers) {
   }
 }
 
-TEST_F(ShadingOnDevice, FindsDirectionsInTheSkyWhereTheyAre) {
+TEST_F(ShadingOnDevice, FindsDirectionsAndSolidAnglesAsTheyAre) {
   const std::vector<ShadingMath> device_results = on_device(device());
   for (std::uint32_t i = 0; i < kCount; ++i) {
     const AngleNumbers expected = evaluate_shading_math(i).angles;
@@ -68,6 +68,7 @@ TEST_F(ShadingOnDevice, FindsDirectionsInTheSkyWhereTheyAre) {
     ASSERT_LE(std::min(across, 1.0f - across), kAngleTolerance) << i;
     ASSERT_NEAR(actual.map_point.y, expected.map_point.y, kAngleTolerance) << i;
     ASSERT_LE(glm::length(actual.map_direction - expected.map_direction), kAngleTolerance) << i;
+    ASSERT_NEAR(actual.solid_angle, expected.solid_angle, kAngleTolerance) << i;
   }
 }
 

@@ -182,6 +182,18 @@ TEST(BuiltinScene, SkyFurnaceIsConvex) {
   }
 }
 
+TEST(BuiltinScene, LampsAreAsManyAsTheirDescriptionSays) {
+  const Scene scene = scene_named("lamps");
+  EXPECT_EQ(scene.lights.size(), 1000u);
+  std::size_t emissive = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (scene.materials[mesh.material].emission != glm::vec3(0.0f))
+      emissive += mesh.triangles.size();
+  }
+  EXPECT_EQ(emissive, 100000u);
+}
+
 TEST(BuiltinScene, TwoRoomsAreBuiltOfClosedBodies) {
   for (const char* name : {"two-rooms", "two-rooms-sealed"}) {
     for (const Mesh& mesh : scene_named(name).meshes) {

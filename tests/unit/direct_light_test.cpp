@@ -2,6 +2,7 @@
 // Direct light of emissive surfaces near what they light.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,9 +15,13 @@ namespace {
 
 constexpr float kRadiance = 12.0f;  // [W/(m^2 sr)]
 
-/// Mean irradiance of a ceiling `gap` above the middle of a square lamp with an edge of 1 m. The
-/// lamp's middle is at `place`.
-double irradiance_above_lamp(const glm::vec3& place, float gap) {
+struct Samples {
+  double mean = 0.0, largest = 0.0;  // [W/m^2]
+};
+
+/// Samples of the irradiance of a ceiling `gap` above the middle of a square lamp with an edge of
+/// 1 m. The lamp's middle is at `place`.
+Samples irradiance_above_lamp(const glm::vec3& place, float gap) {
   Scene scene;
   scene.materials = {test::lambert(glm::vec3(0.5f)),
                      test::lambert(glm::vec3(0.0f), glm::vec3(kRadiance))};
@@ -31,9 +36,12 @@ double irradiance_above_lamp(const glm::vec3& place, float gap) {
   std::vector<glm::vec3> irradiance(queries.size());
   ShadeHitsScratch scratch;
   direct_irradiance(world, queries, {}, scratch, irradiance);
-  double sum = 0.0;
-  for (const glm::vec3& e : irradiance) sum += e.x;
-  return sum / static_cast<double>(queries.size());
+  Samples samples;
+  for (const glm::vec3& e : irradiance) {
+    samples.mean += e.x / static_cast<double>(queries.size());
+    samples.largest = std::max(samples.largest, static_cast<double>(e.x));
+  }
+  return samples;
 }
 
 /// The same in closed form: the form factor of a square seen from above its middle.
@@ -48,10 +56,19 @@ TEST(DirectLight, OfALampCloseToASurfaceIsThatOfTheClosedForm) {
        {glm::vec3(0.0f), glm::vec3(0.3f, 2.9f, -0.2f), glm::vec3(50.0f, 20.0f, -70.0f)}) {
     for (const float gap : {0.05f, 0.1f, 0.5f}) {
       const double expected = expected_above_lamp(gap);
-      // Three standard errors of rare, bright samples
-      EXPECT_NEAR(irradiance_above_lamp(place, gap), expected, 0.05 * expected)
+      // Three standard errors
+      EXPECT_NEAR(irradiance_above_lamp(place, gap).mean, expected, 0.005 * expected)
           << place.y << " m up, gap " << gap;
     }
+  }
+}
+
+TEST(DirectLight, OfALampCloseToASurfaceIsBounded) {
+  // Points drawn by power, seen 1 cm away, are worth up to 3,000 times the mean
+  constexpr double kLargestOverMean = 2.0;
+  for (const float gap : {0.001f, 0.01f, 0.1f, 1.0f}) {
+    const Samples samples = irradiance_above_lamp(glm::vec3(0.0f, 2.9f, 0.0f), gap);
+    EXPECT_LT(samples.largest, kLargestOverMean * samples.mean) << "gap " << gap;
   }
 }
 

@@ -54,6 +54,9 @@ FieldFile made_file() {
   file.updates = 11;
   file.scene = {1, 2, 3, 4, 5};
   file.volumes.push_back(made_volume(IrradianceFormat::rgb9e5, DistanceFormat::rg16f));
+  CorrectionBlock block = {correction_key({1, 2, -1}, 2, 1, 0), {}};
+  block.cells[0] = {0.5f, 1.0f, 1.5f};
+  file.corrections.push_back(block);
   return file;
 }
 
@@ -95,6 +98,18 @@ TEST(FieldFile, KeepsEveryNumberOfEveryFormatAndVolume) {
   }
 }
 
+TEST(FieldFile, KeepsCorrections) {
+  const FieldFile file = made_file();
+  const Expected<FieldFile> read = decode_field("", encode_field(file));
+  ASSERT_TRUE(read) << read.error().message();
+  ASSERT_EQ(read->corrections.size(), 1u);
+  EXPECT_TRUE(is_same_block(read->corrections[0].key, file.corrections[0].key));
+  EXPECT_EQ(read->corrections[0].cells[0].gathered, 0.5f);
+  EXPECT_EQ(read->corrections[0].cells[0].looked_up, 1.0f);
+  EXPECT_EQ(read->corrections[0].cells[0].samples, 1.5f);
+  EXPECT_EQ(read->corrections[0].cells[7].samples, 0.0f);
+}
+
 TEST(FieldFile, StandsWhereTheDocumentSays) {
   const std::vector<std::byte> bytes = encode_field(made_file());
   const auto u32 = [&](std::size_t offset) {
@@ -103,11 +118,11 @@ TEST(FieldFile, StandsWhereTheDocumentSays) {
     return value;
   };
   EXPECT_EQ(std::memcmp(bytes.data(), "LAMBENTF", 8), 0);
-  EXPECT_EQ(u32(8), 2u);             // version
+  EXPECT_EQ(u32(8), 3u);             // version
   EXPECT_EQ(u32(16), bytes.size());  // size
   EXPECT_EQ(u32(24), 1u);            // volumes
   EXPECT_EQ(u32(28), 11u);           // updates
-  EXPECT_EQ(u32(64), bytes.size() - 64);
+  EXPECT_EQ(u32(64), bytes.size() - 64 - 4 - 104);
   EXPECT_EQ(u32(64 + 24), 0xBF800000u);   // origin.x = -1
   EXPECT_EQ(u32(64 + 48), 3u);            // count.x
   EXPECT_EQ(u32(64 + 72), 0xBF800000u);   // axes[0].z = -1
@@ -121,7 +136,13 @@ TEST(FieldFile, StandsWhereTheDocumentSays) {
   EXPECT_EQ(u32(records + 24 + 4), 1u);           // sleeping
   EXPECT_EQ(u32(records + 24 + 8), 0x3FC00000u);  // samples = 1.5
   EXPECT_EQ(u32(tiles), 0x3F000000u);             // the first texel
-  EXPECT_EQ(bytes.size(), tiles + 4 * 12 * (4 * 4 + 7 * 7));
+  const std::size_t corrections = tiles + 4 * 12 * (4 * 4 + 7 * 7);
+  EXPECT_EQ(u32(corrections), 1u);                // blocks
+  EXPECT_EQ(u32(corrections + 4), 0x00020001u);   // x = 1, y = 2
+  EXPECT_EQ(u32(corrections + 8), 0x800AFFFFu);   // z = -1, facing along z, of the second level
+  EXPECT_EQ(u32(corrections + 12), 0x3F000000u);  // gathered = 0.5
+  EXPECT_EQ(u32(corrections + 20), 0x3FC00000u);  // samples = 1.5
+  EXPECT_EQ(bytes.size(), corrections + 4 + 104);
 }
 
 /// The reason why a file with these bytes is refused; empty: it is not.
@@ -154,9 +175,12 @@ TEST(FieldFile, RefusesWhatIsNoFieldOrNotAllOfOne) {
   longer.push_back({});
   EXPECT_THAT(refusal(longer), HasSubstr("is longer"));
   seal_field(longer);
-  EXPECT_THAT(refusal(longer), HasSubstr("has bytes after its last volume"));
+  EXPECT_THAT(refusal(longer), HasSubstr("corrections: have a size that does not fit"));
 
   std::vector<std::byte> cut(whole.begin(), whole.end() - 8);
+  seal_field(cut);
+  EXPECT_THAT(refusal(cut), HasSubstr("corrections: have a size that does not fit"));
+  cut.resize(cut.size() - 104);
   seal_field(cut);
   EXPECT_THAT(refusal(cut), HasSubstr("volume 0: has a size that does not fit its probes"));
 }
@@ -171,7 +195,7 @@ TEST(FieldFile, RefusesAnyBitThatFlipped) {
 }
 
 TEST(FieldFile, RefusesOtherVersions) {
-  EXPECT_THAT(refusal_with(8, 1), HasSubstr("is of version 1; version 2 can be read"));
+  EXPECT_THAT(refusal_with(8, 1), HasSubstr("is of version 1; version 3 can be read"));
   EXPECT_THAT(refusal_with(8, 0), HasSubstr("is of version 0"));
 }
 
@@ -216,6 +240,13 @@ TEST(FieldFile, RefusesNumbersThatNoFieldHas) {
   EXPECT_THAT(refusal_with(record + 12, kInfinity), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record + 16, 0x10000u), HasSubstr("record of probe 1"));
   EXPECT_THAT(refusal_with(record + 20, 12), HasSubstr("record of probe 1"));
+  const std::size_t key = encode_field(made_file()).size() - kCorrectionBlockBytes;
+  for (const uint rest : {0u, 0x000AFFFFu, 0x800EFFFFu, 0x801AFFFFu, 0x802AFFFFu}) {
+    EXPECT_THAT(refusal_with(key + 4, rest), HasSubstr("corrections: name a senseless block"));
+  }
+  for (const uint sum : {kNan, kInfinity, 0xBF800000u}) {
+    EXPECT_THAT(refusal_with(key + 8, sum), HasSubstr("corrections: hold sums"));
+  }
   FieldFile exact = made_file();
   exact.volumes[0] = made_volume(IrradianceFormat::float32, DistanceFormat::rg32f);
   const std::size_t tiles = volume + kVolumeHeaderBytes + 12 * kRecordBytes;

@@ -21,6 +21,7 @@ class Log final : public FieldPasses {
   }
 
   std::vector<std::string> named, done;
+  bool learning = true;
 
   const FieldSettings& settings() const override { return settings_; }
   int batches() const override { return batches_; }
@@ -31,6 +32,8 @@ class Log final : public FieldPasses {
   void move_distances() override { done.emplace_back("move_distances"); }
   void blend_distances() override { done.emplace_back("blend_distances"); }
   void visibility() override { done.emplace_back("visibility"); }
+  bool learns() const override { return learning; }
+  void corrections() override { done.emplace_back("corrections"); }
   void lookups() override { done.emplace_back("lookups"); }
   void solve() override { done.emplace_back("solve"); }
   void variability() override { done.emplace_back("variability"); }
@@ -53,10 +56,11 @@ using Names = std::vector<std::string>;
 TEST(FieldPassOrder, TracesAndShadesBatchAfterBatchAndLightsAllAtOnce) {
   Log log(Visibility::hybrid, 2);
   update_probes(log);
-  EXPECT_EQ(log.done, (Names{"trace0", "shade0", "trace1", "shade1", "blend_distances",
-                             "visibility", "lookups", "solve", "variability", "store"}));
+  EXPECT_EQ(log.done,
+            (Names{"trace0", "shade0", "trace1", "shade1", "blend_distances", "visibility",
+                   "corrections", "lookups", "solve", "variability", "store"}));
   EXPECT_EQ(log.named, (Names{"trace", "shade", "trace", "shade", "blend_distances", "visibility",
-                              "lookups", "solve", "variability", "store"}));
+                              "corrections", "lookups", "solve", "variability", "store"}));
 }
 
 TEST(FieldPassOrder, LooksAcrossCellsForHybridVisibilityAlone) {
@@ -65,6 +69,13 @@ TEST(FieldPassOrder, LooksAcrossCellsForHybridVisibilityAlone) {
     update_probes(log);
     EXPECT_EQ(std::count(log.named.begin(), log.named.end(), "visibility"), 0);
   }
+}
+
+TEST(FieldPassOrder, LearnsCorrectionsOnlyWhereTheExecutorDoes) {
+  Log log;
+  log.learning = false;
+  update_probes(log);
+  EXPECT_EQ(std::count(log.named.begin(), log.named.end(), "corrections"), 0);
 }
 
 TEST(FieldPassOrder, PartsThatAnEngineRecordsMakeUpTheWhole) {

@@ -102,7 +102,7 @@ TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
       for (const Light& lamp : scene.lights) {
         const PunctualSample sample = sample_punctual(lamp, seen.point.position_ws);
         if (glm::dot(sample.to_light, seen.point.normal_ws) <= 0.0f) continue;
-        const LightCandidate light{sample.to_light, sample.distance, sample.irradiance};
+        const LightCandidate light{sample.to_light, sample.distance, sample.irradiance, 0};
         lit = lit || !tracer_of(world).occluded(
                          shadow_ray(seen.point.position_ws, seen.point.geometric_normal_ws, light));
       }

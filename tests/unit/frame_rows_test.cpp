@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "compose/gbuffer.h"
 #include "lambent/renderer.h"
 #include "lambent/rsm.h"
 #include "support/field_scenes.h"
@@ -18,7 +19,8 @@ constexpr int kPieces[] = {1, 12, 5, 11};
 
 class FrameRows : public ::testing::Test {
  protected:
-  FrameRows() : field(test::make_field(stage, settings(), 1)) {
+  explicit FrameRows(const char* scene = "cornell-spot")
+      : stage(scene), field(test::make_field(stage, settings(), 1)) {
     frame.width = kWidth;
     frame.height = kHeight;
     frame.samples = 2;
@@ -54,10 +56,15 @@ class FrameRows : public ::testing::Test {
       piece.first_row += rows;
     }
     ASSERT_EQ(piece.first_row, kHeight);
-    EXPECT_EQ(rays, whole.rays);
+    check_rays(rays, whole.rays);
   }
 
-  test::Stage stage{"cornell-spot"};
+  /// Pieces together trace the rays of the whole.
+  virtual void check_rays(std::uint64_t of_pieces, std::uint64_t of_whole) const {
+    EXPECT_EQ(of_pieces, of_whole);
+  }
+
+  test::Stage stage;
   IrradianceField field;
   IndirectSources sources;
   FrameSettings frame;
@@ -70,6 +77,44 @@ TEST_F(FrameRows, AreThoseOfTheWholeWhereTheFieldIsLookedUp) {
 TEST_F(FrameRows, AreThoseOfTheWholeWhereLightIsGathered) {
   frame.gather_rays = 4;
   expect_same_bits();
+}
+
+/// Coats take rays of the rows above and below a piece, which are seen and traced for each anew.
+class FrameRowsOfCoats : public FrameRows {
+ protected:
+  FrameRowsOfCoats() : FrameRows("spheres") {}
+  void check_rays(std::uint64_t of_pieces, std::uint64_t of_whole) const override {
+    EXPECT_GT(of_pieces, of_whole);
+  }
+};
+
+TEST_F(FrameRowsOfCoats, AreThoseOfTheWholeWhereReflectionsAreTraced) {
+  for (const int rows : {1, 2, 3}) {
+    frame.glossy_rows = rows;
+    expect_same_bits();
+  }
+}
+
+TEST_F(FrameRows, AreThoseOfTheWholeWhereLightIsFiltered) {
+  // Emissive surfaces light this box, and it is higher than the filter reaches
+  const test::Stage lamp("cornell");
+  const IrradianceField lit = test::make_field(lamp, settings(), 1);
+  FrameSettings filtered = quality_settings(Quality::interactive);
+  filtered.width = 16;
+  filtered.height = 170;
+  Renderer renderer(lamp.world, {.field = &lit});
+  const Camera& camera = lamp.scene.cameras.at(0);
+  const RenderedFrame whole = renderer.render(camera, filtered).value();
+  for (const Band& rows : {Band{0, 40}, Band{71, 3}, Band{100, 70}}) {
+    filtered.first_row = rows.first_row;
+    filtered.rows = rows.rows;
+    const RenderedFrame part = renderer.render(camera, filtered).value();
+    for (const Layer& layer : part.image.layers) {
+      const float* expected = whole.image.find(layer.name)->at(0, rows.first_row);
+      EXPECT_TRUE(std::equal(layer.image.pixels.begin(), layer.image.pixels.end(), expected))
+          << "layer " << layer.name << ", row " << rows.first_row;
+    }
+  }
 }
 
 TEST_F(FrameRows, AreThoseOfTheWholeWhereMapsLight) {

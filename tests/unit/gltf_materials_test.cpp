@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <webp/encode.h>
 
+#include <cmath>
+
 #include "scene/texture.h"
 #include "unit/gltf_builder.h"
 
@@ -71,6 +73,25 @@ TEST(GltfMaterials, ReadEveryFactor) {
   EXPECT_EQ(m.specular, 0.5f);
   EXPECT_EQ(m.specular_color, glm::vec3(1, 0.5f, 2));
   EXPECT_TRUE(m.unlit);
+}
+
+TEST(GltfMaterials, ReadGlass) {
+  const Material pane = only_material(Json::parse(R"({"extensions": {
+      "KHR_materials_transmission": {"transmissionFactor": 0.75},
+      "KHR_materials_volume": {"thicknessFactor": 0, "attenuationDistance": 0.5,
+                               "attenuationColor": [1, 0.5, 0.25]}}})"));
+  EXPECT_EQ(pane.transmission, 0.75f);
+  EXPECT_FALSE(pane.bounds_volume);
+  EXPECT_EQ(pane.absorption, glm::vec3(0.0f));
+
+  const Material body = only_material(Json::parse(R"({"extensions": {
+      "KHR_materials_transmission": {"transmissionFactor": 1},
+      "KHR_materials_volume": {"thicknessFactor": 0.1, "attenuationDistance": 0.5,
+                               "attenuationColor": [1, 0.5, 0]}}})"));
+  EXPECT_TRUE(body.bounds_volume);
+  EXPECT_NEAR(body.absorption.x, 0.0f, 1e-6f);
+  EXPECT_NEAR(body.absorption.y, 2.0f * std::log(2.0f), 1e-5f);
+  EXPECT_EQ(body.absorption.z, 1e6f);
 }
 
 TEST(GltfMaterials, OfPrimitivesWithoutOneAreTheDefault) {

@@ -293,5 +293,67 @@ TEST(GltfNodes, ProbeVolumesThatMakeNoSenseAreLeftOut) {
   }
 }
 
+TEST(GltfNodes, FogStandsWhereItsNodeIs) {
+  const float half = std::sqrt(0.5f);
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.show_node({{"name", "mist"},
+                     {"translation", {1, 2, 3}},
+                     {"rotation", {0, half, 0, half}},
+                     {"scale", {2, 1, 0.5}},
+                     {"extras",
+                      {{"lambent_fog",
+                        {{"size", {4, 3, 2}},
+                         {"density", 0.25},
+                         {"albedo", {0.1, 0.2, 0.3}},
+                         {"anisotropy", 0.95},
+                         {"scale_height", 7}}}}}});
+  builder.show_node({{"extras", {{"lambent_fog", {{"albedo", 0.5}}}}}});
+  const Expected<Scene> loaded = builder.load();
+  ASSERT_TRUE(loaded) << error_of(loaded);
+  ASSERT_EQ(loaded->fog.size(), 2u);
+  const FogVolume& mist = loaded->fog[0];
+  EXPECT_EQ(mist.name, "mist");
+  expect_near(mist.centre, {1, 2, 3});
+  expect_near(mist.size, {8, 3, 1});
+  expect_near(mist.axes[0], {0, 0, -1});
+  EXPECT_EQ(mist.density, 0.25f);
+  expect_near(mist.albedo, {0.1f, 0.2f, 0.3f});
+  EXPECT_EQ(mist.anisotropy, 0.95f);
+  EXPECT_EQ(mist.scale_height, 7.0f);
+  EXPECT_EQ(loaded->fog[1].albedo, glm::vec3(0.5f));
+  EXPECT_EQ(loaded->fog[1].density, FogVolume{}.density);
+  EXPECT_TRUE(loaded->source.warnings.empty());
+}
+
+TEST(GltfNodes, FogThatMakesNoSenseIsLeftOut) {
+  using nlohmann::json;
+  for (const json& fog :
+       {json(3), json{{"size", {1, 2}}}, json{{"density", -1}}, json{{"density", 1e7}},
+        json{{"density", "x"}}, json{{"albedo", 2}}, json{{"albedo", {1, 2, 1}}},
+        json{{"anisotropy", 0.96}}, json{{"anisotropy", 1e300}}, json{{"scale_height", 0}},
+        json{{"scale_height", 1e300}}, json{{"colour", 1}}}) {
+    GltfBuilder builder;
+    builder.show(builder.triangle());
+    builder.show_node({{"extras", {{"lambent_fog", fog}}}});
+    const Expected<Scene> loaded = builder.load();
+    ASSERT_TRUE(loaded) << error_of(loaded);
+    EXPECT_TRUE(loaded->fog.empty()) << fog;
+    EXPECT_THAT(loaded->source.warnings, Contains(HasSubstr("nodes[1].extras.lambent_fog")));
+  }
+  // Neither does one in a node that is sheared, nor the seventeenth
+  GltfBuilder builder;
+  builder.show(builder.triangle());
+  builder.show_node({{"matrix", {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}},
+                     {"extras", {{"lambent_fog", json::object()}}}});
+  for (std::size_t i = 0; i <= kMaxFogVolumes; ++i) {
+    builder.show_node({{"extras", {{"lambent_fog", json::object()}}}});
+  }
+  const Expected<Scene> loaded = builder.load();
+  ASSERT_TRUE(loaded) << error_of(loaded);
+  EXPECT_EQ(loaded->fog.size(), kMaxFogVolumes);
+  EXPECT_EQ(loaded->source.warnings.size(), 2u);
+}
+
 }  // namespace
 }  // namespace lambent

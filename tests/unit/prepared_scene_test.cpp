@@ -100,6 +100,14 @@ Scene scene() {
   volume.probe_spacing = 0.5f;
   volume.priority = 3;
   scene.volumes = {volume};
+  FogVolume fog;
+  fog.name = "mist";
+  fog.centre = {1.0f, 2.0f, 3.0f};
+  fog.density = 0.5f;
+  fog.albedo = {0.1f, 0.2f, 0.3f};
+  fog.anisotropy = 0.6f;
+  fog.scale_height = 7.0f;
+  scene.fog = {fog};
   return scene;
 }
 
@@ -146,6 +154,7 @@ TEST_F(PreparedScene, ComesBackAsItWas) {
   EXPECT_EQ(after.cameras[0].vertical_extent, 2.0f);
   EXPECT_EQ(after.environment.map.pixels, before.environment.map.pixels);
   EXPECT_EQ(after.volumes[0].axes, before.volumes[0].axes);
+  EXPECT_EQ(after.fog, before.fog);
   EXPECT_EQ(after.source.path, path());
   // All that is not named above, too: the same file is made of it
   ASSERT_TRUE(save_prepared(after, path()));

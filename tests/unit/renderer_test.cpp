@@ -90,6 +90,8 @@ TEST_F(RendererTest, RefusesSettingsOutOfRangeByName) {
   EXPECT_EQ(refused([](FrameSettings& s) { s.samples = 0; }), "samples");
   EXPECT_EQ(refused([](FrameSettings& s) { s.emissive_samples = 0; }), "emissive samples");
   EXPECT_EQ(refused([](FrameSettings& s) { s.gather_rays = -1; }), "gather rays");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.glossy_rows = -1; }), "glossy rows");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.glossy_rows = 9; }), "glossy rows");
   EXPECT_EQ(renderer.frames(), 1u);
 }
 

@@ -157,6 +157,23 @@ TEST(WorldUpdate, FollowsAMeshThatBends) {
   }
 }
 
+TEST(WorldUpdate, FollowsAMeshThatBendsAgainWhileAnotherBendsForTheFirstTime) {
+  Scene scene = furnished_room();
+  World world(scene);
+  Mesh& ball = scene.meshes[scene.instances[kOwnBall].mesh];
+  Mesh& shared = scene.meshes[scene.instances[kFirstBall].mesh];
+  for (int step = 1; step <= 3; ++step) {
+    for (glm::vec3& p : ball.positions) p.y *= 1.1f;
+    ++ball.revision;
+    if (step > 1) {
+      for (glm::vec3& p : shared.positions) p.x *= 1.1f;
+      ++shared.revision;
+    }
+    updated(world);
+    expect_as_new(world);
+  }
+}
+
 TEST(WorldUpdate, FollowsAMeshThatGetsOtherTriangles) {
   Scene scene = furnished_room();
   World world(scene);

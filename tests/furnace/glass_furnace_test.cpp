@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Glass takes no energy that it does not absorb, and lets as much light pass as the reference says.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "lambent/renderer.h"
+#include "reference/path_tracer.h"
+#include "scenes/mesh_builder.h"
+#include "scenes/parts.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+// The project's bar for furnaces.
+constexpr double kFurnaceTolerance = 0.005;
+// The bar for light behind a pane.
+constexpr double kPaneTolerance = 0.02;
+
+Material glass(float roughness, bool bounds_volume) {
+  Material material;
+  material.metallic = 0.0f;
+  material.roughness = roughness;
+  material.transmission = 1.0f;
+  material.bounds_volume = bounds_volume;
+  return material;
+}
+
+int add_material(Scene& scene, const Material& material) {
+  scene.materials.push_back(material);
+  return static_cast<int>(scene.materials.size()) - 1;
+}
+
+void add_pane(Scene& scene, const Material& material) {
+  scenes::MeshBuilder builder;
+  builder.quad({0.0f, 0.0f, 1.5f}, {0.0f, 0.0f, -1.5f}, {0.0f, 2.5f, -1.5f}, {0.0f, 2.5f, 1.5f});
+  scenes::add_object(scene, builder.take("pane", add_material(scene, material)));
+}
+
+void add_ball(Scene& scene, const Material& material) {
+  constexpr int kSteps = 64;
+  scenes::MeshBuilder builder;
+  std::vector<glm::vec2> profile;
+  for (int i = 0; i <= kSteps; ++i) {
+    const float angle = 3.14159265f * static_cast<float>(i) / kSteps;
+    const bool pole = i == 0 || i == kSteps;
+    profile.emplace_back(pole ? 0.0f : 0.6f * std::sin(angle), -0.6f * std::cos(angle));
+  }
+  builder.lathe({-0.7f, 1.1f, 0.0f}, profile, 2 * kSteps);
+  scenes::add_object(scene, builder.take("ball", add_material(scene, material)));
+}
+
+void add_room(Scene& scene, const glm::vec3& albedo, const glm::vec3& emission) {
+  scenes::MeshBuilder builder;
+  builder.room({-2.0f, 0.0f, -1.5f}, {2.0f, 2.5f, 1.5f});
+  scenes::add_object(scene,
+                     builder.take("room", scenes::add_lambert(scene, "wall", albedo, emission)));
+  scenes::add_camera(scene, "room", {1.8f, 1.4f, 1.0f}, {-1.0f, 1.1f, -0.2f}, 0.9f, 1.0f);
+}
+
+/// A room whose radiance is 1 everywhere.
+Scene furnace() {
+  Scene scene;
+  add_room(scene, glm::vec3(0.5f), glm::vec3(0.5f));
+  return scene;
+}
+
+/// A lamp on one side of a room; what is right of x = 0 is behind the pane, if there is one.
+Scene lit_room() {
+  Scene scene;
+  add_room(scene, {0.7f, 0.6f, 0.5f}, glm::vec3(0.0f));
+  scenes::MeshBuilder builder;
+  builder.quad({-1.6f, 2.48f, -0.4f}, {-1.0f, 2.48f, -0.4f}, {-1.0f, 2.48f, 0.4f},
+               {-1.6f, 2.48f, 0.4f});
+  scenes::add_object(scene,
+                     builder.take("lamp", scenes::add_lambert(scene, "lamp", glm::vec3(0.0f),
+                                                              glm::vec3(12.0f, 11.0f, 9.0f))));
+  return scene;
+}
+
+double mean_of(const LayeredImage& image, const char* layer, int channel = -1) {
+  const Image& pixels = *image.find(layer);
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pixels.pixels.size(); ++i) {
+    if (channel >= 0 && i % 3 != static_cast<std::size_t>(channel)) continue;
+    sum += pixels.pixels[i];
+    ++count;
+  }
+  return sum / static_cast<double>(count);
+}
+
+LayeredImage render(const test::Stage& stage, int samples, int updates) {
+  FieldSettings settings = test::exact_formats();
+  settings.rays_per_probe = 256;
+  const IrradianceField field = test::make_field(stage, settings, updates);
+  FrameSettings frame;
+  frame.width = frame.height = 48;
+  frame.samples = samples;
+  return Renderer(stage.world, {.field = &field}).render(stage.scene.cameras[0], frame)->image;
+}
+
+LayeredImage render_reference_of(const test::Stage& stage, int samples) {
+  ReferenceSettings settings;
+  settings.width = settings.height = 48;
+  settings.samples = samples;
+  return render_reference(stage.world, stage.scene.cameras[0], settings).image;
+}
+
+TEST(GlassFurnace, APaneTakesNothing) {
+  Scene scene = furnace();
+  add_pane(scene, glass(0.0f, false));
+  const test::Stage stage(std::move(scene));
+  const LayeredImage image = render(stage, 16, 4);
+  EXPECT_NEAR(mean_of(image, ""), 1.0, kFurnaceTolerance);
+  EXPECT_GT(mean_of(image, "transmission"), 0.3);
+  EXPECT_NEAR(mean_of(render_reference_of(stage, 256), ""), 1.0, kFurnaceTolerance);
+}
+
+// Light that a microfacet sends into another one is lost, by glTF's formulas.
+TEST(GlassFurnace, ARoughPaneTakesWhatTheReferenceSays) {
+  Scene scene = furnace();
+  add_pane(scene, glass(0.3f, false));
+  const test::Stage stage(std::move(scene));
+  EXPECT_NEAR(mean_of(render(stage, 16, 4), ""), mean_of(render_reference_of(stage, 256), ""),
+              kFurnaceTolerance);
+}
+
+TEST(GlassFurnace, ABallTakesNothing) {
+  Scene scene = furnace();
+  add_ball(scene, glass(0.0f, true));
+  const test::Stage stage(std::move(scene));
+  const LayeredImage image = render(stage, 16, 4);
+  EXPECT_NEAR(mean_of(image, ""), 1.0, kFurnaceTolerance);
+  EXPECT_GT(mean_of(image, "transmission"), 0.05);
+  EXPECT_NEAR(mean_of(render_reference_of(stage, 256), ""), 1.0, kFurnaceTolerance);
+}
+
+TEST(GlassPane, LetsAsMuchLightPassAsTheReferenceSays) {
+  Scene scene = lit_room();
+  Material pane = glass(0.0f, false);
+  pane.base_color = glm::vec4(0.5f, 0.9f, 0.7f, 1.0f);
+  add_pane(scene, pane);
+  // The camera looks at the half behind the pane alone
+  scene.cameras.clear();
+  scenes::add_camera(scene, "behind", {0.1f, 1.4f, 1.3f}, {1.9f, 0.9f, -0.9f}, 0.9f, 1.0f);
+  const test::Stage stage(std::move(scene));
+  const LayeredImage found = render(stage, 16, 8);
+  const LayeredImage expected = render_reference_of(stage, 1024);
+  for (const char* layer : {"direct", "irradiance", "indirect"}) {
+    for (int channel = 0; channel < 3; ++channel) {
+      const double reference = mean_of(expected, layer, channel);
+      EXPECT_GT(reference, 1e-3) << layer;
+      EXPECT_NEAR(mean_of(found, layer, channel) / reference, 1.0, kPaneTolerance)
+          << layer << ' ' << channel;
+    }
+  }
+}
+
+TEST(GlassPane, ShowsWhatIsBehindIt) {
+  Scene scene = lit_room();
+  Material pane = glass(0.0f, false);
+  pane.base_color = glm::vec4(0.5f, 0.9f, 0.7f, 1.0f);
+  add_pane(scene, pane);
+  const test::Stage stage(std::move(scene));
+  const LayeredImage found = render(stage, 16, 8);
+  const LayeredImage expected = render_reference_of(stage, 1024);
+  for (int channel = 0; channel < 3; ++channel) {
+    const double reference = mean_of(expected, "transmission", channel);
+    EXPECT_GT(reference, 1e-3);
+    EXPECT_NEAR(mean_of(found, "transmission", channel) / reference, 1.0, kPaneTolerance)
+        << channel;
+  }
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Corrections of lookups: what the table learns, forgets and reads.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "field/correction/correction_table.h"
+#include "field/correction/train_math.h"
+
+namespace lambent {
+namespace {
+
+/// A grid of 9 x 9 x 9 probes, 0.8 m apart, so that the finest cells have edges of 0.1 m.
+ProbeGrid grid() {
+  ProbeGrid grid{};
+  grid.origin_ws = vec3(-3.2f);
+  grid.spacing = vec3(0.8f);
+  grid.axes = mat3(1.0f);
+  grid.count = ivec3(9);
+  return grid;
+}
+
+constexpr vec3 kUp{0.0f, 1.0f, 0.0f};
+
+/// Samples on the floor, of which `ratio(x)` of what is looked up is gathered.
+template <class Ratio>
+std::vector<CorrectionSample> samples_on_floor(int count, Ratio ratio, std::uint32_t seed = 1) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<float> place(-3.0f, 3.0f), pick(0.0f, 1.0f);
+  std::vector<CorrectionSample> samples;
+  for (int i = 0; i < count; ++i) {
+    const vec3 position(place(random), 0.01f, place(random));
+    samples.push_back({position, kUp, 0, ratio(position.x) * 2.0f, 2.0f, pick(random)});
+  }
+  return samples;
+}
+
+CorrectionTable taught(const std::vector<CorrectionSample>& samples) {
+  CorrectionTable table(probe_count(grid()));
+  const ProbeGrid grids[] = {grid()};
+  table.learn(grids, samples, 1);
+  return table;
+}
+
+float read(const CorrectionTable& table, const vec3& at, const vec3& normal = kUp,
+           CorrectionRead how = CorrectionRead::smooth) {
+  return table.at(grid(), 0, at, normal, how);
+}
+
+TEST(Corrections, AreOneWhereNothingIsKnown) {
+  const CorrectionTable table(probe_count(grid()));
+  EXPECT_TRUE(table.empty());
+  EXPECT_EQ(read(table, vec3(0.0f)), 1.0f);
+}
+
+TEST(Corrections, FollowARatioThatVariesWithThePlace) {
+  const auto ratio = [](float x) { return x < 0.0f ? 0.5f : 1.25f; };
+  const CorrectionTable table = taught(samples_on_floor(100000, ratio));
+  for (float x = -2.5f; x <= 2.5f; x += 0.25f) {
+    if (std::abs(x) < 0.3f) continue;
+    EXPECT_NEAR(read(table, {x, 0.01f, 0.4f}), ratio(x), 0.03f * ratio(x)) << x;
+  }
+}
+
+TEST(Corrections, AreNotReadOnSurfacesThatFaceElsewhere) {
+  const CorrectionTable table = taught(samples_on_floor(100000, [](float) { return 0.5f; }));
+  EXPECT_EQ(read(table, {0.4f, 0.01f, 0.4f}, -kUp), 1.0f);
+  EXPECT_EQ(read(table, {0.4f, 0.01f, 0.4f}, {1.0f, 0.0f, 0.0f}), 1.0f);
+}
+
+TEST(Corrections, AreSmoothAcrossCells) {
+  const CorrectionTable table =
+      taught(samples_on_floor(100000, [](float x) { return 1.0f + 0.2f * std::sin(2.0f * x); }));
+  float largest = 0.0f, before = read(table, {-2.0f, 0.01f, 0.1f});
+  for (float x = -2.0f; x < 2.0f; x += 0.002f) {
+    const float here = read(table, {x, 0.01f, 0.1f});
+    largest = std::max(largest, std::abs(here - before));
+    before = here;
+  }
+  // Steps of the function itself are at most 0.0008
+  EXPECT_LT(largest, 0.004f);
+}
+
+TEST(Corrections, ReadFromSingleCellsHaveTheMeanOfInterpolatedOnes) {
+  const CorrectionTable table =
+      taught(samples_on_floor(100000, [](float x) { return 1.0f + 0.2f * std::sin(2.0f * x); }));
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> place(-2.0f, 2.0f);
+  double smooth = 0.0, picked = 0.0;
+  for (int i = 0; i < 20000; ++i) {
+    const vec3 at(place(random), 0.01f, place(random));
+    smooth += read(table, at);
+    picked += read(table, at, kUp, CorrectionRead::picked);
+  }
+  EXPECT_NEAR(picked / smooth, 1.0, 0.005);
+}
+
+TEST(Corrections, LearnTheSameInAnyOrder) {
+  std::vector<CorrectionSample> samples =
+      samples_on_floor(5000, [](float x) { return 1.0f + 0.3f * x / 3.0f; });
+  const CorrectionTable forwards = taught(samples);
+  std::reverse(samples.begin(), samples.end());
+  const CorrectionTable backwards = taught(samples);
+  for (float x = -2.5f; x <= 2.5f; x += 0.1f) {
+    EXPECT_EQ(read(forwards, {x, 0.01f, -x}), read(backwards, {x, 0.01f, -x}));
+  }
+}
+
+TEST(Corrections, AreReadTheSameFromTheirBlocks) {
+  const CorrectionTable table =
+      taught(samples_on_floor(20000, [](float x) { return 1.0f + 0.3f * x / 3.0f; }));
+  CorrectionTable restored(probe_count(grid()));
+  restored.restore(table.blocks(), 1.0f);
+  for (float x = -2.5f; x <= 2.5f; x += 0.1f) {
+    EXPECT_EQ(read(restored, {x, 0.01f, -x}), read(table, {x, 0.01f, -x}));
+  }
+}
+
+TEST(Corrections, FollowLaterSamplesWhereTheLightChanged) {
+  const ProbeGrid grids[] = {grid()};
+  CorrectionTable table = taught(samples_on_floor(100000, [](float) { return 0.5f; }));
+  std::vector<float> kept(probe_count(grid()), 1.0f);
+  for (int probe = 0; probe < probe_count(grid()); ++probe) {
+    if (probe_coords(grid(), probe).x >= 4) kept[probe] = 0.0f;
+  }
+  table.forget(grids, kept);
+  EXPECT_NEAR(read(table, {-2.0f, 0.01f, 0.4f}), 0.5f, 0.02f);
+  EXPECT_NEAR(read(table, {2.0f, 0.01f, 0.4f}), 1.0f, 0.02f);
+  table.learn(grids,
+              samples_on_floor(
+                  50000, [](float) { return 1.5f; }, 2),
+              2);
+  EXPECT_NEAR(read(table, {2.0f, 0.01f, 0.4f}), 1.5f, 0.05f);
+}
+
+TEST(Corrections, ForgetWhatIsNeverConfirmed) {
+  const ProbeGrid grids[] = {grid()};
+  CorrectionTable table = taught(samples_on_floor(200, [](float) { return 0.5f; }));
+  const std::size_t known = table.blocks().size();
+  const std::vector<CorrectionSample> elsewhere = {{{2.9f, 2.9f, 2.9f}, kUp, 0, 1.0f, 1.0f, 0.5f}};
+  for (uint number = 2; number < 60; ++number) table.learn(grids, elsewhere, number);
+  EXPECT_LT(table.blocks().size(), known / 10);
+}
+
+TEST(Corrections, LearnAtOneSurfelOfEachRun) {
+  for (const uint number : {1u, kFilledTraining, kSettledTraining}) {
+    const uint stride = training_stride(number);
+    double sum = 0.0;
+    for (uint point = 0; point < 4000; ++point) {
+      const uint surfel = trained_surfel(point, number, 1);
+      ASSERT_EQ(surfel / stride, point);
+      sum += surfel % stride;
+    }
+    EXPECT_NEAR(sum / 4000.0, 0.5 * (stride - 1.0), 0.03 * stride);
+  }
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "shared/color.h"
+#include "shared/random.h"
+
+namespace lambent {
+namespace {
+
+/// A picture of a wall one metre away whose pixels are a millimetre wide, and its light.
+struct Wall {
+  Wall(int w, int h) : width(w), height(h) {
+    for (int y = 0; y < h; ++y) {
+      for (int x = 0; x < w; ++x) {
+        positions.emplace_back(0.001f * static_cast<float>(x), -0.001f * static_cast<float>(y),
+                               0.0f);
+        normals.emplace_back(0.0f, 0.0f, 1.0f);
+        depths.push_back(1.0f);
+        light.emplace_back(0.0f);
+      }
+    }
+  }
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y * width + x); }
+  DenoiseView view() const { return {width, height, positions, normals, depths}; }
+  /// Gives each pixel light(x, y, random number).
+  void set_light(const std::function<vec3(int, int, float)>& lit) {
+    RandomStream random = make_random_stream(1, 2, 3);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) light[at(x, y)] = lit(x, y, next_uniform(random));
+    }
+  }
+  std::vector<vec3> filtered(const DenoiseSettings& settings = {}) const {
+    std::vector<vec3> result(light.size());
+    EXPECT_TRUE(Denoiser().filter(view(), {light, base, variance, levels}, settings, result));
+    return result;
+  }
+
+  int width, height;
+  std::vector<vec3> positions, normals, light, base;
+  std::vector<float> depths, variance, levels;
+};
+
+// One in eight rays brings light: as noisy as a small window.
+constexpr float kLitShare = 0.125f;
+vec3 one_in_eight(float u) {
+  return u < kLitShare ? vec3(1.0f / kLitShare, 0.5f / kLitShare, 0.25f / kLitShare) : vec3(0.0f);
+}
+
+/// Mean of red, and the standard deviation from a known value.
+struct Spread {
+  double mean = 0.0, deviation = 0.0;
+};
+Spread spread_of(const std::vector<vec3>& light, double known) {
+  Spread spread;
+  for (const vec3& e : light) {
+    spread.mean += e.x / static_cast<double>(light.size());
+    spread.deviation += (e.x - known) * (e.x - known) / static_cast<double>(light.size());
+  }
+  spread.deviation = std::sqrt(spread.deviation);
+  return spread;
+}
+
+TEST(Denoise, TakesNoiseOffAndKeepsTheMean) {
+  Wall wall(160, 120);
+  wall.set_light([](int, int, float u) { return one_in_eight(u); });
+  const Spread before = spread_of(wall.light, 1.0), after = spread_of(wall.filtered(), 1.0);
+  EXPECT_GT(before.deviation, 2.0);
+  EXPECT_LT(after.deviation, 0.12);
+  EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
+}
+
+TEST(Denoise, LeavesLightWithoutNoiseAsItIs) {
+  Wall wall(70, 40);
+  wall.set_light(
+      [](int x, int y, float) { return vec3(x > 30 ? 2.0f : 0.5f, y > 17 ? 1.0f : 3.0f, 1.0f); });
+  wall.variance.assign(wall.light.size(), 0.0f);
+  DenoiseSettings settings = emitter_denoising();
+  const std::vector<vec3> filtered = wall.filtered(settings);
+  for (int y = 0; y < wall.height; ++y) {
+    for (int x = 0; x < wall.width; ++x) {
+      // The first pass knows no light and takes in the next pixel
+      if (std::abs(x - 30) <= 2 || std::abs(y - 17) <= 2) continue;
+      EXPECT_NEAR(filtered[wall.at(x, y)].x, wall.light[wall.at(x, y)].x, 1e-4f) << x << " " << y;
+    }
+  }
+}
+
+TEST(Denoise, WithLevelsLeavesLightWithoutNoiseAsItIsUpToItsEdges) {
+  Wall wall(70, 40);
+  wall.set_light([](int x, int, float) { return vec3(x > 30 ? 1.0f : 0.25f); });
+  wall.variance.assign(wall.light.size(), 0.0f);
+  wall.levels.assign(wall.light.size(), 2.0f);
+  const std::vector<vec3> filtered = wall.filtered(emitter_denoising());
+  for (std::size_t i = 0; i < filtered.size(); ++i) {
+    EXPECT_NEAR(filtered[i].x, wall.light[i].x, 1e-5f) << i;
+  }
+}
+
+TEST(Denoise, KeepsGradientsNearLampsThatAreInTheLevels) {
+  // A lamp two pixels above the wall, half of whose light is occluded
+  Wall wall(96, 64);
+  std::vector<float> lamp;
+  for (int y = 0; y < wall.height; ++y) {
+    for (int x = 0; x < wall.width; ++x) {
+      const auto u = static_cast<float>(x - 48), v = static_cast<float>(y - 32);
+      lamp.push_back(16.0f / ((u * u + v * v + 4.0f) * (u * u + v * v + 4.0f)));
+    }
+  }
+  RandomStream random = make_random_stream(5, 6, 7);
+  for (vec3& e : wall.light) e = vec3(next_uniform(random));  // of what is sent, 0.5 on average
+  wall.variance.assign(wall.light.size(), 1.0f / 12.0f);
+  Wall plain = wall;
+  wall.levels = lamp;
+  for (std::size_t i = 0; i < lamp.size(); ++i) {
+    plain.light[i] *= lamp[i];
+    plain.variance[i] *= lamp[i] * lamp[i];
+  }
+  const std::vector<vec3> by_levels = wall.filtered(emitter_denoising());
+  const std::vector<vec3> without = plain.filtered(emitter_denoising());
+  double error = 0.0, error_without = 0.0;
+  for (std::size_t i = 0; i < lamp.size(); ++i) {
+    error += std::pow(lamp[i] * by_levels[i].x - 0.5f * lamp[i], 2.0);
+    error_without += std::pow(without[i].x - 0.5f * lamp[i], 2.0);
+  }
+  EXPECT_LT(error, 0.4 * error_without);
+}
+
+TEST(Denoise, TakesLittleFromWhereTheLevelIsFarLower) {
+  // To the left next to nothing arrives, and chance says three times as much
+  Wall wall(64, 48);
+  wall.levels.assign(wall.light.size(), 1.0f);
+  wall.set_light([](int x, int, float) { return vec3(x < 32 ? 3.0f : 1.0f); });
+  for (int y = 0; y < wall.height; ++y) {
+    for (int x = 0; x < 32; ++x) wall.levels[wall.at(x, y)] = 1e-3f;
+  }
+  DenoiseSettings blind = emitter_denoising();
+  blind.blind_passes = blind.passes;
+  const std::vector<vec3> filtered = wall.filtered(blind);
+  for (int y = 0; y < wall.height; ++y) {
+    EXPECT_NEAR(filtered[wall.at(32, y)].x, 1.0f, 0.01f);
+    // The other way round it counts fully
+    EXPECT_LT(filtered[wall.at(31, y)].x, 2.5f);
+  }
+}
+
+TEST(Denoise, KeepsLightOfOneSurfaceFromAnother) {
+  // A step in depth, a corner, and a hole that shows nothing
+  Wall wall(96, 64);
+  for (int y = 0; y < wall.height; ++y) {
+    for (int x = 0; x < wall.width; ++x) {
+      const std::size_t i = wall.at(x, y);
+      if (x >= 32) wall.positions[i].z -= 0.1f;
+      if (x >= 64) wall.normals[i] = vec3(1.0f, 0.0f, 0.0f);
+      if (x < 10 && y < 10) wall.depths[i] = 0.0f;
+    }
+  }
+  wall.set_light(
+      [](int x, int, float u) { return x >= 32 && x < 64 ? one_in_eight(u) : vec3(0.0f); });
+  wall.light[0] = vec3(7.0f);
+  const std::vector<vec3> filtered = wall.filtered();
+  for (int y = 0; y < wall.height; ++y) {
+    for (int x = 0; x < wall.width; ++x) {
+      const float red = filtered[wall.at(x, y)].x;
+      if (x == 0 && y == 0) {
+        EXPECT_EQ(red, 7.0f);
+      } else if (x < 32 || x >= 64) {
+        EXPECT_EQ(red, 0.0f) << x << " " << y;
+      } else {
+        EXPECT_GT(red, 0.3f);
+      }
+    }
+  }
+}
+
+TEST(Denoise, AddsTheDetailOfTheBase) {
+  Wall wall(80, 60);
+  wall.base.resize(wall.light.size());
+  const auto detail = [](int x, int y) {
+    return vec3(1.0f + 0.5f * static_cast<float>((x + y) % 2));
+  };
+  wall.set_light([&](int x, int y, float u) {
+    wall.base[wall.at(x, y)] = detail(x, y);
+    return detail(x, y) - 0.5f + one_in_eight(u) * 0.25f;
+  });
+  const std::vector<vec3> filtered = wall.filtered();
+  const Spread all = spread_of(filtered, 0.0);
+  double step = 0.0;
+  for (int x = 20; x < 60; x += 2) {
+    step += (filtered[wall.at(x + 1, 30)].x - filtered[wall.at(x, 30)].x) / 20.0;
+  }
+  EXPECT_NEAR(all.mean, 1.0, 0.05);
+  // Light is 0.8 of the base, and its detail so much fainter
+  EXPECT_NEAR(step, 0.5 * 0.8, 0.05);
+}
+
+TEST(Denoise, KeepsAnEdgeOfLightThatStandsOutFromTheNoise) {
+  Wall wall(128, 64);
+  constexpr float kNoise = 0.1f;
+  wall.set_light([](int x, int, float u) {
+    return vec3((x >= 64 ? 2.0f : 1.0f) + kNoise * std::sqrt(12.0f) * (u - 0.5f));
+  });
+  wall.variance.assign(wall.light.size(), kNoise * kNoise);
+  const std::vector<vec3> filtered = wall.filtered(emitter_denoising());
+  for (int y = 20; y < 44; ++y) {
+    EXPECT_NEAR(filtered[wall.at(60, y)].x, 1.0f, 0.06f);
+    EXPECT_NEAR(filtered[wall.at(67, y)].x, 2.0f, 0.06f);
+  }
+}
+
+TEST(Denoise, FiltersAPartWithItsSurroundingsAsItDoesTheWhole) {
+  Wall whole(40, 200), part(40, 150);
+  whole.set_light([](int, int, float u) { return one_in_eight(u); });
+  const DenoiseSettings settings;
+  ASSERT_EQ(denoise_reach(settings), 63);
+  constexpr int kFirst = 30;  // row of the whole that the part begins with
+  for (std::size_t i = 0; i < part.light.size(); ++i) {
+    const std::size_t of_whole = i + static_cast<std::size_t>(kFirst * whole.width);
+    part.light[i] = whole.light[of_whole];
+    part.positions[i] = whole.positions[of_whole];
+  }
+  const std::vector<vec3> expected = whole.filtered(), filtered = part.filtered();
+  for (int y = 63; y < part.height - 63; ++y) {
+    for (int x = 0; x < part.width; ++x) {
+      EXPECT_EQ(filtered[part.at(x, y)], expected[whole.at(x, y + kFirst)]);
+    }
+  }
+}
+
+TEST(Denoise, GivesTheSameBitsWhateverItFilteredBefore) {
+  Wall wall(50, 30), other(77, 41);
+  wall.set_light([](int, int, float u) { return one_in_eight(u); });
+  other.set_light([](int, int, float u) { return vec3(100.0f * u); });
+  Denoiser denoiser;
+  std::vector<vec3> expected(wall.light.size()), again(wall.light.size()),
+      between(other.light.size());
+  ASSERT_TRUE(denoiser.filter(wall.view(), {wall.light, {}, {}}, {}, expected));
+  ASSERT_TRUE(denoiser.filter(other.view(), {other.light, {}, {}}, {}, between));
+  ASSERT_TRUE(denoiser.filter(wall.view(), {wall.light, {}, {}}, {}, again));
+  EXPECT_EQ(expected, again);
+}
+
+TEST(Denoise, RefusesWhatIsOutOfRange) {
+  const auto refused = [](auto change) {
+    DenoiseSettings settings;
+    change(settings);
+    const Expected<void> fine = check(settings);
+    return fine ? "" : fine.error().place;
+  };
+  EXPECT_EQ(refused([](DenoiseSettings&) {}), "");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.passes = 7; }), "denoise passes");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.blind_passes = 0; }), "blind passes");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.blind_passes = 7; }), "blind passes");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.normal_sharpness = -1.0f; }), "normal sharpness");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.plane_tolerance = 0.0f; }), "plane tolerance");
+  EXPECT_EQ(refused([](DenoiseSettings& s) { s.noise_tolerance = NAN; }), "noise tolerance");
+
+  const Wall wall(8, 8);
+  std::vector<vec3> result(wall.light.size()), too_few(63);
+  EXPECT_FALSE(Denoiser().filter(wall.view(), {wall.light, {}, {}}, {}, too_few));
+  EXPECT_FALSE(Denoiser().filter(wall.view(), {wall.light, too_few, {}}, {}, result));
+  EXPECT_FALSE(Denoiser().filter({}, {{}, {}, {}}, {}, {}));
+}
+
+}  // namespace
+}  // namespace lambent

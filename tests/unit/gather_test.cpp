@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "gather/gather.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compose/gbuffer.h"
+#include "gather/gather_math.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+TEST(Gather, HilbertsCurveGoesFromPixelToNeighbourAndMeetsEachOnce) {
+  constexpr uint kSide = 64;
+  std::vector<ivec2> places(kSide * kSide, ivec2(-1));
+  for (uint y = 0; y < kSide; ++y) {
+    for (uint x = 0; x < kSide; ++x) {
+      const uint index = hilbert_index(x, y);
+      ASSERT_LT(index, kSide * kSide);
+      EXPECT_EQ(places[index], ivec2(-1));
+      places[index] = ivec2(static_cast<int>(x), static_cast<int>(y));
+    }
+  }
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const ivec2 step = glm::abs(places[i] - places[i - 1]);
+    EXPECT_EQ(step.x + step.y, 1) << i;
+  }
+}
+
+/// Cells of a grid of n x n that hold one of the points.
+std::size_t cells_met(const std::vector<vec2>& points, int n) {
+  std::set<int> cells;
+  for (const vec2& p : points) {
+    cells.insert(static_cast<int>(p.y * static_cast<float>(n)) * n +
+                 static_cast<int>(p.x * static_cast<float>(n)));
+  }
+  return cells.size();
+}
+
+TEST(Gather, RaysCoverTheHemisphereInSpaceAndInTime) {
+  // Points at random meet 63 % of as many cells
+  constexpr std::size_t kEnough = 52;
+  for (const uint seed : {1u, 2u, 77u}) {
+    std::vector<vec2> of_block, of_time, of_pixel;
+    for (uint i = 0; i < 64; ++i) {
+      of_block.push_back(gather_point(8 + i % 8, 40 + i / 8, 0, 1, 3, seed));
+      of_time.push_back(gather_point(13, 7, 0, 1, i, seed));
+      of_pixel.push_back(gather_point(13, 7, i, 64, 0, seed));
+    }
+    EXPECT_GE(cells_met(of_block, 8), kEnough);
+    EXPECT_GE(cells_met(of_time, 8), kEnough);
+    EXPECT_GE(cells_met(of_pixel, 8), kEnough);
+  }
+}
+
+TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
+  const test::Stage stage("cornell");
+  FieldSettings settings;
+  settings.probe_count = glm::ivec3(4);
+  const IrradianceField field = test::make_field(stage, settings, 2);
+  FrameSettings frame;
+  frame.width = 40;
+  frame.height = 40;
+  GBuffer gbuffer;
+  trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
+  GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 8};
+  GatheredLight whole, apart;
+  gather_irradiance(stage.world, field, request, whole);
+  EXPECT_TRUE(whole.excess.empty());
+  // What the field knows is made so dark that many rays are far brighter
+  const std::vector<vec3> known(gbuffer.size(), vec3(0.005f));
+  request.known = known;
+  gather_irradiance(stage.world, field, request, apart);
+  vec3 kept(0.0f), excess(0.0f), all(0.0f);
+  for (std::size_t i = 0; i < gbuffer.size(); ++i) {
+    EXPECT_LE(luminance(apart.irradiance[i]), kBrightestRay * 0.005f * 1.001f);
+    kept += apart.irradiance[i];
+    excess += apart.excess[i];
+    all += whole.irradiance[i];
+  }
+  EXPECT_GT(luminance(excess), 0.1f * luminance(all));
+  EXPECT_NEAR(luminance(kept + excess), luminance(all), 1e-4f * luminance(all));
+}
+
+TEST(Gather, TellsHowNoisyItsLightIs) {
+  const test::Stage stage("cornell");
+  FieldSettings settings;
+  settings.probe_count = glm::ivec3(4);
+  const IrradianceField field = test::make_field(stage, settings, 2);
+  FrameSettings frame;
+  frame.width = 24;
+  frame.height = 24;
+  GBuffer gbuffer;
+  trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
+  GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 16};
+  // Compare what one gather says with how much gathers of other samples differ
+  constexpr uint kGathers = 12;
+  std::vector<float> sums(gbuffer.size()), squares(gbuffer.size());
+  double said = 0.0, seen = 0.0;
+  GatheredLight light;
+  for (request.sample = 0; request.sample < kGathers; ++request.sample) {
+    gather_irradiance(stage.world, field, request, light);
+    for (std::size_t i = 0; i < gbuffer.size(); ++i) {
+      const float level = luminance(light.irradiance[i]);
+      sums[i] += level;
+      squares[i] += level * level;
+      said += light.variance[i] / kGathers;
+    }
+  }
+  for (std::size_t i = 0; i < gbuffer.size(); ++i) {
+    seen += (squares[i] - sums[i] * sums[i] / kGathers) / (kGathers - 1);
+  }
+  // Points that cover the hemisphere evenly are less noisy than independent ones
+  EXPECT_LT(seen, said);
+  EXPECT_GT(seen, 0.1 * said);
+  request.rays_per_pixel = 1;
+  gather_irradiance(stage.world, field, request, light);
+  EXPECT_TRUE(light.variance.empty());
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "glossy/glossy_math.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace lambent {
+namespace {
+
+bool is_number(const vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+TEST(CoatSums, OfTheSmallestWeightsAreNumbers) {
+  CoatReceiver at{};
+  at.lobe.normal_ws = at.lobe.geometric_normal_ws = at.lobe.to_viewer_ws = vec3(0.0f, 0.0f, 1.0f);
+  at.lobe.alpha = 0.1f;
+  for (const float weight : {1e-10f, 1e-20f, 1e-38f, 1e-45f}) {
+    CoatSums sums{};
+    sums.light = vec3(weight);
+    sums.weight = weight;
+    sums.fitting = kRaysOfMean;
+    sums.pixels = kLeastPixelWeight;
+    const vec3 light = reflected_rays(at, sums);
+    EXPECT_TRUE(is_number(light)) << weight;
+    EXPECT_GE(light.x, 0.0f) << weight;
+  }
+}
+
+TEST(CoatDirection, IsADirectionForARoughnessThatRoundingLiftsAboveOne) {
+  const vec3 normal(0.0f, 0.0f, 1.0f), to_viewer = normalize(vec3(1.0f, 0.0f, 1.0f));
+  const vec3 direction = coat_direction(normal, to_viewer, 1.0f + 1e-6f);
+  EXPECT_TRUE(is_number(direction));
+  EXPECT_NEAR(glm::distance(direction, normal), 0.0f, 1e-5f);
+}
+
+}  // namespace
+}  // namespace lambent

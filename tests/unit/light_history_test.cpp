@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light averaged over frames.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/image/metrics.h"
+#include "denoise/history_math.h"
+#include "lambent/renderer.h"
+#include "support/field_scenes.h"
+
+namespace lambent {
+namespace {
+
+/// A world that may be edited, and a field that stays as it was.
+struct EditedStage {
+  explicit EditedStage(const std::string& name) : scene(scenes::make(name).value()), world(scene) {
+    FieldSettings settings;
+    settings.probe_count = glm::ivec3(4);
+    settings.rays_per_probe = 64;
+    field.emplace(*IrradianceField::make(settings, open_bounds(world)));
+    for (int i = 0; i < 3; ++i) field->update(world);
+  }
+  Scene scene;
+  World world;
+  std::optional<IrradianceField> field;
+};
+
+FrameSettings averaging(int frames) {
+  FrameSettings settings = quality_settings(Quality::interactive);
+  settings.width = 64;
+  settings.height = 48;
+  settings.averaged_frames = frames;
+  return settings;
+}
+
+double error_of(const RenderedFrame& frame, const RenderedFrame& truth, const char* layer) {
+  return compare_images(*frame.image.find(layer), *truth.image.find(layer),
+                        {.block = 4, .perceptual = false})
+      .value()
+      .relative_rmse;
+}
+
+/// The picture after so many others of the same camera, of which `kept` at the end are averaged.
+RenderedFrame after(const EditedStage& stage, const Camera& camera, int others, int frames) {
+  Renderer renderer(stage.world, {.field = &*stage.field});
+  for (int i = 0; i < others; ++i) renderer.render(camera, averaging(frames)).value();
+  return renderer.render(camera, averaging(frames)).value();
+}
+
+class LightHistoryTest : public ::testing::Test {
+ protected:
+  const Camera& camera() const { return stage.scene.cameras.at(0); }
+  RenderedFrame truth_from(const Camera& from) const {
+    FrameSettings settings = averaging(1);
+    settings.denoise = false;
+    settings.gather_rays = settings.emissive_samples = 256;
+    Renderer renderer(stage.world, {.field = &*stage.field});
+    return renderer.render(from, settings).value();
+  }
+
+  EditedStage stage{"cornell"};
+};
+
+TEST_F(LightHistoryTest, AveragesNoiseAwayWhereNothingMoves) {
+  const RenderedFrame truth = truth_from(camera());
+  const RenderedFrame first = after(stage, camera(), 0, 10), later = after(stage, camera(), 15, 10);
+  // Direct light has less noise to lose, beside what the filter blurs
+  EXPECT_LT(error_of(later, truth, "irradiance"), 0.75 * error_of(first, truth, "irradiance"));
+  EXPECT_LT(error_of(later, truth, "direct"), 0.9 * error_of(first, truth, "direct"));
+}
+
+TEST_F(LightHistoryTest, FollowsSurfacesThatTheCameraPasses) {
+  // Walk along the box, and compare the last picture with one that has no history
+  Camera moved = camera();
+  Renderer renderer(stage.world, {.field = &*stage.field});
+  Renderer without(stage.world, {.field = &*stage.field});
+  RenderedFrame averaged, single;
+  for (int i = 0; i < 12; ++i) {
+    moved.world_from_view[3].x += 0.004f;
+    averaged = renderer.render(moved, averaging(10)).value();
+    single = without.render(moved, averaging(1)).value();
+  }
+  const RenderedFrame truth = truth_from(moved);
+  EXPECT_LT(error_of(averaged, truth, "irradiance"), 0.85 * error_of(single, truth, "irradiance"));
+  EXPECT_LT(error_of(averaged, truth, "direct"), error_of(single, truth, "direct"));
+}
+
+TEST_F(LightHistoryTest, ForgetsLightOnceTheWorldHasChanged) {
+  Renderer averaged(stage.world, {.field = &*stage.field});
+  Renderer forgetful(stage.world, {.field = &*stage.field});
+  for (int i = 0; i < 4; ++i) {
+    averaged.render(camera(), averaging(10)).value();
+    // One that averages nothing has no history
+    forgetful.render(camera(), averaging(1)).value();
+  }
+  for (Material& material : stage.scene.materials) material.emission *= 0.1f;
+  ASSERT_TRUE(stage.world.update());
+  const RenderedFrame a = averaged.render(camera(), averaging(10)).value();
+  const RenderedFrame b = forgetful.render(camera(), averaging(10)).value();
+  EXPECT_EQ(a.image.find("")->pixels, b.image.find("")->pixels);
+}
+
+TEST_F(LightHistoryTest, RefusesPicturesInPartsOrOfManySamples) {
+  const auto refused = [&](auto change) {
+    FrameSettings settings = averaging(4);
+    change(settings);
+    const Expected<void> fine = check(settings);
+    return fine ? "" : fine.error().place;
+  };
+  EXPECT_EQ(refused([](FrameSettings&) {}), "");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.averaged_frames = 0; }), "averaged frames");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.averaged_frames = 1001; }), "averaged frames");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.samples = 2; }), "averaged frames");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.denoise = false; }), "averaged frames");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.rows = 4; }), "averaged frames");
+}
+
+/// A picture of 4 x 3 pixels whose right half is farther away, and whose last row faces another
+/// way.
+struct SmallFrame {
+  float fetch_depth_before(int pixel) const { return pixel % 4 < 2 ? 1.0f : 2.0f; }
+  vec3 fetch_normal_before(int pixel) const {
+    return pixel / 4 < 2 ? vec3(0.0f, 0.0f, 1.0f) : vec3(1.0f, 0.0f, 0.0f);
+  }
+
+#include "denoise/history.inl.h"
+};
+
+TEST(LightHistoryMath, FindsTheSameSurfaceAndNoOther) {
+  const ivec2 size(4, 3);
+  const vec3 facing(0.0f, 0.0f, 1.0f);
+  SmallFrame frame;
+  const auto taps_at = [&](vec2 place, float depth) {
+    return frame.history_taps(size, place, depth, 0.01f, facing);
+  };
+  // In the middle of a pixel there is that pixel alone
+  const HistoryTaps exact = taps_at(vec2(1.5f, 1.5f), 1.0f);
+  EXPECT_EQ(exact.pixels[0], 5);
+  EXPECT_EQ(exact.weights[0], 1.0f);
+  // Between four, all count; at an edge of depth or of normals those of the surface
+  const HistoryTaps four = taps_at(vec2(1.0f, 1.0f), 1.0f);
+  for (const float weight : four.weights) EXPECT_FLOAT_EQ(weight, 0.25f);
+  const HistoryTaps edge = taps_at(vec2(2.0f, 2.0f), 2.0f);
+  EXPECT_FLOAT_EQ(edge.weights[1], 1.0f);
+  EXPECT_EQ(edge.pixels[1], 6);
+  // Nothing is left of another surface, and outside
+  EXPECT_FALSE(is_history(taps_at(vec2(1.5f, 1.5f), 1.5f)));
+  EXPECT_FALSE(is_history(taps_at(vec2(0.5f, 2.5f), 1.0f)));
+  EXPECT_FALSE(is_history(taps_at(vec2(-3.0f, 1.0f), 1.0f)));
+}
+
+TEST(LightHistoryMath, AveragesVarianceAsThatOfAMean) {
+  float variance = 2.0f, frames = 1.0f;
+  for (int i = 1; i < 8; ++i) {
+    frames = averaged_frames(frames, 100.0f);
+    variance = averaged_variance(variance, 2.0f, frames);
+    EXPECT_NEAR(variance, 2.0f / frames, 1e-5f);
+  }
+  EXPECT_EQ(averaged_frames(10.0f, 10.0f), 10.0f);
+}
+
+}  // namespace
+}  // namespace lambent

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a scene's open space ends, for viewers inside and outside.
+#include <gtest/gtest.h>
+
+#include <glm/gtc/constants.hpp>
+
+#include "lambent/field.h"
+#include "lambent/world.h"
+#include "support/box_scenes.h"
+#include "support/field_scenes.h"
+#include "support/hand_made.h"
+
+namespace lambent {
+namespace {
+
+using glm::vec3;
+using test::box_mesh;
+using test::scene_of;
+
+/// Inner and outer reach of the walls of a room around the origin [m].
+constexpr float kInside = 2.5f, kOutside = 2.7f;
+
+Scene room() {
+  Scene scene = scene_of({box_mesh(vec3(-kOutside), vec3(kOutside)),
+                          box_mesh(vec3(-kInside), vec3(kInside), /*inwards=*/true)});
+  scene.lights.push_back(test::point_light(vec3(10.0f), vec3(0.2f, 0.1f, 0.3f)));
+  return scene;
+}
+
+TEST(OpenBounds, EndAtTheInsidesOfARoomsWalls) {
+  const Scene scene = room();
+  const World world(scene);
+  for (const Bounds& open : {open_bounds(world), open_bounds(world, vec3(1.0f, 0.0f, -2.0f))}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_NEAR(open.min[axis], -kInside, 1e-3f);
+      EXPECT_NEAR(open.max[axis], kInside, 1e-3f);
+    }
+  }
+}
+
+TEST(OpenBounds, ReachOutOfTheWallsThatAViewerFaces) {
+  const Scene scene = room();
+  const World world(scene);
+  const Bounds open = open_bounds(world, vec3(9.0f, 0.5f, -8.0f));
+  EXPECT_GT(open.max.x, kOutside + 0.1f);
+  EXPECT_LT(open.min.z, -kOutside - 0.1f);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis != 2) {
+      EXPECT_NEAR(open.min[axis], -kInside, 1e-3f) << axis;
+    }
+    if (axis != 0) {
+      EXPECT_NEAR(open.max[axis], kInside, 1e-3f) << axis;
+    }
+  }
+}
+
+// The wall is a single sheet, seen by air on both sides; nothing but the sky is in front of it.
+TEST(FieldLight, IsTheSkysOnTheOutsideOfARoomThatIsSeenFromThere) {
+  constexpr float kRadiance = 0.7f, kTolerance = 0.03f;
+  Scene scene = scene_of({box_mesh(vec3(-kInside), vec3(kInside), /*inwards=*/true)});
+  scene.lights.push_back(test::point_light(vec3(10.0f), vec3(0.2f, 0.1f, 0.3f)));
+  scene.environment.radiance = vec3(kRadiance);
+  const World world(scene);
+  const Bounds bounds = open_bounds(world, vec3(9.0f, 0.0f, 0.0f));
+  FieldSettings settings;
+  settings.probe_count = glm::ivec3(7);
+  IrradianceField field = IrradianceField::make(settings, bounds).value();
+  for (int i = 0; i < 4; ++i) field.update(world);
+  const FieldQuery on_wall{vec3(kInside, 0.3f, -0.6f), vec3(1.0f, 0.0f, 0.0f),
+                           vec3(1.0f, 0.0f, 0.0f)};
+  vec3 found(0.0f);
+  field.irradiance({&on_wall, 1}, {&found, 1});
+  const float expected = glm::pi<float>() * kRadiance;
+  EXPECT_NEAR(found.y, expected, kTolerance * expected);
+}
+
+}  // namespace
+}  // namespace lambent
