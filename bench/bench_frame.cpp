@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A whole frame by passes.
 #include <map>
-#include <stdexcept>
 
+#include "bench/stage.h"
 #include "bench/workload.h"
 #include "lambent/renderer.h"
 
@@ -24,7 +24,7 @@ void frame(benchmark::State& state) {
     Expected<void> done;
     const double elapsed =
         time_ms([&] { done = renderer.render(work.camera, settings, rendered); });
-    if (!done) throw std::runtime_error(done.error().message());
+    value_or_throw(done);
     state.SetIterationTime(elapsed * 1e-3);
     ms.add(elapsed);
     for (const PassTime& pass : rendered.passes) passes[pass.name].add(pass.ms);

@@ -5,9 +5,9 @@
 // otherwise.
 #include <array>
 #include <map>
-#include <stdexcept>
 
 #include "bench/rsm_workload.h"
+#include "bench/stage.h"
 #include "bench/workload.h"
 
 namespace lambent::bench {
@@ -26,7 +26,7 @@ struct Variant {
   explicit Variant(const RsmSettings& chosen) : settings(chosen) {}
   void run(const RsmWorkload& work) {
     const auto done = gatherer.gather(workload().world, work.maps, work.view(), settings, result);
-    if (!done) throw std::runtime_error(done.error().message());
+    value_or_throw(done);
     double sum = 0.0;
     for (const PassTime& pass : result.passes) {
       passes[pass.name].add(pass.ms);

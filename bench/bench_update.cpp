@@ -18,7 +18,8 @@ void update(benchmark::State& state) {
   Workload& work = workload();
   std::vector<Hit> hits;
   std::vector<std::uint8_t> occluded;
-  Median update_ms, tracing_ms, ratio, blend, solve_bounces, trace, shade, solve_iterations;
+  Median update_ms, tracing_ms, ratio, blend, solve_bounces, trace, shade, corrections;
+  Median solve_iterations;
   UpdateStatistics last;
   for (auto _ : state) {
     const UpdateRays rays = record_update_rays(work, work.field.updates());
@@ -37,6 +38,7 @@ void update(benchmark::State& state) {
     solve_bounces.add(last.ms("solve") / last.solve_iterations / tracing);
     trace.add(last.ms("trace") / tracing);
     shade.add((last.ms("shade") + last.ms("lookups")) / tracing);
+    corrections.add(last.ms("corrections") / tracing);
     solve_iterations.add(last.solve_iterations);
   }
   state.counters["median_ms"] = update_ms.value();
@@ -46,6 +48,7 @@ void update(benchmark::State& state) {
   state.counters["shade_share_of_tracing"] = shade.value();
   state.counters["blend_share_of_tracing"] = blend.value();
   state.counters["solve_iteration_share_of_tracing"] = solve_bounces.value();
+  state.counters["corrections_share_of_tracing"] = corrections.value();
   state.counters["solve_iterations"] = solve_iterations.value();
   state.counters["probe_rays"] = static_cast<double>(last.probe_rays);
   state.counters["shadow_rays"] = static_cast<double>(last.shadow_rays);

@@ -129,12 +129,4 @@ double time_occlusions(const Workload& work, std::span<const Ray> rays,
   });
 }
 
-double Median::value() const {
-  if (values_.empty()) return 0.0;
-  std::vector<double> sorted = values_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
-}
-
 }  // namespace lambent::bench

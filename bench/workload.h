@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/median.h"
 #include "field/transport/surfels.h"
 #include "lambent/field.h"
 #include "lambent/scene.h"
@@ -66,16 +67,5 @@ double time_ms(Body body) {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
       .count();
 }
-
-/// Numbers of repetitions; a counter of a benchmark shows their median, which one repetition that
-/// another program disturbed does not move.
-class Median {
- public:
-  void add(double value) { values_.push_back(value); }
-  double value() const;
-
- private:
-  std::vector<double> values_;
-};
 
 }  // namespace lambent::bench

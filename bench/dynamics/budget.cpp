@@ -14,7 +14,8 @@ constexpr int kPixels = 64;
 constexpr int kSeenPixels = 37;
 constexpr int kReferenceSamples = 1024;
 
-// Errors to reach, and how long that may take: updates, and times the rays that uniform took.
+// Errors to reach, and after how many updates, or how many times the rays of the uniform schedule,
+// a schedule is given up that has not.
 constexpr std::array kTargets = {0.08, 0.04, 0.03};
 constexpr int kMaxUpdateCount = 400;
 constexpr std::uint64_t kMaxTimes = 2;

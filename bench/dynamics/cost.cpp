@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What updates cost beside one another.
-#include <algorithm>
 #include <cstdio>
 
 #include "bench/dynamics/subject.h"
+#include "bench/median.h"
 #include "core/stopwatch.h"
 
 namespace lambent::dynamics {
@@ -12,19 +12,14 @@ namespace {
 constexpr int kUpdatesBefore = 4;
 constexpr int kRepetitions = 15;
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 void compare_costs(const std::string& name, const std::string& label, FieldSettings settings) {
   Subject subject(name, settings);
   for (int i = 0; i < kUpdatesBefore; ++i) subject.field.update(subject.world);
-  std::vector<double> full, lights_only;
+  bench::Median full, lights_only;
   for (int i = 0; i < kRepetitions; ++i) {
     Stopwatch watch;
     subject.field.update(subject.world);
-    full.push_back(watch.lap());
+    full.add(watch.lap());
   }
   for (int i = 0; i < kRepetitions; ++i) {
     // Up and down in turn; the update after an edit that follows no other traces no probe ray
@@ -34,11 +29,11 @@ void compare_costs(const std::string& name, const std::string& label, FieldSetti
     subject.apply_edits();
     Stopwatch watch;
     subject.field.update(subject.world);
-    lights_only.push_back(watch.lap());
+    lights_only.add(watch.lap());
     // Traces every probe, and so ends the row of edits
     subject.field.update(subject.world);
   }
-  std::printf("| %s | %.2f |\n", label.c_str(), median(lights_only) / median(full));
+  std::printf("| %s | %.2f |\n", label.c_str(), lights_only.value() / full.value());
 }
 
 }  // namespace
@@ -71,14 +66,14 @@ void measure_growth() {
     for (std::uint64_t rays = 0; rays < 33ull * house.field.probes(); rays += kBudget) {
       house.field.update(house.world, request);
     }
-    std::vector<double> ms;
+    bench::Median ms;
     for (int i = 0; i < kFrames; ++i) {
       Stopwatch watch;
       house.field.update(house.world, request);
-      ms.push_back(watch.lap());
+      ms.add(watch.lap());
     }
-    if (first == 0.0) first = median(ms);
-    std::printf("| %d | %.1f | %.2f |\n", house.field.probes(), median(ms), median(ms) / first);
+    if (first == 0.0) first = ms.value();
+    std::printf("| %d | %.1f | %.2f |\n", house.field.probes(), ms.value(), ms.value() / first);
   }
 }
 

@@ -17,7 +17,7 @@ constexpr int kTruthRays = 256;
 // A probe changes where its mean light does by so much.
 constexpr double kChange = 0.01;
 
-/// Mean luminance of each probe's tile.
+/// Mean of each probe's irradiance over its tile and the channels.
 std::vector<double> probe_light(const IrradianceField& field) {
   const ProbeStore& store = store_of(field);
   const int edge = store.irradiance_texels();
@@ -68,7 +68,8 @@ void measure_house() {
     house.scene.lights[edit.lamp].intensity *= edit.factor;
     house.apply_edits();
     house.field.update(house.world);
-    // A budget of one ray has nothing traced, but open air follow, probe by probe
+    // A budget of one ray pays for no probe; stale ones in open air, which are free, go on
+    // following
     while (house.field.update(house.world, {.ray_budget = 1}).probes_invalidated > 0) continue;
     const std::vector<double> after = probe_light(house.field);
     const std::vector<double> true_after = true_light(house);

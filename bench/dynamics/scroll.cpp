@@ -80,7 +80,7 @@ void walk(const std::string& name, float spacing) {
   for (int i = 0; i < kSettledUpdates; ++i) update(0);
   for (int i = 0; i < kSettledUpdates; ++i) update(kSettlingBudget);
 
-  // In each frame the volumes move first; a budget of no probe has nothing traced
+  // In each frame the volumes move first, with a budget that pays for no probe
   Changes scrolls, moves, traces, standing;
   Watched watched(subject);
   for (int frame = -kStandingFrames; frame < kFrames; ++frame) {

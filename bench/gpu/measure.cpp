@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bench/median.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "lambent/rsm.h"
@@ -17,26 +18,12 @@ namespace {
 // Frames before the first that counts: they make buffers and pipelines.
 constexpr int kWarmUp = 3;
 
-// Rays of a probe in an update: the talk's, and where there are twice as many probes (JCGT 8(2)
-// 2019).
+// Rays of a probe in an update: of McGuire's talk (GDC 2019), and where there are twice as many
+// probes (Majercik et al., JCGT 8(2), 2019).
 constexpr int kRays = 144, kRaysOfMany = 64;
 
 // A field that is updated a little in each frame traces this share of its rays.
 constexpr int kFramesAnUpdate = 8;
-
-class Median {
- public:
-  void add(double value) { values_.push_back(value); }
-  double value() const {
-    std::vector<double> sorted = values_;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return sorted.empty() ? 0.0 : *middle;
-  }
-
- private:
-  std::vector<double> values_;
-};
 
 /// What updates of a field take, pass by pass.
 struct UpdateTimes {
@@ -44,7 +31,8 @@ struct UpdateTimes {
 
   void add(const UpdateStatistics& update) {
     trace.add(update.ms("trace"));
-    shade.add(update.ms("shade") + update.ms("visibility") + update.ms("lookups"));
+    shade.add(update.ms("shade") + update.ms("visibility") + update.ms("corrections") +
+              update.ms("lookups"));
     solve_bounces.add(update.ms("solve"));
     blend.add(update.ms("blend_distances") + update.ms("store"));
     place.add(update.ms("placement") + update.ms("edits"));
