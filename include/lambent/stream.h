@@ -87,12 +87,13 @@ class LightEncoder {
 /// Error and leaves the state as it was.
 class LightDecoder {
  public:
-  LightDecoder();
+  /// A field whose state would take more memory than this is refused.
+  explicit LightDecoder(std::size_t most_bytes = std::size_t{1} << 30u);
   ~LightDecoder();
   LightDecoder(LightDecoder&&) noexcept;
   LightDecoder& operator=(LightDecoder&&) noexcept;
 
-  /// Takes one message. Memory is bounded by what a field of the most probes takes.
+  /// Takes one message.
   Expected<void> receive(std::span<const std::byte> message);
 
   /// Whether there is no light yet, or a change was lost: only what LightEncoder::join returns
@@ -100,7 +101,7 @@ class LightDecoder {
   bool needs_key() const;
   /// The update whose light this is, from 1; 0: there is none yet.
   std::uint64_t update() const;
-  /// The version of the last geometry received; 0: none.
+  /// The number of the last geometry received, for LightEncoder::join; 0: none.
   std::uint64_t geometry() const;
 
   // All below are empty or 0 before the first key.
@@ -127,7 +128,7 @@ class LightDecoder {
 /// A field whose light comes from a stream: what a client renders its own world with.
 class StreamedField {
  public:
-  StreamedField();
+  explicit StreamedField(std::size_t most_bytes = std::size_t{1} << 30u);
   ~StreamedField();
   StreamedField(StreamedField&&) noexcept;
   StreamedField& operator=(StreamedField&&) noexcept;
