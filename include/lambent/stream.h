@@ -76,7 +76,6 @@ class LightEncoder {
   LightErrors errors() const;
 
  private:
-  friend class LightDecoder;
   struct State;
   explicit LightEncoder(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

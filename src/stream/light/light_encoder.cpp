@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <optional>
 
 #include "core/little_endian.h"
@@ -59,6 +60,11 @@ struct LightEncoder::State {
   float thrift = 1.0f;
   LightErrors errors;
 
+  // The last message of all of the geometry, without its header
+  mutable std::mutex whole_mutex;
+  mutable std::vector<std::byte> whole_body;
+  mutable std::uint64_t whole_version = 0;
+
   MessageHeader header(LightMessageKind kind, std::uint64_t update) const {
     return {kind, settings.stream, update, geometry_version};
   }
@@ -71,9 +77,14 @@ struct LightEncoder::State {
     light = LightState{};
   }
 
+  /// All of the geometry, for clients that have none. It is coded once, when the first needs it.
   LightMessage whole_geometry(std::uint64_t update) const {
-    return make_message(header(LightMessageKind::geometry, update),
-                        with_base(0, write_geometry(geometry)));
+    const std::scoped_lock lock(whole_mutex);
+    if (whole_version != geometry_version) {
+      whole_body = with_base(0, write_geometry(geometry));
+      whole_version = geometry_version;
+    }
+    return make_message(header(LightMessageKind::geometry, update), whole_body);
   }
 
   /// Tells of geometry that changed, if any.
