@@ -66,6 +66,15 @@ inline stream::FieldGeometry made_geometry(std::mt19937& random) {
                                   static_cast<std::uint8_t>(blank ? 0 : random() % 128)});
     }
   }
+  for (int i = 0; i < 9; ++i) {
+    stream::CodedCorrectionBlock& block = geometry.corrections.emplace_back();
+    block.key = correction_key({i / 3 - 1, 5 - i, i % 3}, i / 2, i % 3, i / 5);
+    for (stream::CodedCorrection& cell : block.cells) {
+      if (random() % 2 == 0) continue;
+      cell = {static_cast<std::uint8_t>(1 + random() % 63),
+              static_cast<std::uint8_t>(random() % 256), static_cast<std::uint8_t>(random() % 16)};
+    }
+  }
   return geometry;
 }
 

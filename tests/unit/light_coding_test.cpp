@@ -7,9 +7,12 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
+#include "core/files/file_bytes.h"
 #include "stream/light/geometry_coding.h"
+#include "support/light_fuzz.h"
 #include "support/light_states.h"
 
 namespace lambent::stream {
@@ -20,7 +23,11 @@ using ::testing::HasSubstr;
 constexpr std::size_t kPlenty = std::size_t{1} << 30;
 
 bool same_geometry(const FieldGeometry& a, const FieldGeometry& b) {
-  if (!a.same_kind(b) || a.offsets != b.offsets || a.states != b.states || a.moments != b.moments) {
+  if (!a.same_kind(b) || a.offsets != b.offsets || a.states != b.states || a.moments != b.moments ||
+      !std::equal(a.corrections.begin(), a.corrections.end(), b.corrections.begin(),
+                  b.corrections.end(), [](const auto& x, const auto& y) {
+                    return is_same_block(x.key, y.key) && x.cells == y.cells;
+                  })) {
     return false;
   }
   for (std::size_t v = 0; v < a.volumes.size(); ++v) {
@@ -150,7 +157,7 @@ TEST(LightGeometry, ComesBackAsItWas) {
 TEST(LightGeometry, ChangesAsItDidOnTheOtherSide) {
   std::mt19937 random(4);
   const FieldGeometry before = test::made_geometry(random);
-  FieldGeometry now = before, client = before;
+  FieldGeometry now = before;
   now.volumes[0].grid.scroll = {0, 1, 1};
   now.volumes[0].grid.origin_ws.x += 0.5f;
   const std::vector<int> probes = {0, 1, 9, 30, 31};
@@ -161,13 +168,17 @@ TEST(LightGeometry, ChangesAsItDidOnTheOtherSide) {
       now.moments[probe * now.tile() + t].mean = static_cast<std::uint8_t>(1 + random() % 255);
     }
   }
-  const std::vector<std::byte> body = write_changes(before, now, probes);
-  std::vector<int> read;
-  const Expected<void> fine = read_changes(body, client, read);
-  ASSERT_TRUE(fine) << fine.error().message();
-  EXPECT_EQ(read, probes);
-  EXPECT_TRUE(same_geometry(client, now));
-  EXPECT_LT(body.size(), write_geometry(now).size() / 2);
+  for (const bool corrected : {false, true}) {
+    if (corrected) now.corrections.pop_back();
+    FieldGeometry client = before;
+    const std::vector<std::byte> body = write_changes(before, now, probes, corrected);
+    const Expected<GeometryChanges> read = read_changes(body, client);
+    ASSERT_TRUE(read) << read.error().message();
+    EXPECT_EQ(read->probes, probes);
+    EXPECT_EQ(read->corrections, corrected);
+    EXPECT_TRUE(same_geometry(client, now));
+    EXPECT_LT(body.size(), write_geometry(now).size() / 2);
+  }
 }
 
 TEST(LightGeometry, RoundsMomentsToWhatLookupsBear) {
@@ -188,6 +199,27 @@ TEST(LightGeometry, RoundsMomentsToWhatLookupsBear) {
   }
 }
 
+TEST(LightGeometry, RoundsCorrectionsToWhatLookupsBear) {
+  for (float samples = 0.02f; samples < 300.0f; samples *= 1.7f) {
+    for (float ratio = 0.3f; ratio < 3.9f; ratio *= 1.1f) {
+      for (const float seen : {0.01f, 0.2f, 1.0f, 3.0f}) {
+        CorrectionBlock block = {correction_key({-3, 7, 1}, 4, 2, 1), {}};
+        const float looked_up = seen * samples;
+        block.cells[5] = {ratio * looked_up, looked_up, samples};
+        const CorrectionBlock back = decode_corrections(encode_corrections({&block, 1})).front();
+        EXPECT_TRUE(is_same_block(back.key, block.key));
+        EXPECT_EQ(back.cells[4].samples, 0.0f);
+        const CorrectionCell before = refined_correction(block.cells[5], 1.0f);
+        const CorrectionCell after = refined_correction(back.cells[5], 1.0f);
+        // Of a ratio about a hundredth; of how much it counts about a fifth
+        EXPECT_NEAR(after.ratio / before.ratio, 1.0f,
+                    0.01f + 0.08f * std::abs(before.ratio - 1.0f));
+        EXPECT_NEAR(after.samples / before.samples, 1.0f, 0.1f);
+      }
+    }
+  }
+}
+
 TEST(LightGeometry, RefusesWhatNoFieldHas) {
   std::mt19937 random(5);
   const std::vector<std::byte> good = write_geometry(test::made_geometry(random));
@@ -201,20 +233,32 @@ TEST(LightGeometry, RefusesWhatNoFieldHas) {
   EXPECT_FALSE(with_word(4, 1000));           // texels of distance
   EXPECT_FALSE(with_word(8, 0));              // volumes
   EXPECT_FALSE(with_word(8, 64));             // more than there are bytes for
-  EXPECT_FALSE(with_word(12, 0));             // probes along x
-  EXPECT_FALSE(with_word(12, 0xFFFFFFFFu));   // more than can be
-  EXPECT_FALSE(with_word(12, 1u << 20));      // in all, more than can be
-  EXPECT_FALSE(with_word(24, 0x7FC00000u));   // spacing that is no number
-  EXPECT_FALSE(with_word(36, 0x40000000u));   // an axis of length 2
-  EXPECT_FALSE(with_word(72, 0xFFFFu));       // a level that no cascade has
-  EXPECT_FALSE(with_word(88, 4));             // scrolled by more than there are probes
-  EXPECT_FALSE(with_word(100, 0x7F800000u));  // counts within an infinite box
+  EXPECT_FALSE(with_word(12, 1u << 30));      // more corrections than there is room for
+  EXPECT_FALSE(with_word(16, 0));             // probes along x
+  EXPECT_FALSE(with_word(16, 0xFFFFFFFFu));   // more than can be
+  EXPECT_FALSE(with_word(16, 1u << 20));      // in all, more than can be
+  EXPECT_FALSE(with_word(28, 0x7FC00000u));   // spacing that is no number
+  EXPECT_FALSE(with_word(40, 0x40000000u));   // an axis of length 2
+  EXPECT_FALSE(with_word(76, 0xFFFFu));       // a level that no cascade has
+  EXPECT_FALSE(with_word(92, 4));             // scrolled by more than there are probes
+  EXPECT_FALSE(with_word(104, 0x7F800000u));  // counts within an infinite box
   const Expected<FieldGeometry> large = read_geometry(good, 1000);
   ASSERT_FALSE(large);
   EXPECT_THAT(large.error().message(), HasSubstr("memory"));
   for (std::size_t size = 0; size + 5 < good.size(); size += 11) {
     EXPECT_FALSE(read_geometry(std::span(good).first(size), kPlenty)) << size;
   }
+}
+
+TEST(LightFuzz, TakesItsCorpusAsItShould) {
+  int files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(LAMBENT_FUZZ_CORPUS) + "/light")) {
+    const std::vector<std::byte> bytes = read_file(entry.path().string()).value();
+    EXPECT_EQ(test::feed_light_decoder(bytes), "") << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 4);
 }
 
 }  // namespace

@@ -57,13 +57,14 @@ FrameSettings small_frame(Quality quality) {
 struct Server {
   Scene scene = scenes::make("cornell").value();
   World world{scene};
-  IrradianceField field = made(world);
+  IrradianceField field;
   LightEncoder encoder = std::move(LightEncoder::create({.target_error = 0.005f}).value());
 
-  static IrradianceField made(const World& world) {
+  explicit Server(bool corrections = false) : field(made(world, corrections)) {}
+  static IrradianceField made(const World& world, bool corrections) {
     FieldSettings settings;
     settings.probe_count = glm::ivec3(8);
-    settings.corrections = false;
+    settings.corrections = corrections;
     return std::move(IrradianceField::make(settings, open_bounds(world)).value());
   }
   std::vector<LightMessage> shine(float factor) {
@@ -102,6 +103,28 @@ TEST(StreamedField, RendersWhatTheServerRenders) {
       EXPECT_LT(difference(there, here, ""), 0.005);
     }
   }
+}
+
+TEST(StreamedField, CorrectsLookupsAsTheServerDoes) {
+  Server server(true);
+  Client client;
+  client.receive(server.shine(1.0f));
+  const FrameSettings settings = small_frame(Quality::draft);
+  const Camera& camera = server.scene.cameras.front();
+  const RenderedFrame there = Client::rendered(server.world, server.field, camera, settings);
+  // Ratios are within a hundredth, and where few samples count, by a fifth more or less of them
+  EXPECT_LT(difference(there, client.render(settings), "indirect"), 0.015);
+
+  // A field without what was learned is far off
+  Server plain(false);
+  plain.shine(1.0f);
+  const RenderedFrame without = Client::rendered(plain.world, plain.field, camera, settings);
+  EXPECT_GT(difference(there, without, "indirect"), 0.05);
+
+  // What is learned later is sent when the number of updates has doubled
+  client.receive(server.shine(1.0f));
+  const RenderedFrame later = Client::rendered(server.world, server.field, camera, settings);
+  EXPECT_LT(difference(later, client.render(settings), "indirect"), 0.015);
 }
 
 TEST(StreamedField, IsFarFromTheServerWhereNothingCameFromIt) {

@@ -36,6 +36,15 @@ constexpr double kTooExact = 0.4;
 // once.
 constexpr double kOtherLight = 16.0;
 
+// Corrections settle as one over the number of updates: they are sent again when that has doubled,
+// and at least so often.
+constexpr int kCorrectionsAtLeast = 4096, kFirstCorrections = 4;
+
+/// With which update of a field corrections are sent again.
+int due_after(int updates) {
+  return updates + std::clamp(updates, kFirstCorrections, kCorrectionsAtLeast);
+}
+
 double largest(const LightErrors& errors) {
   return std::max(errors.relative, errors.dark);
 }
@@ -65,12 +74,15 @@ struct LightEncoder::State {
   mutable std::vector<std::byte> whole_body;
   mutable std::uint64_t whole_version = 0;
 
+  int next_corrections = 0;  // the number of the field's update with which they are sent again
+
   MessageHeader header(LightMessageKind kind, std::uint64_t update) const {
     return {kind, settings.stream, update, geometry_version};
   }
 
   void begin_geometry(const IrradianceField& field, std::uint64_t update) {
     geometry = geometry_of(field);
+    next_corrections = due_after(field.updates());
     geometry_version = geometry_number(settings.stream, update);
     layout = layout_of(geometry);
     basis.emplace(geometry.irradiance_texels);
@@ -85,6 +97,11 @@ struct LightEncoder::State {
       whole_version = geometry_version;
     }
     return make_message(header(LightMessageKind::geometry, update), whole_body);
+  }
+
+  void send_corrections(const IrradianceField& field) {
+    geometry.corrections = corrections_of(field);
+    next_corrections = due_after(field.updates());
   }
 
   /// Tells of geometry that changed, if any.
@@ -109,13 +126,15 @@ std::optional<LightMessage> LightEncoder::State::follow_geometry(const Irradianc
   const int turns = moved ? 1 : kDistanceTurns;
   const std::vector<int> probes =
       follow(field, settings.distance_threshold, static_cast<int>(update % turns), turns, geometry);
-  if (probes.empty() && !moved) return std::nullopt;
+  const bool corrects = field.updates() >= next_corrections;
+  if (corrects) send_corrections(field);
+  if (probes.empty() && !moved && !corrects) return std::nullopt;
   const std::uint64_t base = geometry_version;
   geometry_version = geometry_number(settings.stream, update);
   layout = layout_of(geometry);
   clear_unlit(layout, light);
   return make_message(header(LightMessageKind::geometry, update),
-                      with_base(base, write_changes(before, geometry, probes)));
+                      with_base(base, write_changes(before, geometry, probes, corrects)));
 }
 
 LightMessage LightEncoder::State::encode_key(const FieldLight& field, std::uint64_t update,
