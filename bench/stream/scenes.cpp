@@ -23,8 +23,9 @@ constexpr double kDoorStart = 2.0;
 constexpr double kLampPeriod = 4.0;  // [s]
 constexpr double kLampLeast = 0.2;
 
-// Updates after which a field at rest has settled.
-constexpr int kSettledUpdates = 24;
+// Updates after which a field at rest has settled. Corrections are sent again with four times as
+// many, after all states that are measured.
+constexpr int kSettledUpdates = 40;
 
 int animation_named(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.animations.size(); ++i) {

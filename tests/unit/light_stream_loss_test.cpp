@@ -46,7 +46,8 @@ TEST(LightStream, GivesLateJoinersWhatOthersHaveToTheBit) {
 
 TEST(LightStream, RefusesWhatFollowsOnALossUntilAKeyComes) {
   Box box;
-  LightEncoder encoder = made_encoder();
+  // Geometry stays as it is, so that it is updates that tell
+  LightEncoder encoder = made_encoder({.distance_threshold = 1.0f});
   LightDecoder whole, lossy;
   for (int update = 0; update < 3; ++update) {
     const Messages messages = encoded(encoder, box);
@@ -55,6 +56,7 @@ TEST(LightStream, RefusesWhatFollowsOnALossUntilAKeyComes) {
     box.advance();
   }
   const Messages lost = encoded(encoder, box);
+  EXPECT_EQ(lost.size(), 1u);
   receive_all(whole, lost);
   box.advance();
   const Decoded before = state_of(lossy);
@@ -68,6 +70,7 @@ TEST(LightStream, RefusesWhatFollowsOnALossUntilAKeyComes) {
   }
   // Geometry is not sent to those who have it
   const Messages key = encoder.join(lossy.geometry()).value();
+  ASSERT_EQ(key.size(), 1u);
   EXPECT_EQ(key.back().kind, LightMessageKind::key);
   receive_all(lossy, key);
   EXPECT_FALSE(lossy.needs_key());
@@ -76,6 +79,23 @@ TEST(LightStream, RefusesWhatFollowsOnALossUntilAKeyComes) {
   receive_all(whole, next);
   receive_all(lossy, next);
   EXPECT_EQ(state_of(lossy), state_of(whole));
+}
+
+TEST(LightStream, RefusesLightOfGeometryThatWasLost) {
+  Box box;
+  LightEncoder encoder = made_encoder({.distance_threshold = 0.001f});
+  LightDecoder client;
+  receive_all(client, encoded(encoder, box));
+  box.advance();
+  const Messages messages = encoded(encoder, box);
+  ASSERT_EQ(messages.front().kind, LightMessageKind::geometry);
+  const Expected<void> refused = client.receive(messages.back().bytes);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message(), HasSubstr("geometry"));
+  EXPECT_TRUE(client.needs_key());
+  receive_all(client, encoder.join(client.geometry()).value());
+  EXPECT_FALSE(client.needs_key());
+  EXPECT_EQ(client.update(), 2u);
 }
 
 TEST(LightStream, IgnoresWhatComesTwiceOrLate) {

@@ -121,8 +121,8 @@ TEST(StreamedField, CorrectsLookupsAsTheServerDoes) {
   const RenderedFrame without = Client::rendered(plain.world, plain.field, camera, settings);
   EXPECT_GT(difference(there, without, "indirect"), 0.05);
 
-  // What is learned later is sent when the number of updates has doubled
-  client.receive(server.shine(1.0f));
+  // What is learned later is sent when the number of updates is four times as large
+  for (int i = 0; i < 3; ++i) client.receive(server.shine(1.0f));
   const RenderedFrame later = Client::rendered(server.world, server.field, camera, settings);
   EXPECT_LT(difference(later, client.render(settings), "indirect"), 0.015);
 }

@@ -36,13 +36,14 @@ constexpr double kTooExact = 0.4;
 // once.
 constexpr double kOtherLight = 16.0;
 
-// Corrections settle as one over the number of updates: they are sent again when that has doubled,
-// and at least so often.
-constexpr int kCorrectionsAtLeast = 4096, kFirstCorrections = 4;
+// Corrections settle as one over the root of the number of updates: they are sent again when that
+// is so many times as large, and at least so often.
+constexpr int kCorrectionsGrowth = 4, kCorrectionsAtLeast = 4096, kFirstCorrections = 4;
 
 /// With which update of a field corrections are sent again.
 int due_after(int updates) {
-  return updates + std::clamp(updates, kFirstCorrections, kCorrectionsAtLeast);
+  return updates + std::clamp((kCorrectionsGrowth - 1) * std::min(updates, kCorrectionsAtLeast),
+                              kFirstCorrections, kCorrectionsAtLeast);
 }
 
 double largest(const LightErrors& errors) {
