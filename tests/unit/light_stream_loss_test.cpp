@@ -63,7 +63,11 @@ TEST(LightStream, RefusesWhatFollowsOnALossUntilAKeyComes) {
   for (int update = 0; update < 3; ++update) {
     const Messages messages = encoded(encoder, box);
     receive_all(whole, messages);
-    for (const LightMessage& message : messages) EXPECT_FALSE(lossy.receive(message.bytes));
+    for (const LightMessage& message : messages) {
+      const Expected<void> refused = lossy.receive(message.bytes);
+      ASSERT_FALSE(refused);
+      EXPECT_THAT(refused.error().message(), HasSubstr("was lost"));
+    }
     EXPECT_TRUE(lossy.needs_key());
     EXPECT_EQ(state_of(lossy), before);
     box.advance();
