@@ -119,6 +119,12 @@ void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQ
                                                    result);
 }
 
+void share_work(IrradianceField& field, Ranks& ranks) {
+  FieldAccess::State& state = FieldAccess::state_of(field);
+  assert(state.updates == 0);
+  state.data.share.part_among(ranks);
+}
+
 std::span<const ProbeStatus> statuses_of(const IrradianceField& field) {
   return FieldAccess::state_of(field).statuses;
 }
