@@ -23,6 +23,10 @@ MpiRanks::MpiRanks() {
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   MPI_Comm_size(MPI_COMM_WORLD, &count_);
   MPI_Comm_rank(MPI_COMM_WORLD, &own_);
+  MPI_Comm here = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+  MPI_Comm_size(here, &on_this_machine_);
+  MPI_Comm_free(&here);
 }
 
 void MpiRanks::gather_bytes(std::span<std::byte> bytes, std::span<const std::size_t> firsts) {

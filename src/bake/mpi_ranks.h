@@ -19,6 +19,8 @@ class MpiRanks final : public Ranks {
 
   int count() const override { return count_; }
   int own() const override { return own_; }
+  /// How many of the processes share this one's memory.
+  int on_this_machine() const { return on_this_machine_; }
   void gather_bytes(std::span<std::byte> bytes, std::span<const std::size_t> firsts) override;
 
   /// Waits until all processes are done, too.
@@ -27,7 +29,7 @@ class MpiRanks final : public Ranks {
   [[noreturn]] static void end_job(int status);
 
  private:
-  int count_ = 1, own_ = 0;
+  int count_ = 1, own_ = 0, on_this_machine_ = 1;
 };
 
 }  // namespace lambent

@@ -123,6 +123,7 @@ void share_work(IrradianceField& field, Ranks& ranks) {
   FieldAccess::State& state = FieldAccess::state_of(field);
   assert(state.updates == 0);
   state.data.share.part_among(ranks);
+  state.data.correction.part_among(ranks);
 }
 
 std::span<const ProbeStatus> statuses_of(const IrradianceField& field) {

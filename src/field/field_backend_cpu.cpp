@@ -121,8 +121,8 @@ class FieldPassesCpu final : public FieldPasses {
   }
 
   void lookups() override {
-    result.shadow_rays += find_surfel_lookups(data_.store, visibility_in(update_.world, data_), own_,
-                                              data_.traces);
+    result.shadow_rays +=
+        find_surfel_lookups(data_.store, visibility_in(update_.world, data_), own_, data_.traces);
   }
 
   void solve() override {

@@ -21,9 +21,8 @@ void ProbeShare::divide(std::span<const int> probes) {
 std::vector<std::size_t> ProbeShare::places_of_parts(std::span<const int> probes) const {
   std::vector<std::size_t> begins;
   for (const int first : firsts_) {
-    begins.push_back(
-        static_cast<std::size_t>(std::lower_bound(probes.begin(), probes.end(), first) -
-                                 probes.begin()));
+    begins.push_back(static_cast<std::size_t>(
+        std::lower_bound(probes.begin(), probes.end(), first) - probes.begin()));
   }
   return begins;
 }

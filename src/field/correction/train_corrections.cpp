@@ -209,9 +209,8 @@ std::vector<CorrectionSample> joined(Ranks& ranks, std::span<const TaskSamples> 
     begin += run.count;
   }
   std::iota(places.begin(), places.end(), std::size_t{0});
-  std::stable_sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) {
-    return runs[a].order < runs[b].order;
-  });
+  std::stable_sort(places.begin(), places.end(),
+                   [&](std::size_t a, std::size_t b) { return runs[a].order < runs[b].order; });
   std::vector<CorrectionSample> all;
   all.reserve(gathered.size());
   for (const std::size_t place : places) {

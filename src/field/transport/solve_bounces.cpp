@@ -300,7 +300,8 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
 
     // Estimate the error
     const double image_norm = share.texels.norm(image);
-    const double relative_residual = image_norm > 0.0 ? share.texels.norm(residual) / image_norm : 0.0;
+    const double relative_residual =
+        image_norm > 0.0 ? share.texels.norm(residual) / image_norm : 0.0;
     result.error =
         remaining_error(contraction, blend_weight, static_cast<float>(relative_residual));
     if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {

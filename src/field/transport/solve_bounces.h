@@ -101,8 +101,8 @@ struct SolveShare {
 
 /// Solves for the light of the operator's probes, starting from what `field` holds, and blends the
 /// solution into `field` with the weight `blend_weights[k]` for the k-th probe. What the probes
-/// receive is multiplied by `history_ratio`, texel by texel, unless that is empty. Where ranks share
-/// the solve, `field` holds the light of all their probes afterwards.
+/// receive is multiplied by `history_ratio`, texel by texel, unless that is empty. Where ranks
+/// share the solve, `field` holds the light of all their probes afterwards.
 SolveResult solve_bounces(const TransportOperator& transport, std::span<const float> blend_weights,
                           const WorkingIrradiance& history_ratio, const SolveSettings& settings,
                           const SolveShare& share, WorkingIrradiance& field);
