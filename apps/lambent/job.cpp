@@ -27,11 +27,13 @@ constexpr int kFailed = 1;
   MpiRanks::end_job(kFailed);
 }
 
-/// The first process that failed tells why, the others say nothing.
-void leave_the_word_to_one(Ranks& ranks, const Expected<void>& done) {
+/// The first process that failed tells why, the others say nothing. It does so now: once the first
+/// one has ended, the launcher ends the others.
+void tell_why_once(Ranks& ranks, const Expected<void>& done) {
   const std::vector<std::uint8_t> failed = gather_each<std::uint8_t>(ranks, done ? 0 : 1);
   const auto first = std::find(failed.begin(), failed.end(), std::uint8_t{1}) - failed.begin();
-  if (first != ranks.own()) set_mute();
+  if (!done && first == ranks.own()) tell_error(done.error().message());
+  set_mute();
 }
 
 Expected<void> run_together(const std::function<Expected<void>(const Job&)>& work) {
@@ -46,7 +48,7 @@ Expected<void> run_together(const std::function<Expected<void>(const Job&)>& wor
   if (ranks.own() != 0) set_quiet(true);
   try {
     const Expected<void> done = work({ranks, ranks.on_this_machine()});
-    leave_the_word_to_one(ranks, done);
+    tell_why_once(ranks, done);
     ranks.leave();
     return done;
   } catch (const std::bad_alloc&) {

@@ -199,6 +199,10 @@ class FieldBackendCpu final : public FieldBackend {
     FieldPassesCpu passes(update, data_);
     lambent::update_probes(passes);
     ProbeUpdateResult& result = passes.result;
+    // Most work is in proportion to rays
+    data_.share.learn_work(
+        data_.share.own(update.probes).size(),
+        static_cast<double>(result.probe_rays + result.shadow_rays + result.correction_rays));
     for (std::uint64_t* rays : {&result.probe_rays, &result.shadow_rays, &result.correction_rays}) {
       *rays = sum_over(data_.share.ranks(), *rays);
     }

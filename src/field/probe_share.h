@@ -24,9 +24,13 @@ class ProbeShare {
   /// From now on, probes are parted among these processes, as many to each. `ranks` must outlive
   /// it.
   void part_among(Ranks& ranks);
-  /// Parts the probes anew, so that each process works on about as many of these, which are in
-  /// ascending order. Without any, all stay where they are.
+  /// Parts the probes anew, so that each process has about as much work with these, which are in
+  /// ascending order: as many of them, or what learn_work() was told. Without any, all stay where
+  /// they are.
   void divide(std::span<const int> probes);
+  /// Notes how much work this process had with so many probes: any number in proportion. All
+  /// processes call it.
+  void learn_work(std::size_t probes, double work);
 
   Ranks& ranks() const { return *ranks_; }
   bool alone() const { return ranks_->count() == 1; }
@@ -58,8 +62,11 @@ class ProbeShare {
   }
 
  private:
+  double work_of(int probe) const;
+
   Ranks* ranks_ = &one_rank();
-  std::vector<int> firsts_;  // of each process's probes; then the number of all
+  std::vector<int> firsts_;   // of each process's probes; then the number of all
+  std::vector<double> work_;  // with a probe of each process's; empty: not known
 };
 
 }  // namespace lambent

@@ -3,72 +3,22 @@
 // rank finds.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstring>
-#include <functional>
+#include <cstddef>
 #include <random>
 #include <vector>
 
 #include "field/field_access.h"
-#include "field/field_state.h"
+#include "support/field_contents.h"
 #include "support/field_scenes.h"
 #include "support/thread_ranks.h"
 
 namespace lambent {
 namespace {
 
+using test::Contents;
 using test::run_as_ranks;
 using test::Stage;
-
-/// Everything that updates and files read of a field.
-struct Contents {
-  std::vector<uint> words;        // of the store: offsets, irradiance, distances
-  std::vector<glm::vec4> light;   // before it is encoded
-  std::vector<float> statistics;  // of each probe
-  std::vector<float> looked_up;   // what corrections were learned as
-  std::vector<double> updates;    // what the updates told
-  std::uint64_t rays = 0;
-
-  bool operator==(const Contents&) const = default;
-};
-
-void add_all(std::span<const uint> words, std::vector<uint>& to) {
-  to.insert(to.end(), words.begin(), words.end());
-}
-
-Contents contents_of(const IrradianceField& field, const Stage& stage) {
-  const FieldAccess::State& state = FieldAccess::state_of(field);
-  Contents contents;
-  add_all(state.data.store.offset_words(), contents.words);
-  add_all(state.data.store.irradiance_words(), contents.words);
-  add_all(state.data.store.distance_words(), contents.words);
-  contents.light.assign(state.data.light.begin(), state.data.light.end());
-  for (const ProbeStatus& status : state.statuses) {
-    contents.statistics.push_back(static_cast<float>(status.state));
-    contents.statistics.push_back(status.samples);
-    contents.statistics.push_back(status.variance);
-  }
-  for (const glm::vec3& light : test::look_up(field, test::seen_points(stage))) {
-    contents.looked_up.insert(contents.looked_up.end(), {light.x, light.y, light.z});
-  }
-  return contents;
-}
-
-Contents updated(const Stage& stage, const FieldSettings& settings, Ranks& ranks, int updates = 3) {
-  IrradianceField field = test::make_field(stage, settings, 0);
-  share_work(field, ranks);
-  std::vector<double> told;
-  std::uint64_t rays = 0;
-  for (int i = 0; i < updates; ++i) {
-    const UpdateStatistics statistics = field.update(stage.world);
-    told.insert(told.end(), {statistics.residual, statistics.change});
-    rays += statistics.probe_rays + statistics.shadow_rays + statistics.correction_rays;
-  }
-  Contents contents = contents_of(field, stage);
-  contents.updates = std::move(told);
-  contents.rays = rays;
-  return contents;
-}
+using test::updated;
 
 void expect_the_same_of_any_number(const Stage& stage, const FieldSettings& settings) {
   const Contents expected = updated(stage, settings, one_rank());
@@ -90,7 +40,7 @@ void expect_the_same_of_any_number(const Stage& stage, const FieldSettings& sett
 FieldSettings small_field() {
   FieldSettings settings;
   settings.probe_count = {9, 10, 13};
-  settings.rays_per_probe = 64;
+  settings.rays_per_probe = 32;
   return settings;
 }
 
