@@ -27,12 +27,13 @@ constexpr int kFailed = 1;
   MpiRanks::end_job(kFailed);
 }
 
-/// The first process that failed tells why, the others say nothing. It does so now: once the first
-/// one has ended, the launcher ends the others.
+/// The first process that failed of itself tells why, the others say nothing. It does so now: once
+/// the first one has ended, the launcher ends the others.
 void tell_why_once(Ranks& ranks, const Expected<void>& done) {
-  const std::vector<std::uint8_t> failed = gather_each<std::uint8_t>(ranks, done ? 0 : 1);
+  const bool of_itself = !done && !done.error().cause.empty();
+  const std::vector<std::uint8_t> failed = gather_each<std::uint8_t>(ranks, of_itself ? 1 : 0);
   const auto first = std::find(failed.begin(), failed.end(), std::uint8_t{1}) - failed.begin();
-  if (!done && first == ranks.own()) tell_error(done.error().message());
+  if (first == ranks.own()) tell_error(done.error().message());
   set_mute();
 }
 
@@ -78,19 +79,16 @@ Expected<void> run_job(const std::function<Expected<void>(const Job&)>& work) {
 }
 
 Expected<void> agree(const Job& job, const Expected<void>& own) {
-  struct Failure {
-    std::uint8_t failed, bad_input;
-  };
-  const bool bad_input = !own && own.error().kind == Error::Kind::bad_input;
-  const std::vector<Failure> all =
-      gather_each(job.ranks, Failure{static_cast<std::uint8_t>(own ? 0 : 1),
-                                     bad_input ? std::uint8_t{1} : std::uint8_t{0}});
+  enum class State : std::uint8_t { fine, bad_input, failed };
+  State state = State::fine;
+  if (!own) state = own.error().kind == Error::Kind::bad_input ? State::bad_input : State::failed;
+  const std::vector<State> all = gather_each(job.ranks, state);
   if (!own) return own;
-  const auto first =
-      std::find_if(all.begin(), all.end(), [](const Failure& f) { return f.failed != 0; });
+  const auto first = std::find_if(all.begin(), all.end(), [](State s) { return s != State::fine; });
   if (first == all.end()) return {};
-  return fail("", "rank " + std::to_string(first - all.begin()), "has failed",
-              first->bad_input != 0 ? Error::Kind::bad_input : Error::Kind::failed);
+  // Without a cause: the process that failed tells it
+  return fail("", "", "",
+              *first == State::bad_input ? Error::Kind::bad_input : Error::Kind::failed);
 }
 
 }  // namespace lambent::cli

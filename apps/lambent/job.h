@@ -25,8 +25,8 @@ struct Job {
 /// ends them all. Fails where there are several and the program was built without MPI.
 Expected<void> run_job(const std::function<Expected<void>(const Job&)>& work);
 
-/// Returns `own` where it has failed; else fails where that of another process has. All of them
-/// call it.
+/// Returns `own` where it has failed; else fails, without a cause, where that of another process
+/// has. All of them call it.
 Expected<void> agree(const Job& job, const Expected<void>& own);
 
 }  // namespace lambent::cli
