@@ -184,6 +184,23 @@ void CorrectionTable::learn(std::span<const ProbeGrid> grids,
   refine_all();
 }
 
+/// Gives every rank what the others refined of a level: the next one reads it.
+void CorrectionTable::share_refined(uint level) {
+  if (ranks_->count() == 1) return;
+  struct Refined {
+    std::uint32_t slot;
+    Cells cells;
+  };
+  std::vector<Refined> own;
+  for (std::size_t slot = first_slot_; slot < first_slot_ + learned_.size(); ++slot) {
+    if (keys_[slot].rest == 0 || level_of_key(keys_[slot]) != level) continue;
+    own.push_back({static_cast<std::uint32_t>(slot), refined_[slot]});
+  }
+  for (const Refined& block : gather_all(*ranks_, std::move(own))) {
+    refined_[block.slot] = block.cells;
+  }
+}
+
 /// Refines all levels, the coarsest first.
 void CorrectionTable::refine_all() {
   for (int level = kCorrectionLevels - 1; level >= 0; --level) {
@@ -193,7 +210,7 @@ void CorrectionTable::refine_all() {
         if (used && level_of_key(keys_[slot]) == static_cast<uint>(level)) refine(slot);
       }
     });
-    gather_parts(*ranks_, std::span(refined_), first_slots());
+    share_refined(static_cast<uint>(level));
   }
 }
 

@@ -90,6 +90,7 @@ class CorrectionTable {
                   float mean);
   void refine(std::size_t slot);
   void refine_all();
+  void share_refined(uint level);
   bool has_slot(std::size_t slot) const {
     return slot >= first_slot_ && slot - first_slot_ < learned_.size();
   }
