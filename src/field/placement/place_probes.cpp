@@ -204,8 +204,7 @@ void IrradianceField::State::update_classification_inputs(const World& world,
   parallel_chunks(own.size(), batch, [&](std::size_t first, std::size_t last) {
     std::vector<Viewpoint> viewpoints;
     for (std::size_t k = first; k < last; ++k) {
-      viewpoints.push_back(
-          {data.store.probe_position_ws(own[k]), data.store.grid_of(own[k]).axes});
+      viewpoints.push_back({data.store.probe_position_ws(own[k]), data.store.grid_of(own[k]).axes});
     }
     std::vector<FixedRayHit> around(viewpoints.size() * directions);
     trace_fixed_rays({world.scene(), tracer_of(world), data.solid_sides, moving}, viewpoints,
