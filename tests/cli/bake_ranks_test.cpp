@@ -145,6 +145,14 @@ TEST_F(BakeOnRanks, EndsAllOfThemWithAMessageWhereOneFails) {
   EXPECT_THAT(result.errors, HasSubstr("lambent: rank 1: has another scene than rank 0"));
   EXPECT_TRUE(leaves_nothing_half_written());
 
+  // The second rank lacks memory
+  const std::string limit = " : -n 1 sh -c 'ulimit -v 2500000; exec \"$@\"' sh ";
+  const std::string large = "bake cornell --probes 48x48x48 --updates 5 -o " + field;
+  result = run_program(large, mpirun(1) + LAMBENT_PROGRAM " " + large + limit);
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.errors, HasSubstr("of 2 ranks on this machine: needs about"));
+  EXPECT_TRUE(leaves_nothing_half_written());
+
   // The first rank finds the disk full
   result = run_program("bake " + bake + " -o /dev/full", mpirun(2));
   EXPECT_EQ(result.status, 1);
