@@ -141,7 +141,8 @@ Expected<void> check_alike(const Job& job, const Baking& baking) {
 /// the first process sees.
 Expected<void> resume(const Options& options, const Job& job, Baking& baking) {
   if (options.checkpoint.empty()) return {};
-  const bool here = job.leads() && std::filesystem::exists(options.checkpoint);
+  std::error_code ignored;
+  const bool here = job.leads() && std::filesystem::exists(options.checkpoint, ignored);
   if (gather_each<std::uint8_t>(job.ranks, here ? 1 : 0).front() == 0) return {};
   begin_step("reading the checkpoint");
   Expected<Checkpoint> read =
@@ -185,6 +186,8 @@ std::function<void(const FieldProgress&)> between_updates(const Options& options
     const bool due = unsaved >= options.every_s;
     if (gather_each<std::uint8_t>(job.ranks, due ? 1 : 0).front() == 0) return;
     unsaved = 0.0;
+    // Where that fails, so does what follows, which says why
+    if (job.leads()) (void)make_folders(options.checkpoint);
     const auto saved =
         save_checkpoint(options.checkpoint, *baking.field, *baking.world, baking.request.viewer_ws);
     // The bake may still come to its end without

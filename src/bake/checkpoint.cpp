@@ -36,22 +36,28 @@ void add_vec3(const vec3& v, ByteWriter& out) {
   for (int axis = 0; axis < 3; ++axis) out.f32(v[axis]);
 }
 
-void add_settings(const FieldSettings& s, ByteWriter& out) {
+/// Adds all settings but the additional volumes, whose grids are added.
+void add_settings(const FieldSettings& settings, ByteWriter& out) {
+  // A setting that is new fails to compile here
+  const auto& [probe_count, probe_spacing, probe_budget, volume, cascades, volumes, rays_per_probe,
+               hysteresis, irradiance_texels, distance_texels, irradiance_format, distance_format,
+               relocation, corrections, visibility, solve_tolerance, max_solve_iterations,
+               max_bounces, max_albedo, emissive_samples, texture_lod_bias, seed] = settings;
   for (const int number :
-       {s.probe_count.x, s.probe_count.y, s.probe_count.z, s.probe_budget, s.cascades,
-        s.rays_per_probe, s.irradiance_texels, s.distance_texels,
-        static_cast<int>(s.irradiance_format), static_cast<int>(s.distance_format),
-        s.relocation ? 1 : 0, s.corrections ? 1 : 0, static_cast<int>(s.visibility),
-        s.max_solve_iterations, s.max_bounces, s.emissive_samples}) {
+       {probe_count.x, probe_count.y, probe_count.z, probe_budget, cascades, rays_per_probe,
+        irradiance_texels, distance_texels, static_cast<int>(irradiance_format),
+        static_cast<int>(distance_format), relocation ? 1 : 0, corrections ? 1 : 0,
+        static_cast<int>(visibility), max_solve_iterations, max_bounces, emissive_samples}) {
     out.i32(number);
   }
   for (const float number :
-       {s.probe_spacing, s.hysteresis, s.solve_tolerance, s.max_albedo, s.texture_lod_bias}) {
+       {probe_spacing, hysteresis, solve_tolerance, max_albedo, texture_lod_bias}) {
     out.f32(number);
   }
-  out.u32(s.seed);
-  add_vec3(s.volume.min, out);
-  add_vec3(s.volume.max, out);
+  out.u32(seed);
+  out.u32(static_cast<std::uint32_t>(volumes.size()));
+  add_vec3(volume.min, out);
+  add_vec3(volume.max, out);
 }
 
 void add_grid(const ProbeGrid& grid, ByteWriter& out) {

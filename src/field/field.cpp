@@ -60,6 +60,7 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 
 void IrradianceField::reset() {
   State& s = *state_;
+  assert(s.data.share.alone());
   s.backend = make_field_backend_cpu(s.data);
   s.data.clear();
   std::fill(s.statuses.begin(), s.statuses.end(), ProbeStatus{});

@@ -105,10 +105,14 @@ TEST_F(ACheckpoint, LeadsToTheSameBitsWithCountedBounces) {
 TEST_F(ACheckpoint, LeadsToTheSameBitsOnAnotherNumberOfRanks) {
   const Stage stage("cornell");
   const Contents expected = uninterrupted(stage, small_field(), 5);
-  for (const auto& [before, after] : {std::pair(1, 3), std::pair(3, 1), std::pair(4, 2)}) {
-    run_as_ranks(before, [&](Ranks& ranks) { keep(stage, small_field(), ranks, 2); });
-    run_as_ranks(after, [&](Ranks& ranks) {
-      EXPECT_TRUE(gone_on(stage, small_field(), ranks, 3) == expected) << before << " " << after;
+  struct Counts {
+    int before, after;
+  };
+  for (const Counts counts : {Counts{1, 3}, Counts{3, 1}, Counts{4, 2}}) {
+    run_as_ranks(counts.before, [&](Ranks& ranks) { keep(stage, small_field(), ranks, 2); });
+    run_as_ranks(counts.after, [&](Ranks& ranks) {
+      EXPECT_TRUE(gone_on(stage, small_field(), ranks, 3) == expected)
+          << counts.before << " " << counts.after;
     });
   }
 }
