@@ -119,6 +119,12 @@ TEST(SharedTexels, SumToTheBitsOfASingleRankWhereverTheyArePartedAt) {
     a[i] = {uniform(random), uniform(random), uniform(random), 0.0f};
     b[i] = {uniform(random), uniform(random), uniform(random), 0.0f};
   }
+  // What is added beside these is rounded: sums depend on their order
+  constexpr float kHuge = 1e17f;
+  for (const std::size_t i : {90, 16400, 20500, 33000}) {
+    a[i] = {i % 3 == 0 ? kHuge : -kHuge, 0.0f, 0.0f, 0.0f};
+    b[i] = {1.0f, 0.0f, 0.0f, 0.0f};
+  }
   const double expected = inner_product(a, b);
   const std::vector<std::vector<std::size_t>> partings = {
       {0, 16384, size}, {0, 100, 16385, size}, {0, 20000, 20000, 20001, 30000, size}};
