@@ -14,6 +14,8 @@ lambent_packages=(
   nlohmann-json3-dev
   # Program and errors
   libcli11-dev libexpected-dev
+  # Bakes on several machines
+  libopenmpi-dev openmpi-bin
   # Vulkan's headers; its loader is found at run time
   libvulkan-dev
   # Tests and benches
