@@ -19,6 +19,7 @@
 #include "lambent/renderer.h"
 #include "lambent/rsm.h"
 #include "lambent/scene.h"
+#include "lambent/stream.h"
 #include "lambent/vulkan.h"
 #include "lambent/vulkan_device.h"
 #include "lambent/vulkan_field.h"

@@ -17,6 +17,7 @@ struct ProbeStatus;
 struct FieldAccess {
   using State = IrradianceField::State;
   static const State& state_of(const IrradianceField& field) { return *field.state_; }
+  static State& state_of(IrradianceField& field) { return *field.state_; }
   static IrradianceField make(std::unique_ptr<State> state);
 };
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light as a stream: a server's irradiance field in small messages, and what clients make of them.
+// docs/stream-light.md has the format. What carries the messages is not decided here: they come in
+// order, or are lost whole.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/field.h"
+
+namespace lambent::stream {
+
+enum class LightMessageKind : std::uint8_t {
+  geometry = 1,  ///< Places, states and distances of probes: all of them, or those that changed.
+  key = 2,       ///< The whole state of light.
+  delta = 3,     ///< The change of light from one update to the next.
+};
+
+/// One self-contained piece of a light stream; `bytes` is opaque to whoever carries it.
+struct LightMessage {
+  LightMessageKind kind = LightMessageKind::delta;
+  std::uint64_t update = 0;  ///< The state after this update, from 1, is what it leads to.
+  std::vector<std::byte> bytes;
+};
+
+/// How far decoded irradiance E' is from a field's E, over all texels of all probes that are looked
+/// up, and all channels.
+struct LightErrors {
+  double relative = 0.0;  ///< Root mean square of E' - E, over the mean of E.
+  double dark = 0.0;  ///< Root mean square of (E' - E) / (E + 0.1 mean of E): counts dark rooms.
+};
+
+struct LightEncoderSettings {
+  /// Which stream this is. Clients refuse changes of another one, so that a server that starts
+  /// again should draw it anew.
+  std::uint32_t stream = 1;
+  /// Both LightErrors stay below this in each update, 0.001 to 0.2. Half of it costs about twice
+  /// the bytes.
+  float target_error = 0.01f;
+  /// A probe's distances are sent again where they are off by more than this at root mean square
+  /// [probe spacings], 0.001 to 1. Halving it sends noise of their averages, too.
+  float distance_threshold = 0.05f;
+};
+
+/// The side of the server: turns the states of one field into messages for any number of clients.
+class LightEncoder {
+ public:
+  /// Fails on settings out of range.
+  static Expected<LightEncoder> create(const LightEncoderSettings& settings = {});
+  ~LightEncoder();
+  LightEncoder(LightEncoder&&) noexcept;
+  LightEncoder& operator=(LightEncoder&&) noexcept;
+
+  /// What all clients need after an update of the field, in the order in which they must get it:
+  /// geometry where it changed, and a delta. The first time, where the field has other volumes than
+  /// before, and where light has become so much darker or brighter that changes no longer fit, all
+  /// of the geometry or a key instead. Fails on light that is not finite. The same calls give the
+  /// same bytes.
+  Expected<std::vector<LightMessage>> encode(const IrradianceField& field);
+
+  /// What one client needs that comes late or has lost something: geometry, and a key of the state
+  /// after the last update, so that the deltas that follow apply. `known_geometry` is what the
+  /// client's LightDecoder::geometry says; geometry is left out where the client has it. Fails
+  /// before the first encode. May be called by several threads at once, but not beside encode.
+  Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
+
+  /// Updates encoded so far.
+  std::uint64_t update() const;
+  /// How far the state that clients have after the last update is from the field.
+  LightErrors errors() const;
+
+ private:
+  friend class LightDecoder;
+  struct State;
+  explicit LightEncoder(std::unique_ptr<State> state);
+  std::unique_ptr<State> state_;
+};
+
+/// The side of the client: keeps the state that messages lead to. Needs neither a scene nor a ray
+/// tracer. Messages may be anything: what is broken, late, of another stream or out of order is an
+/// Error and leaves the state as it was.
+class LightDecoder {
+ public:
+  /// A field whose state would take more memory than this is refused.
+  explicit LightDecoder(std::size_t most_bytes = std::size_t{1} << 30u);
+  ~LightDecoder();
+  LightDecoder(LightDecoder&&) noexcept;
+  LightDecoder& operator=(LightDecoder&&) noexcept;
+
+  /// Takes one message.
+  Expected<void> receive(std::span<const std::byte> message);
+
+  /// Whether there is no light yet, or a change was lost: only what LightEncoder::join returns
+  /// helps. The last state remains readable.
+  bool needs_key() const;
+  /// The update whose light this is, from 1; 0: there is none yet.
+  std::uint64_t update() const;
+  /// The number of the last geometry received, for LightEncoder::join; 0: none.
+  std::uint64_t geometry() const;
+
+  // All below are empty or 0 before the first key.
+
+  int probes() const;
+  int irradiance_texels() const;  ///< Along a tile's edge, without gutter.
+  int distance_texels() const;
+  std::span<const FieldGrid> grids() const;
+  /// The probes whose light or distances the last message changed, in ascending order.
+  std::span<const int> changed() const;
+  /// Irradiance [W/m^2] of a probe's tile without gutter, row after row: irradiance_texels()
+  /// squared.
+  void irradiance(int probe, std::span<glm::vec3> tile) const;
+  /// Mean distance [m] and mean squared distance [m^2], row after row: distance_texels() squared.
+  void distances(int probe, std::span<glm::vec2> tile) const;
+  glm::vec3 position_ws(int probe) const;
+
+ private:
+  friend class StreamedField;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// A field whose light comes from a stream: what a client renders its own world with.
+class StreamedField {
+ public:
+  explicit StreamedField(std::size_t most_bytes = std::size_t{1} << 30u);
+  ~StreamedField();
+  StreamedField(StreamedField&&) noexcept;
+  StreamedField& operator=(StreamedField&&) noexcept;
+
+  /// Takes one message as LightDecoder does, and brings the field up to date. Not to be called
+  /// while the field is read.
+  Expected<void> receive(std::span<const std::byte> message);
+  const LightDecoder& decoder() const;
+
+  /// The field, for Renderer and lookups, on the processor; null before the first key. Stays where
+  /// it is afterwards. Not to be updated: its light is the server's.
+  const IrradianceField* field() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace lambent::stream

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Based on: M. Mahoney, "Adaptive Weighing of Context Models for Lossless Data Compression",
+// Florida Tech. Technical Report CS-2005-16, 2005: what several contexts expect of a binary
+// decision is mixed in the logistic domain, with weights that learn. In integers alone, as the
+// coder is.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "stream/light/range_coder.h"
+
+namespace lambent::stream {
+
+/// What is expected of one kind of binary decision: the mean of two estimates, of which one forgets
+/// fast and one slowly.
+struct BitModel {
+  // Decisions after which the estimates are averages over the last 16 and the last 180 or so.
+  static constexpr std::uint8_t kFastCount = 16, kSlowCount = 180;
+
+  std::uint16_t fast = kProbabilityOne / 2;  ///< Probabilities of a 1, out of kProbabilityOne.
+  std::uint16_t slow = kProbabilityOne / 2;
+  std::uint8_t count = 0;  ///< Decisions so far, up to kSlowCount.
+
+  bool operator==(const BitModel&) const = default;
+
+  std::uint32_t probability() const { return (std::uint32_t{fast} + slow) / 2; }
+  void update(bool bit) {
+    fast = moved(fast, bit, std::min(count, kFastCount));
+    slow = moved(slow, bit, count);
+    if (count < kSlowCount) ++count;
+  }
+
+ private:
+  /// The estimate after one more decision, which counts as one of count + 1.5.
+  static std::uint16_t moved(std::uint16_t estimate, bool bit, std::uint8_t count) {
+    static constexpr auto kShares = [] {
+      std::array<std::int32_t, kSlowCount + 1> shares{};
+      for (int n = 0; n <= kSlowCount; ++n) {
+        shares[n] = static_cast<int>(2 * kProbabilityOne) / (2 * n + 3);
+      }
+      return shares;
+    }();
+    const std::int64_t target = bit ? kProbabilityOne - 1 : 0;
+    return static_cast<std::uint16_t>(estimate +
+                                      (target - estimate) * kShares[count] / kProbabilityOne);
+  }
+};
+
+// No decision is taken to be more certain than this, so that a surprise costs at most 11 bits.
+inline constexpr std::uint32_t kLeastProbability = 32;
+
+inline std::uint32_t coded_probability(std::uint32_t probability) {
+  return std::clamp(probability, kLeastProbability, kProbabilityOne - kLeastProbability);
+}
+
+/// Codes a decision: writes it, or reads it and ignores `value`. Returns it.
+template <class Coder>
+bool code_bit(Coder& coder, BitModel& model, bool value) {
+  const bool coded = coder.bit(coded_probability(model.probability()), value);
+  model.update(coded);
+  return coded;
+}
+
+// Log odds are numbers of 8 fractional bits, within -2047 to 2047.
+inline constexpr int kMaxLogOdds = 2047;
+
+/// The probability of log odds: 65536 / (1 + exp(-x / 256)), interpolated between 33 values.
+inline std::uint32_t probability_of(int log_odds) {
+  static constexpr std::array<std::int32_t, 33> kLogistic = {
+      22,    36,    60,    98,    162,   267,   439,   720,   1179,  1921,  3108,
+      4971,  7812,  11955, 17625, 24743, 32768, 40793, 47911, 53581, 57724, 60565,
+      62428, 63615, 64357, 64816, 65097, 65269, 65374, 65438, 65476, 65500, 65514};
+  constexpr int kBetween = 128;
+  const int shifted = std::clamp(log_odds, -kMaxLogOdds, kMaxLogOdds) + kMaxLogOdds + 1;
+  const int below = shifted / kBetween, rest = shifted % kBetween;
+  return static_cast<std::uint32_t>(
+      (kLogistic[below] * (kBetween - rest) + kLogistic[below + 1] * rest) / kBetween);
+}
+
+/// The log odds of a probability: the least whose probability is no lower, to 1 / 4096.
+inline int log_odds_of(std::uint32_t probability) {
+  static constexpr int kShift = 4;
+  static const auto kLogOdds = [] {
+    std::array<std::int16_t, (kProbabilityOne >> kShift)> table{};
+    int x = -kMaxLogOdds;
+    for (std::uint32_t p = 0; p < table.size(); ++p) {
+      while (x < kMaxLogOdds && probability_of(x) < (p << kShift)) ++x;
+      table[p] = static_cast<std::int16_t>(x);
+    }
+    return table;
+  }();
+  return kLogOdds[probability >> kShift];
+}
+
+// Weights have 16 fractional bits, and are within these.
+inline constexpr std::int32_t kMixWeightOne = 1 << 16, kMaxMixWeight = 8 * kMixWeightOne;
+
+/// Weights of what some models expect.
+template <std::size_t Count>
+struct MixWeights {
+  // At first each model counts by a bit more than its share.
+  static constexpr std::int32_t kStart = kMixWeightOne * 4 / 3 / static_cast<int>(Count);
+  // How fast weights learn: 14 to 16 differ by less than a thousandth of a stream.
+  static constexpr int kRateShift = 15;
+
+  std::array<std::int32_t, Count> weights = [] {
+    std::array<std::int32_t, Count> start;
+    start.fill(kStart);
+    return start;
+  }();
+
+  bool operator==(const MixWeights&) const = default;
+};
+
+/// Codes a decision of which several models expect something.
+template <class Coder, std::size_t Count>
+bool code_mixed(Coder& coder, MixWeights<Count>& mix, const std::array<BitModel*, Count>& models,
+                bool value) {
+  std::array<int, Count> odds;
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < Count; ++i) {
+    odds[i] = log_odds_of(models[i]->probability());
+    sum += std::int64_t{mix.weights[i]} * odds[i];
+  }
+  const auto mixed =
+      static_cast<int>(std::clamp<std::int64_t>(sum / kMixWeightOne, -kMaxLogOdds, kMaxLogOdds));
+  const std::uint32_t probability = coded_probability(probability_of(mixed));
+  const bool coded = coder.bit(probability, value);
+  const std::int32_t error =
+      (coded ? static_cast<std::int32_t>(kProbabilityOne) : 0) - static_cast<int>(probability);
+  for (std::size_t i = 0; i < Count; ++i) {
+    const std::int32_t step = odds[i] * (error / 4) / (1 << MixWeights<Count>::kRateShift);
+    mix.weights[i] = std::clamp(mix.weights[i] + step, -kMaxMixWeight, kMaxMixWeight);
+    models[i]->update(coded);
+  }
+  return coded;
+}
+
+/// Codes a number, 0 or more, of any size: a unary prefix with a model for each of its bits, which
+/// counts the bits that follow (exponential Golomb code of order 0). Returns it; what decodes to
+/// more than 2^31 - 2 is cut off there.
+template <class Coder, std::size_t Length>
+std::uint32_t code_exp_golomb(Coder& coder, std::array<BitModel, Length>& models,
+                              std::uint32_t value) {
+  constexpr int kMaxBits = 30;
+  const int wanted = Coder::kWrites ? std::bit_width(value + 1) - 1 : 0;
+  int bits = 0;
+  while (bits < kMaxBits &&
+         code_bit(coder, models[std::min<std::size_t>(bits, Length - 1)], bits < wanted)) {
+    ++bits;
+  }
+  const std::uint32_t rest = coder.bits(bits, value + 1 - (1u << bits));
+  return (1u << bits) - 1 + rest;
+}
+
+}  // namespace lambent::stream

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The private state of LightDecoder.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "lambent/stream.h"
+#include "stream/light/geometry_coding.h"
+#include "stream/light/light_signal.h"
+#include "stream/light/message.h"
+
+namespace lambent::stream {
+
+/// Geometry that was received, and what follows from it.
+struct ReceivedGeometry {
+  ReceivedGeometry(const MessageHeader& header, FieldGeometry received)
+      : stream(header.stream),
+        version(header.geometry),
+        geometry(std::move(received)),
+        basis(geometry.irradiance_texels) {
+    lay_out();
+  }
+  /// Brings `layout` and `grids` up to date with the geometry.
+  void lay_out() {
+    layout = layout_of(geometry);
+    grids.clear();
+    for (const Volume& volume : geometry.volumes) grids.push_back(field_grid(volume.grid));
+  }
+
+  std::uint32_t stream;
+  std::uint64_t version;
+  FieldGeometry geometry;
+  LightLayout layout;
+  TileBasis basis;
+  std::vector<FieldGrid> grids;
+};
+
+struct LightDecoder::State {
+  std::size_t most_bytes = 0;
+  std::optional<ReceivedGeometry> current;  ///< Of `light`; empty before the first key.
+  std::optional<ReceivedGeometry> next;     ///< Of a key that is still to come.
+  LightState light;
+  bool lost = false;  ///< A change is missing.
+  std::vector<int> changed;
+  std::vector<std::int32_t> levels;
+
+  Expected<void> receive(std::span<const std::byte> bytes);
+
+ private:
+  Expected<void> receive_geometry(const Message& message);
+  Expected<void> receive_key(const Message& message);
+  Expected<void> receive_delta(const Message& message);
+  /// Whether a change leads on from this state, with this version of the geometry.
+  Expected<void> check_follows(const MessageHeader& header, std::uint64_t base_geometry);
+};
+
+}  // namespace lambent::stream

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a light stream tells of a field besides its light: grids, and where probes stand, what they
+// are for, and how far what surrounds them is.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "field/probes/probe_grid.h"
+#include "field/probes/probe_status.h"
+#include "field/probes/volumes.h"
+#include "lambent/field.h"
+#include "stream/light/light_state.h"
+
+namespace lambent::stream {
+
+/// Moments of distance as they are sent. The mean is in steps of 1 / 255 of the longest distance
+/// that the grid stores, 0 where nothing is known; the standard deviation is in proportion to the
+/// square of its number, of which 127 is half the longest distance, the most that there can be.
+struct CodedMoments {
+  static constexpr int kMaxMean = 255, kMaxDeviation = 127;
+
+  std::uint8_t mean = 0;
+  std::uint8_t deviation = 0;
+
+  bool operator==(const CodedMoments&) const = default;
+};
+
+/// Mean distance [m] and mean squared distance [m^2], and back.
+CodedMoments encode_moments(const glm::vec2& moments, float longest);
+glm::vec2 decode_moments(const CodedMoments& moments, float longest);
+
+/// The geometry of a field.
+struct FieldGeometry {
+  int irradiance_texels = 4;
+  int distance_texels = 14;
+  std::vector<Volume> volumes;  ///< Their grids' `first` counts through all.
+  std::vector<std::uint32_t> offsets;
+  std::vector<ProbeState> states;
+  std::vector<CodedMoments> moments;  ///< Tiles without gutter, one after the other.
+
+  int probes() const { return static_cast<int>(offsets.size()); }
+  std::size_t tile() const { return static_cast<std::size_t>(distance_texels) * distance_texels; }
+  const ProbeGrid& grid_of(int probe) const;
+  /// Whether another one has as many probes, in tiles and volumes of the same kind, so that what
+  /// changed from one to the other can be told.
+  bool same_kind(const FieldGeometry& other) const;
+};
+
+/// Whether both grids are at the same place in the world and in memory.
+bool same_place(const ProbeGrid& a, const ProbeGrid& b);
+
+/// The volumes and sizes of tiles of a field, without its probes.
+FieldGeometry kind_of(const IrradianceField& field);
+/// The geometry of a field.
+FieldGeometry geometry_of(const IrradianceField& field);
+
+/// What coding of light needs to know of a geometry.
+LightLayout layout_of(const FieldGeometry& geometry);
+
+/// Brings `sent` up to date with a field of the same kind: its grids, the probes that stand
+/// elsewhere or came into or out of solid matter, and of each `stride`-th other probe, from number
+/// `first` on, those whose distances are off by more than `threshold` [smallest spacings] at root
+/// mean square. Returns the probes that were brought up to date, in ascending order.
+std::vector<int> follow(const IrradianceField& field, float threshold, int first, int stride,
+                        FieldGeometry& sent);
+
+}  // namespace lambent::stream

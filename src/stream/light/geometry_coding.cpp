@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/light/geometry_coding.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+
+#include "core/little_endian.h"
+#include "stream/light/bit_models.h"
+#include "stream/light/message.h"
+
+namespace lambent::stream {
+namespace {
+
+// Sizes [bytes] of what stands before coded probes.
+constexpr std::size_t kKindBytes = 12, kVolumeBytes = 124, kPlaceBytes = 60;
+
+// Bytes of a client's state: coefficients and levels, and a decoded tile, of a texel; an encoded
+// and two decoded moments of a texel; the rest of a probe.
+constexpr std::uint64_t kTexelBytes = 40, kMomentsBytes = 12, kProbeBytes = 128;
+
+/// Contexts of probes' records. The numbers of texels are told by how much the texels beside them
+/// differ from one another.
+struct ProbeModels {
+  static constexpr int kActivities = 5, kStateBits = 3, kPrefix = 10;
+  struct Number {
+    BitModel nonzero, negative;
+    std::array<BitModel, kPrefix> size;
+  };
+  std::array<BitModel, 2> changed;
+  std::array<BitModel, 1 << kStateBits> state;
+  BitModel centred, blank;
+  std::array<std::array<Number, kActivities>, 2> numbers;  // of means, and of deviations
+};
+
+/// Codes a signed number.
+template <class Coder>
+int code_number(Coder& coder, ProbeModels::Number& models, int value) {
+  if (!code_bit(coder, models.nonzero, value != 0)) return 0;
+  const bool negative = code_bit(coder, models.negative, value < 0);
+  const auto rest = Coder::kWrites ? static_cast<std::uint32_t>(std::abs(value) - 1) : 0u;
+  // Larger ones than there are come from no encoder, and are found out to be out of range
+  const std::uint32_t coded = std::min(code_exp_golomb(coder, models.size, rest), 0xFFFFu);
+  return negative ? -static_cast<int>(coded) - 1 : static_cast<int>(coded) + 1;
+}
+
+/// What is expected of a number from those to its left, above, and above left (the median edge
+/// detector of LOCO-I: Weinberger et al., "The LOCO-I Lossless Image Compression Algorithm", IEEE
+/// Transactions on Image Processing 9(8), 2000).
+int expected_number(int left, int above, int corner) {
+  const auto [low, high] = std::minmax(left, above);
+  return std::clamp(left + above - corner, low, high);
+}
+
+int activity_of(int left, int above, int corner) {
+  const int sum = std::abs(left - corner) + std::abs(above - corner);
+  return sum == 0 ? 0 : sum <= 2 ? 1 : sum <= 5 ? 2 : sum <= 12 ? 3 : 4;
+}
+
+/// Codes one number of each texel of a tile, as what it differs by from that of `before`. Returns
+/// whether all are within 0 to `most`.
+template <class Coder>
+bool code_tile(Coder& coder, std::array<ProbeModels::Number, ProbeModels::kActivities>& models,
+               std::uint8_t CodedMoments::*number, int edge, int most,
+               std::span<const CodedMoments> before, std::span<CodedMoments> tile) {
+  const auto difference = [&](int x, int y) {
+    if (x < 0 || y < 0) return 0;
+    const std::size_t t = static_cast<std::size_t>(y) * edge + x;
+    return int{tile[t].*number} - int{before[t].*number};
+  };
+  for (int y = 0; y < edge; ++y) {
+    for (int x = 0; x < edge; ++x) {
+      const int left = x > 0 ? difference(x - 1, y) : difference(x, y - 1);
+      const int above = y > 0 ? difference(x, y - 1) : left;
+      const int corner = x > 0 && y > 0 ? difference(x - 1, y - 1) : left;
+      const int expected = expected_number(left, above, corner);
+      const std::size_t t = static_cast<std::size_t>(y) * edge + x;
+      const int coded = code_number(coder, models[activity_of(left, above, corner)],
+                                    Coder::kWrites ? difference(x, y) - expected : 0);
+      const int value = before[t].*number + expected + coded;
+      if (value < 0 || value > most) return false;
+      tile[t].*number = static_cast<std::uint8_t>(value);
+    }
+  }
+  return true;
+}
+
+/// Codes a probe's record: its state, offset and distances, these as what they differ by from
+/// `before`, which may be blank. Returns false on what no encoder wrote.
+template <class Coder>
+bool code_probe(Coder& coder, ProbeModels& models, int probe, std::span<const CodedMoments> before,
+                FieldGeometry& geometry) {
+  int state = Coder::kWrites ? static_cast<int>(geometry.states[probe]) : 0, node = 1;
+  for (int bit = ProbeModels::kStateBits - 1; bit >= 0; --bit) {
+    node = 2 * node + (code_bit(coder, models.state[node], (state >> bit & 1) != 0) ? 1 : 0);
+  }
+  state = node - (1 << ProbeModels::kStateBits);
+  if (state > static_cast<int>(ProbeState::vigilant)) return false;
+  geometry.states[probe] = static_cast<ProbeState>(state);
+
+  std::uint32_t& offset = geometry.offsets[probe];
+  if (code_bit(coder, models.centred, offset == 0)) {
+    offset = 0;
+  } else {
+    offset = coder.bits(3 * kOffsetBits, offset);
+    if (encode_probe_offset(decode_probe_offset(offset)) != offset) return false;
+  }
+  const std::span tile(&geometry.moments[probe * geometry.tile()], geometry.tile());
+  const bool is_blank = std::all_of(tile.begin(), tile.end(), [](const CodedMoments& moments) {
+    return moments == CodedMoments{};
+  });
+  if (code_bit(coder, models.blank, is_blank)) {
+    std::fill(tile.begin(), tile.end(), CodedMoments{});
+    return true;
+  }
+  const int edge = geometry.distance_texels;
+  return code_tile(coder, models.numbers[0], &CodedMoments::mean, edge, CodedMoments::kMaxMean,
+                   before, tile) &&
+         code_tile(coder, models.numbers[1], &CodedMoments::deviation, edge,
+                   CodedMoments::kMaxDeviation, before, tile);
+}
+
+void write_vec3(const vec3& v, ByteWriter& out) {
+  for (int axis = 0; axis < 3; ++axis) out.f32(v[axis]);
+}
+vec3 read_vec3(ByteReader& in) {
+  vec3 v;
+  for (int axis = 0; axis < 3; ++axis) v[axis] = in.f32();
+  return v;
+}
+void write_ivec3(const ivec3& v, ByteWriter& out) {
+  for (int axis = 0; axis < 3; ++axis) out.u32(static_cast<std::uint32_t>(v[axis]));
+}
+
+/// Where a grid is: what scrolling changes.
+void write_place(const ProbeGrid& grid, ByteWriter& out) {
+  write_vec3(grid.origin_ws, out);
+  write_ivec3(grid.scroll, out);
+  write_vec3(grid.fade_centre, out);
+  write_vec3(grid.fade_half, out);
+  write_vec3(grid.fade_cells, out);
+}
+
+/// Returns whether what it reads makes sense.
+bool read_place(ByteReader& in, ProbeGrid& grid) {
+  grid.origin_ws = read_vec3(in);
+  bool sound = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t scroll = in.u32();
+    sound = sound && scroll < static_cast<std::uint32_t>(grid.count[axis]);
+    grid.scroll[axis] = static_cast<int>(std::min<std::uint32_t>(scroll, kMaxProbes));
+  }
+  grid.fade_centre = read_vec3(in);
+  grid.fade_half = read_vec3(in);
+  grid.fade_cells = read_vec3(in);
+  for (int axis = 0; axis < 3; ++axis) {
+    sound = sound && std::abs(grid.origin_ws[axis]) <= kMaxOrigin &&
+            std::isfinite(grid.fade_centre[axis]) && std::isfinite(grid.fade_half[axis]) &&
+            grid.fade_half[axis] > 0.0f && grid.fade_cells[axis] > 0.0f;
+  }
+  return sound;
+}
+
+Expected<Volume> read_volume(ByteReader& in) {
+  Volume volume{};
+  ProbeGrid& grid = volume.grid;
+  std::uint64_t probes = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint32_t count = in.u32();
+    if (count < 2 || count > kMaxProbes) return bad_stream("geometry", "has a senseless grid");
+    probes *= count;
+    if (probes > kMaxProbes) return bad_stream("geometry", "has more probes than a field can");
+    grid.count[axis] = static_cast<int>(count);
+  }
+  grid.spacing = read_vec3(in);
+  for (int axis = 0; axis < 3; ++axis) grid.axes[axis] = read_vec3(in);
+  const std::uint32_t role = in.u32();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(grid.spacing[axis] >= kMinSpacing && grid.spacing[axis] <= kMaxSpacing)) {
+      return bad_stream("geometry", "has a spacing that makes no sense");
+    }
+  }
+  if (!is_rotation(grid.axes)) return bad_stream("geometry", "has axes that are no rotation");
+  if (role >> 16u > 1 || (role & 0xFFFFu) > kMaxCascades) {
+    return bad_stream("geometry", "has a role that no volume has");
+  }
+  volume.role = {role >> 16u == 1, static_cast<int>(role & 0xFFFFu)};
+  if (!read_place(in, grid)) return bad_stream("geometry", "stands at a place that makes no sense");
+  return volume;
+}
+
+void write_volume(const Volume& volume, ByteWriter& out) {
+  write_ivec3(volume.grid.count, out);
+  write_vec3(volume.grid.spacing, out);
+  for (int axis = 0; axis < 3; ++axis) write_vec3(volume.grid.axes[axis], out);
+  out.u32(static_cast<std::uint32_t>(volume.role.level) |
+          (volume.role.follows_viewer ? 1u << 16u : 0u));
+  write_place(volume.grid, out);
+}
+
+/// Reads what the tiles are like and how many volumes there are.
+Expected<std::uint32_t> read_kind(ByteReader& in, FieldGeometry& geometry) {
+  const std::uint32_t irradiance_texels = in.u32(), distance_texels = in.u32();
+  const std::uint32_t volumes = in.u32();
+  if (irradiance_texels < 2 || irradiance_texels > 16 || irradiance_texels % 2 != 0 ||
+      distance_texels < 4 || distance_texels > 32) {
+    return bad_stream("geometry", "has tiles of a size that no field has");
+  }
+  if (volumes < 1 || volumes > kMaxVolumes) {
+    return bad_stream("geometry", "has " + std::to_string(volumes) + " volumes");
+  }
+  geometry.irradiance_texels = static_cast<int>(irradiance_texels);
+  geometry.distance_texels = static_cast<int>(distance_texels);
+  return volumes;
+}
+
+}  // namespace
+
+std::vector<std::byte> write_geometry(const FieldGeometry& geometry) {
+  ByteWriter out;
+  out.u32(static_cast<std::uint32_t>(geometry.irradiance_texels));
+  out.u32(static_cast<std::uint32_t>(geometry.distance_texels));
+  out.u32(static_cast<std::uint32_t>(geometry.volumes.size()));
+  for (const Volume& volume : geometry.volumes) write_volume(volume, out);
+  RangeEncoder coder;
+  ProbeModels models;
+  FieldGeometry copy = geometry;
+  const std::vector<CodedMoments> blank(geometry.tile());
+  for (int probe = 0; probe < copy.probes(); ++probe) {
+    code_probe(coder, models, probe, blank, copy);
+  }
+  out.raw(coder.finish());
+  return out.take();
+}
+
+Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size_t most_bytes) {
+  const auto cut_short = [] { return bad_stream("geometry", "is cut short"); };
+  if (body.size() < kKindBytes) return cut_short();
+  FieldGeometry geometry;
+  ByteReader in(body);
+  const Expected<std::uint32_t> volumes = read_kind(in, geometry);
+  if (!volumes) return tl::unexpected(volumes.error());
+  if (in.left() < kVolumeBytes * *volumes) return cut_short();
+  std::uint64_t probes = 0;
+  for (std::uint32_t i = 0; i < *volumes; ++i) {
+    Expected<Volume> volume = read_volume(in);
+    if (!volume) return tl::unexpected(volume.error());
+    volume->grid.first = static_cast<int>(probes);
+    probes += static_cast<std::uint64_t>(probe_count(volume->grid));
+    if (probes > kMaxProbes) return bad_stream("geometry", "has more probes than a field can");
+    geometry.volumes.push_back(*volume);
+  }
+  const std::uint64_t texels =
+      std::uint64_t(geometry.irradiance_texels) * geometry.irradiance_texels;
+  if (probes * (kTexelBytes * texels + kMomentsBytes * geometry.tile() + kProbeBytes) >
+      most_bytes) {
+    return bad_stream("geometry", "would take more memory than is allowed");
+  }
+  geometry.offsets.resize(probes);
+  geometry.states.resize(probes);
+  geometry.moments.resize(probes * geometry.tile());
+  RangeDecoder coder(body.subspan(body.size() - in.left()));
+  ProbeModels models;
+  const std::vector<CodedMoments> blank(geometry.tile());
+  for (int probe = 0; probe < geometry.probes(); ++probe) {
+    if (!code_probe(coder, models, probe, blank, geometry) || coder.overrun()) {
+      return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
+    }
+  }
+  if (coder.left() > 0) return bad_stream("geometry", "goes on after its last probe");
+  return geometry;
+}
+
+std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
+                                     std::span<const int> probes) {
+  ByteWriter out;
+  for (const Volume& volume : now.volumes) write_place(volume.grid, out);
+  RangeEncoder coder;
+  ProbeModels models;
+  FieldGeometry copy = now;
+  std::size_t next = 0;
+  bool last = false;
+  for (int probe = 0; probe < now.probes(); ++probe) {
+    const bool changed = next < probes.size() && probes[next] == probe;
+    code_bit(coder, models.changed[last ? 1 : 0], changed);
+    last = changed;
+    if (!changed) continue;
+    ++next;
+    code_probe(coder, models, probe,
+               std::span(before.moments).subspan(probe * before.tile(), before.tile()), copy);
+  }
+  out.raw(coder.finish());
+  return out.take();
+}
+
+Expected<void> read_changes(std::span<const std::byte> body, FieldGeometry& geometry,
+                            std::vector<int>& probes) {
+  if (body.size() < kPlaceBytes * geometry.volumes.size()) {
+    return bad_stream("geometry", "is cut short");
+  }
+  FieldGeometry now = geometry;
+  ByteReader in(body);
+  for (Volume& volume : now.volumes) {
+    if (!read_place(in, volume.grid)) {
+      return bad_stream("geometry", "moves to a place that makes no sense");
+    }
+  }
+  probes.clear();
+  RangeDecoder coder(body.subspan(body.size() - in.left()));
+  ProbeModels models;
+  bool last = false;
+  for (int probe = 0; probe < now.probes(); ++probe) {
+    last = code_bit(coder, models.changed[last ? 1 : 0], false);
+    if (coder.overrun()) return bad_stream("geometry", "ends before its last probe");
+    if (!last) continue;
+    probes.push_back(probe);
+    if (!code_probe(coder, models, probe,
+                    std::span(geometry.moments).subspan(probe * now.tile(), now.tile()), now)) {
+      return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
+    }
+  }
+  if (coder.left() > 0) return bad_stream("geometry", "goes on after its last probe");
+  geometry = std::move(now);
+  return {};
+}
+
+}  // namespace lambent::stream

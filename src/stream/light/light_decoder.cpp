@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <numeric>
+#include <optional>
+#include <string>
+
+#include "core/little_endian.h"
+#include "lambent/stream.h"
+#include "stream/light/decoder_state.h"
+#include "stream/light/light_coding.h"
+#include "stream/light/message.h"
+
+namespace lambent::stream {
+namespace {
+
+std::string of_update(std::uint64_t update) {
+  return "update " + std::to_string(update);
+}
+
+}  // namespace
+
+Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
+  const Expected<Message> message = open_message(bytes);
+  if (!message) return tl::unexpected(message.error());
+  switch (message->header.kind) {
+    case LightMessageKind::geometry:
+      return receive_geometry(*message);
+    case LightMessageKind::key:
+      return receive_key(*message);
+    case LightMessageKind::delta:
+      return receive_delta(*message);
+  }
+  return bad_stream("", "holds a message of an unknown kind");
+}
+
+Expected<void> LightDecoder::State::check_follows(const MessageHeader& header,
+                                                  std::uint64_t base_geometry) {
+  if (!current || header.stream != current->stream) {
+    lost = true;
+    return bad_stream(of_update(header.update), "changes a state of which there is no key");
+  }
+  if (header.update <= light.update) {
+    return bad_stream(of_update(header.update), "comes too late");
+  }
+  if (header.update != light.update + 1 || base_geometry != current->version) {
+    lost = true;
+    return bad_stream(of_update(header.update), "follows on something that was lost");
+  }
+  return {};
+}
+
+Expected<void> LightDecoder::State::receive_geometry(const Message& message) {
+  if (message.body.size() < sizeof(std::uint64_t)) return bad_stream("geometry", "is cut short");
+  const std::uint64_t base = ByteReader(message.body).u64();
+  const std::span<const std::byte> body = message.body.subspan(sizeof(base));
+  if (base == 0) {
+    Expected<FieldGeometry> geometry = read_geometry(body, most_bytes);
+    if (!geometry) return tl::unexpected(geometry.error());
+    next = ReceivedGeometry(message.header, std::move(*geometry));
+    return {};
+  }
+  if (const auto fine = check_follows(message.header, base); !fine) return fine;
+  if (message.header.geometry != geometry_number(message.header.stream, message.header.update)) {
+    return bad_stream("geometry", "changes at an update that is not its own");
+  }
+  if (const auto fine = read_changes(body, current->geometry, changed); !fine) {
+    // What would come next follows on this
+    lost = true;
+    return fine;
+  }
+  current->version = message.header.geometry;
+  current->lay_out();
+  clear_unlit(current->layout, light);
+  return {};
+}
+
+Expected<void> LightDecoder::State::receive_key(const Message& message) {
+  const MessageHeader& header = message.header;
+  if (current && header.stream == current->stream && !lost && header.update < light.update) {
+    return bad_stream(of_update(header.update), "comes too late");
+  }
+  const bool is_of_next = next && next->stream == header.stream && next->version == header.geometry;
+  const bool is_of_current =
+      current && current->stream == header.stream && current->version == header.geometry;
+  if (!is_of_next && !is_of_current) {
+    lost = true;
+    return bad_stream(of_update(header.update), "is of geometry that is not here");
+  }
+  Expected<LightState> key = read_key(is_of_next ? next->layout : current->layout, message.body);
+  if (!key) return tl::unexpected(key.error());
+  if (is_of_next) {
+    current = std::move(next);
+    next.reset();
+  }
+  light = std::move(*key);
+  light.update = header.update;
+  lost = false;
+  changed.resize(current->layout.probes());
+  std::iota(changed.begin(), changed.end(), 0);
+  return {};
+}
+
+Expected<void> LightDecoder::State::receive_delta(const Message& message) {
+  if (current && message.header.stream == current->stream &&
+      message.header.geometry != current->version && message.header.update > light.update) {
+    lost = true;
+    return bad_stream(of_update(message.header.update), "is of geometry that is not here");
+  }
+  if (const auto fine = check_follows(message.header, message.header.geometry); !fine) return fine;
+  if (const auto fine = read_delta(current->layout, message.body, light, levels); !fine) {
+    lost = true;
+    return fine;
+  }
+  changed.clear();
+  const std::size_t numbers = current->layout.numbers();
+  for (int probe = 0; probe < current->layout.probes(); ++probe) {
+    const auto own = std::span(levels).subspan(probe * numbers, numbers);
+    if (std::any_of(own.begin(), own.end(), [](std::int32_t level) { return level != 0; })) {
+      changed.push_back(probe);
+    }
+  }
+  return {};
+}
+
+LightDecoder::LightDecoder(std::size_t most_bytes) : state_(std::make_unique<State>()) {
+  state_->most_bytes = most_bytes;
+}
+LightDecoder::~LightDecoder() = default;
+LightDecoder::LightDecoder(LightDecoder&&) noexcept = default;
+LightDecoder& LightDecoder::operator=(LightDecoder&&) noexcept = default;
+
+Expected<void> LightDecoder::receive(std::span<const std::byte> message) {
+  return state_->receive(message);
+}
+
+bool LightDecoder::needs_key() const {
+  return state_->lost || !state_->current;
+}
+
+std::uint64_t LightDecoder::update() const {
+  return state_->light.update;
+}
+
+std::uint64_t LightDecoder::geometry() const {
+  if (state_->next) return state_->next->version;
+  return state_->current ? state_->current->version : 0;
+}
+
+int LightDecoder::probes() const {
+  return state_->current ? state_->current->layout.probes() : 0;
+}
+
+int LightDecoder::irradiance_texels() const {
+  return state_->current ? state_->current->geometry.irradiance_texels : 0;
+}
+
+int LightDecoder::distance_texels() const {
+  return state_->current ? state_->current->geometry.distance_texels : 0;
+}
+
+std::span<const FieldGrid> LightDecoder::grids() const {
+  if (!state_->current) return {};
+  return state_->current->grids;
+}
+
+std::span<const int> LightDecoder::changed() const {
+  return state_->changed;
+}
+
+void LightDecoder::irradiance(int probe, std::span<glm::vec3> tile) const {
+  const ReceivedGeometry& geometry = *state_->current;
+  const std::size_t numbers = geometry.layout.numbers();
+  LightSignal(geometry.basis, state_->light.unit)
+      .light_of(std::span(state_->light.coefficients).subspan(probe * numbers, numbers), tile);
+}
+
+void LightDecoder::distances(int probe, std::span<glm::vec2> tile) const {
+  const FieldGeometry& geometry = state_->current->geometry;
+  const float longest = max_probe_distance(geometry.grid_of(probe));
+  for (std::size_t t = 0; t < geometry.tile(); ++t) {
+    tile[t] = decode_moments(geometry.moments[probe * geometry.tile() + t], longest);
+  }
+}
+
+glm::vec3 LightDecoder::position_ws(int probe) const {
+  const FieldGeometry& geometry = state_->current->geometry;
+  const ProbeGrid& grid = geometry.grid_of(probe);
+  return placed_position(grid, probe_coords(grid, probe),
+                         decode_probe_offset(geometry.offsets[probe]));
+}
+
+}  // namespace lambent::stream
