@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// lambent connect: pictures of a server, in files.
+// lambent connect: pictures of a server, or in its light, in files.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -12,9 +12,11 @@
 
 #include "lambent/command_files.h"
 #include "lambent/commands.h"
+#include "lambent/connect.h"
 #include "lambent/console.h"
 #include "lambent/help.h"
 #include "lambent/image.h"
+#include "lambent/input.h"
 #include "lambent/interrupts.h"
 #include "lambent/output.h"
 #include "lambent/parse.h"
@@ -23,34 +25,19 @@
 #include "lambent/validators.h"
 #include "lambent/words.h"
 #include "stream/client/client.h"
+#include "stream/edits/edits.h"
 #include "stream/picture/h264.h"
-#include "stream/server/picture_maker.h"
 
 namespace lambent::cli {
 namespace {
 
 constexpr const char* kExamples =
     "  lambent connect localhost -o picture.png\n"
+    "  lambent connect localhost --scene scene.glb -o picture.png   render it here\n"
     "  lambent connect https://light.example.org:8443 --token-file token -o p.png --frames 30\n";
 
-// The number of the one input that is sent.
-constexpr std::uint32_t kCameraInput = 1;
-
-struct Options {
-  stream::ConnectSettings connect;
-  std::string server;
-  std::string output;
-  std::string token_file;
-  std::string size = "640x360";
-  std::string eye, target;
-  float fov_degrees = 45.0f;
-  double timeout_s = 10.0;
-  float rate = 30.0f;
-  int frames = 1;
-};
-
 /// "HOST", "HOST:PORT" or either after http:// or https://.
-Expected<stream::ConnectSettings> parse_server(const Options& options) {
+Expected<stream::ConnectSettings> parse_server(const ConnectOptions& options) {
   stream::ConnectSettings to = options.connect;
   std::string text = options.server;
   const std::string https = "https://", http = "http://";
@@ -80,7 +67,7 @@ Expected<stream::ConnectSettings> parse_server(const Options& options) {
   return to;
 }
 
-Expected<stream::Hello> make_hello(const Options& options) {
+Expected<stream::Hello> make_hello(const ConnectOptions& options) {
   stream::Hello hello;
   const auto size = parse_size("--size", options.size);
   if (!size) return tl::unexpected(size.error());
@@ -90,6 +77,7 @@ Expected<stream::Hello> make_hello(const Options& options) {
   }
   hello.size = *size;
   hello.rate = options.rate;
+  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture : stream::kWantsLight;
   if (options.token_file.empty()) return hello;
   std::ifstream file(options.token_file);
   if (!(file >> hello.token) || hello.token.size() > stream::kMaxTokenBytes) {
@@ -99,7 +87,7 @@ Expected<stream::Hello> make_hello(const Options& options) {
 }
 
 /// The camera that is asked for in place of the server's, if any.
-Expected<std::optional<stream::CameraInput>> make_camera(const Options& options) {
+Expected<std::optional<stream::CameraInput>> make_camera(const ConnectOptions& options) {
   if (options.eye.empty() != options.target.empty()) {
     return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
   }
@@ -135,7 +123,7 @@ Expected<stream::Picture> next_picture(stream::Client& client, std::chrono::mill
   return fail("", "", "no picture came in time", Error::Kind::failed);
 }
 
-Expected<void> receive_frames(const Options& options, stream::Client& client,
+Expected<void> receive_frames(const ConnectOptions& options, stream::Client& client,
                               std::chrono::milliseconds timeout) {
   auto decoder = stream::PictureDecoder::make();
   if (!decoder) return tl::unexpected(decoder.error());
@@ -151,9 +139,7 @@ Expected<void> receive_frames(const Options& options, stream::Client& client,
     const auto told = client.send(stream::Received{picture->number, 0.0f});
     if (!told) return told;
     if (picture->input < first_input) continue;  // of the camera before
-    const std::string path = options.frames == 1
-                                 ? options.output
-                                 : frame_path(options.output, static_cast<int>(written.size()));
+    const std::string path = name_of_frame(options, written.size());
     if (const auto done = write_png(path, stream::to_display(*decoded)); !done) return done;
     written.push_back(path);
     size = picture->size;
@@ -163,10 +149,12 @@ Expected<void> receive_frames(const Options& options, stream::Client& client,
   return {};
 }
 
-Expected<void> connect(const Options& options) {
+Expected<void> connect(const ConnectOptions& options) {
   if (const auto fine = check_output(options.output, {".png"}); !fine) return fine;
   CommandFiles files;
   files.reads(options.token_file, "--token-file");
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
   files.reads(options.connect.authority, "--authority");
   if (options.frames == 1) {
     files.writes(options.output, "-o");
@@ -174,6 +162,9 @@ Expected<void> connect(const Options& options) {
     files.writes_frames(options.output, options.frames, "-o");
   }
   if (const auto fine = files.check(); !fine) return fine;
+  if (!options.stage.scene.empty()) {
+    if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
+  }
   const auto settings = parse_server(options);
   if (!settings) return tl::unexpected(settings.error());
   const auto hello = make_hello(options);
@@ -182,22 +173,30 @@ Expected<void> connect(const Options& options) {
   if (!camera) return tl::unexpected(camera.error());
 
   begin_step("connecting");
-  const auto joined = stream::join(*settings, *hello);
+  auto joined = stream::join(*settings, *hello);
   if (!joined) return tl::unexpected(joined.error());
-  if (*camera) {
-    if (const auto sent = joined->client->send(**camera); !sent) return sent;
-  }
-  begin_step("receiving pictures");
   if (const auto made = make_folders(options.output); !made) return made;
-  const auto done = receive_frames(options, *joined->client, settings->timeout);
+  Expected<void> done;
+  if (options.stage.scene.empty()) {
+    if (*camera) done = joined->client->send(**camera);
+    begin_step("receiving pictures");
+    if (done) done = receive_frames(options, *joined->client, settings->timeout);
+  } else {
+    done = render_by_stream(options, *settings, *joined, *camera);
+  }
   joined->client->close();
   return done;
 }
 
 }  // namespace
 
+std::string name_of_frame(const ConnectOptions& options, std::size_t frame) {
+  if (options.frames == 1) return options.output;
+  return frame_path(options.output, static_cast<int>(frame));
+}
+
 void add_connect(CLI::App& app, Run& run) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ConnectOptions>();
   CLI::App* command = app.add_subcommand("connect", "Write what a server shows to files");
   command->group(kStreamGroup);
   command
@@ -235,6 +234,18 @@ void add_connect(CLI::App& app, Run& run) {
       ->check(number(1.0, 170.0))
       ->capture_default_str()
       ->type_name("DEG");
+  command->option_defaults()->group("Pictures of one's own, from the server's light");
+  command
+      ->add_option("--scene", o->stage.scene,
+                   "Render this copy of the server's scene, in the light that the server sends")
+      ->type_name("SCENE");
+  command
+      ->add_option("--quality", o->quality,
+                   "Of these: draft, interactive (one ray a pixel) or high (some 64)")
+      ->check(one_of({"draft", "interactive", "high"}))
+      ->capture_default_str()
+      ->type_name("Q");
+  add_light_options(*command, o->stage.light);
   set_examples(*command, kExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });
 }

@@ -199,6 +199,12 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->type_name("FILE");
   command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
   command.option_defaults()->group("Clients");
+  command
+      .add_option("--light-error", o.server.world.light.target_error,
+                  "Error that the light stream may have, of the mean irradiance")
+      ->check(number(0.001, 0.2))
+      ->capture_default_str()
+      ->type_name("E");
   command.add_option("--clients", o.server.max_clients, "Clients at a time")
       ->check(whole_number(1, kMaxClients))
       ->capture_default_str()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What clients change in the shared scene, and what is kept for them in between.
-#include "stream/server/edits.h"
+#include "stream/edits/edits.h"
 
 #include <gtest/gtest.h>
 

@@ -24,13 +24,21 @@ inline std::vector<std::pair<stream::Message, stream::Sender>> one_of_each_messa
   picture.size = {64, 48};
   picture.bytes = bytes;
   const Refusal refusal{Refusal::Code::bad_token, "the token is not known here"};
-  return {{hello, Sender::client},         {PictureRequest{}, Sender::client},
-          {CameraInput{}, Sender::client}, {TimeOfDay{}, Sender::client},
-          {SunInput{}, Sender::client},    {light, Sender::client},
-          {ObjectInput{}, Sender::client}, {Received{1, 2.0f}, Sender::client},
-          {Ping{123, 0}, Sender::client},  {welcome, Sender::server},
-          {picture, Sender::server},       {LightPayload{1, 2, bytes}, Sender::server},
-          {ServerStats{}, Sender::server}, {refusal, Sender::server}};
+  return {{hello, Sender::client},
+          {PictureRequest{}, Sender::client},
+          {CameraInput{}, Sender::client},
+          {TimeOfDay{}, Sender::client},
+          {SunInput{}, Sender::client},
+          {light, Sender::client},
+          {ObjectInput{}, Sender::client},
+          {Received{1, 2.0f}, Sender::client},
+          {LightReceived{3, 2, 1}, Sender::client},
+          {Ping{123, 0}, Sender::client},
+          {welcome, Sender::server},
+          {picture, Sender::server},
+          {LightPayload{1, 2, 0.5f, bytes}, Sender::server},
+          {ServerStats{}, Sender::server},
+          {refusal, Sender::server}};
 }
 
 }  // namespace lambent::test

@@ -5,7 +5,7 @@ export const VERSION = 1;
 const MAGIC = 0x54424d4c;
 const HEADER_BYTES = 8;
 export const TYPE = {
-  hello: 1, pictureRequest: 2, camera: 3, timeOfDay: 4, light: 6, received: 8, ping: 32,
+  hello: 1, pictureRequest: 2, camera: 3, received: 4, timeOfDay: 33, light: 35,
   welcome: 65, picture: 66, stats: 68, error: 69,
 };
 export const EDITS = { position: 1, direction: 2, intensity: 4 };

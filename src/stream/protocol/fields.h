@@ -19,6 +19,7 @@ inline constexpr float kMaxScale = 1e10f;
 inline constexpr float kMinFov = 0.001f, kMaxFov = std::numbers::pi_v<float> - 0.001f;  // [rad]
 // Milliseconds that nothing here takes: an hour.
 inline constexpr float kMaxMs = 3.6e6f;
+inline constexpr float kMaxTime = 1e9f;  // of an animation [s]: 30 years
 inline constexpr std::uint32_t kAnyWord = 0xffffffffu;
 
 template <class Archive>
@@ -87,6 +88,13 @@ void fields(Archive& a, Received& m) {
 }
 
 template <class Archive>
+void fields(Archive& a, LightReceived& m) {
+  a.long_word("update", m.update);
+  a.long_word("geometry", m.geometry);
+  a.word("needs_key", m.needs_key, 0, 1);
+}
+
+template <class Archive>
 void fields(Archive& a, Ping& m) {
   a.long_word("token", m.token);
   a.word("answer", m.answer, 0, 1);
@@ -136,6 +144,7 @@ template <class Archive>
 void fields(Archive& a, LightPayload& m) {
   a.word("kind", m.kind, 0, kAnyWord);
   a.long_word("update", m.update);
+  a.real("time", m.time_s, -1.0f, kMaxTime);
   a.bytes("bytes", m.bytes, kMaxLightBytes);
 }
 

@@ -33,23 +33,27 @@ struct Type<CameraInput> {
 };
 template <>
 struct Type<TimeOfDay> {
-  static constexpr std::uint8_t kNumber = 4;
+  static constexpr std::uint8_t kNumber = 33;
 };
 template <>
 struct Type<SunInput> {
-  static constexpr std::uint8_t kNumber = 5;
+  static constexpr std::uint8_t kNumber = 34;
 };
 template <>
 struct Type<LightInput> {
-  static constexpr std::uint8_t kNumber = 6;
+  static constexpr std::uint8_t kNumber = 35;
 };
 template <>
 struct Type<ObjectInput> {
-  static constexpr std::uint8_t kNumber = 7;
+  static constexpr std::uint8_t kNumber = 36;
 };
 template <>
 struct Type<Received> {
-  static constexpr std::uint8_t kNumber = 8;
+  static constexpr std::uint8_t kNumber = 4;
+};
+template <>
+struct Type<LightReceived> {
+  static constexpr std::uint8_t kNumber = 5;
 };
 template <>
 struct Type<Ping> {

@@ -61,7 +61,8 @@ struct PictureRequest {
 
 // Inputs are numbered by the client, from 1; pictures tell the last one that they show.
 
-/// Where the client's own camera is.
+/// Where the client's own camera is. Of clients alone; all that follow change the shared scene, and
+/// the server tells clients of light what others have changed, as `input` 0.
 struct CameraInput {
   std::uint32_t input = 0;
   glm::vec3 position_ws{0.0f};                        ///< [m]
@@ -105,6 +106,13 @@ struct ObjectInput {
 struct Received {
   std::uint32_t picture = 0;
   float decode_ms = 0.0f;
+};
+
+/// The last message of light that the client has taken. Tells, too, where it must start again.
+struct LightReceived {
+  std::uint64_t update = 0;     ///< LightPayload::update of that message.
+  std::uint64_t geometry = 0;   ///< LightDecoder::geometry.
+  std::uint32_t needs_key = 0;  ///< 1: LightDecoder::needs_key.
 };
 
 // Messages of both
@@ -151,6 +159,8 @@ struct Picture {
 struct LightPayload {
   std::uint32_t kind = 0;
   std::uint64_t update = 0;
+  /// Time of the scene's animation that the light is of [s]; below 0: none is played.
+  float time_s = -1.0f;
   std::vector<std::byte> bytes;
 };
 
@@ -180,9 +190,9 @@ struct Refusal {
   std::string text;  ///< UTF-8, for people.
 };
 
-using Message =
-    std::variant<Hello, PictureRequest, CameraInput, TimeOfDay, SunInput, LightInput, ObjectInput,
-                 Received, Ping, Welcome, Picture, LightPayload, ServerStats, Refusal>;
+using Message = std::variant<Hello, PictureRequest, CameraInput, TimeOfDay, SunInput, LightInput,
+                             ObjectInput, Received, LightReceived, Ping, Welcome, Picture,
+                             LightPayload, ServerStats, Refusal>;
 
 /// Who sends a message. Each refuses what only the other one may say.
 enum class Sender : std::uint8_t { client, server };

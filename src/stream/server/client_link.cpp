@@ -78,6 +78,10 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
                      take_received(received, now);
                      return std::nullopt;
                    },
+                   [&](const LightReceived& received) -> std::optional<Refusal> {
+                     take_light_received(received);
+                     return std::nullopt;
+                   },
                    [&](const Ping& ping) -> std::optional<Refusal> {
                      if (ping.answer == 0) answer = Ping{ping.token, 1};
                      return std::nullopt;
@@ -92,18 +96,62 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
   return refusal;
 }
 
-std::optional<std::vector<std::byte>> ClientLink::next(Clock::time_point now) {
+void ClientLink::take_light_received(const LightReceived& received) {
+  while (!updates_under_way_.empty() && updates_under_way_.front() <= received.update) {
+    updates_under_way_.pop_front();
+  }
+  known_geometry_ = received.geometry;
+  // What it says of the time before all was sent again no longer counts
+  if (received.needs_key == 1 && received.update >= all_sent_at_) light_lost_ = true;
+}
+
+LightNeed ClientLink::need_light() {
+  const std::lock_guard lock(mutex_);
+  const bool late = !light_.empty() || updates_under_way_.size() >= kUpdatesUnderWay;
+  if (late) light_lost_ = true;
+  if (gone_ || late) return LightNeed::nothing;
+  return light_lost_ ? LightNeed::all : LightNeed::changes;
+}
+
+std::uint64_t ClientLink::known_geometry() const {
+  const std::lock_guard lock(mutex_);
+  return known_geometry_;
+}
+
+void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t update,
+                           LightNeed what) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (gone_ || messages.empty()) return;
+    light_.insert(light_.end(), messages.begin(), messages.end());
+    updates_under_way_.push_back(update);
+    if (what == LightNeed::all) {
+      light_lost_ = false;
+      all_sent_at_ = update;
+    }
+  }
+  wake_connection_();
+}
+
+SharedBytes ClientLink::next(Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   if (!notices_.empty()) {
-    std::vector<std::byte> bytes = std::move(notices_.front());
+    auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(notices_.front()));
     notices_.pop_front();
     return bytes;
   }
-  if (!picture_) return std::nullopt;
+  if (!light_.empty()) {
+    SharedBytes bytes = std::move(light_.front());
+    light_.pop_front();
+    return bytes;
+  }
+  if (!picture_) return nullptr;
   for (UnderWay& one : under_way_) {
     if (one.number == waiting_picture_) one.sent = now;
   }
-  return std::exchange(picture_, std::nullopt);
+  auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(*picture_));
+  picture_.reset();
+  return bytes;
 }
 
 void ClientLink::leave() {
@@ -112,6 +160,7 @@ void ClientLink::leave() {
     gone_ = true;
     picture_.reset();
     notices_.clear();
+    light_.clear();
   }
   wake_world_();
 }
@@ -166,6 +215,7 @@ std::size_t ClientLink::waiting_bytes() const {
   const std::lock_guard lock(mutex_);
   std::size_t bytes = picture_ ? picture_->size() : 0;
   for (const auto& notice : notices_) bytes += notice.size();
+  for (const auto& message : light_) bytes += message->size();
   return bytes;
 }
 

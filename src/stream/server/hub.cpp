@@ -73,6 +73,7 @@ std::string Hub::stats_json() const {
   json["updates_per_s"] = now.rate;
   json["pictures"] = now.pictures;
   json["picture_ms"] = now.picture_ms;
+  json["light_bytes"] = now.light_bytes;
   json["waiting_bytes"] = waiting;
   json["refused"] = now.refused;
   return json.dump();

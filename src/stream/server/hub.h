@@ -18,13 +18,14 @@ namespace lambent::stream {
 
 /// What is told of the world to whoever asks (/stats).
 struct HubStats {
-  std::uint64_t state = 0;     ///< Updates of the world so far.
-  double update_ms = 0.0;      ///< Of the last update of the light.
-  double rate = 0.0;           ///< Updates a second, as reached.
-  std::uint64_t pictures = 0;  ///< Made so far.
-  double picture_ms = 0.0;     ///< To render and encode the last one.
-  std::uint64_t refused = 0;   ///< Connections and messages that were refused.
-  std::uint64_t joined = 0;    ///< Clients so far.
+  std::uint64_t state = 0;        ///< Updates of the world so far.
+  double update_ms = 0.0;         ///< Of the last update of the light.
+  double rate = 0.0;              ///< Updates a second, as reached.
+  std::uint64_t pictures = 0;     ///< Made so far.
+  double picture_ms = 0.0;        ///< To render and encode the last one.
+  std::uint64_t light_bytes = 0;  ///< Of light, to all clients so far.
+  std::uint64_t refused = 0;      ///< Connections and messages that were refused.
+  std::uint64_t joined = 0;       ///< Clients so far.
 };
 
 /// All functions may be called from any thread.

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "core/image/exposure.h"
 #include "core/stopwatch.h"
@@ -18,24 +16,6 @@ constexpr int kPicturesToSettle = 16;
 constexpr float kExposureStep = 0.2f;
 
 }  // namespace
-
-Camera camera_of(const CameraInput& input) {
-  Camera camera;
-  const glm::vec4 q = glm::normalize(input.world_from_view);
-  camera.world_from_view = glm::translate(glm::mat4(1.0f), input.position_ws) *
-                           glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
-  camera.vertical_fov = input.vertical_fov;
-  return camera;
-}
-
-CameraInput input_of(const Camera& camera) {
-  const glm::quat q = glm::normalize(glm::quat_cast(glm::mat3(camera.world_from_view)));
-  CameraInput input;
-  input.position_ws = glm::vec3(camera.world_from_view[3]);
-  input.world_from_view = {q.x, q.y, q.z, q.w};
-  if (!camera.orthographic) input.vertical_fov = camera.vertical_fov;
-  return input;
-}
 
 PictureMaker::PictureMaker(const World& world, const IrradianceField& field,
                            const PictureSettings& settings, const Camera& camera,

@@ -6,6 +6,7 @@
 
 #include "core/image/tone_map.h"
 #include "lambent/renderer.h"
+#include "stream/edits/edits.h"
 #include "stream/picture/h264.h"
 #include "stream/server/client_link.h"
 #include "stream/server/pace.h"
@@ -59,10 +60,5 @@ class PictureMaker {
   std::uint64_t shown_change_ = 0;
   Clock::time_point last_;
 };
-
-/// The matrix of a camera that a client sent.
-Camera camera_of(const CameraInput& input);
-/// The other way round; the camera must be a perspective one.
-CameraInput input_of(const Camera& camera);
 
 }  // namespace lambent::stream

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/server/server.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace lambent::stream {
@@ -11,7 +12,12 @@ Server::Server(const ServedWorld& served, const ServerSettings& settings)
 Expected<std::unique_ptr<Server>> Server::open(const ServedWorld& served,
                                                const ServerSettings& settings) {
   std::unique_ptr<Server> server(new Server(served, settings));
-  auto listener = Listener::open(settings.listen, server->hub_);
+  ListenSettings listen = settings.listen;
+  // Plain requests get through when there are as many clients as may be
+  constexpr std::size_t kPlainConnections = 56;
+  listen.max_connections =
+      std::max(listen.max_connections, settings.max_clients + kPlainConnections);
+  auto listener = Listener::open(listen, server->hub_);
   if (!listener) return tl::unexpected(listener.error());
   server->listener_ = std::move(*listener);
   return server;

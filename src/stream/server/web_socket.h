@@ -142,18 +142,17 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
   void pump() {
     if (writing_since_ || closing_) return;
     if (farewell_) {
-      outgoing_ = std::move(*farewell_);
+      outgoing_ = std::make_shared<const std::vector<std::byte>>(std::move(*farewell_));
       closing_ = true;
     } else if (link_) {
-      auto next = link_->next(Clock::now());
-      if (!next) return;
-      outgoing_ = std::move(*next);
+      outgoing_ = link_->next(Clock::now());
+      if (!outgoing_) return;
     } else {
       return;
     }
     writing_since_ = Clock::now();
     socket_.async_write(
-        boost::asio::buffer(outgoing_),
+        boost::asio::buffer(*outgoing_),
         [self = this->shared_from_this()](ErrorCode error, std::size_t) { self->written(error); });
   }
 
@@ -176,7 +175,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
   std::optional<Clock::time_point> writing_since_, close_deadline_;
   std::optional<Admission> admission_;
   std::shared_ptr<ClientLink> link_;
-  std::vector<std::byte> outgoing_;
+  SharedBytes outgoing_;
   std::optional<std::vector<std::byte>> farewell_;
   bool closing_ = false;
 };

@@ -27,7 +27,7 @@ WorldLoop::WorldLoop(const ServedWorld& served, const WorldSettings& settings, H
 
 void WorldLoop::welcome() {
   Welcome told;
-  told.offers = kWantsPicture;
+  told.offers = kWantsPicture | kWantsLight;
   told.max_size = settings_.pictures.limits.size;
   told.rate = settings_.rate;
   told.camera = input_of(served_.camera);
@@ -71,9 +71,14 @@ Expected<void> WorldLoop::follow_clients(bool with_edits) {
   if (edits.empty()) return {};
   const auto refused = editor_.apply(edits);
   if (!refused) return tl::unexpected(refused.error());
+  std::vector<bool> accepted(edits.size(), true);
   for (const SceneEditor::Refused& one : *refused) {
+    accepted[one.edit] = false;
     std::string why = one.why.substr(0, kMaxErrorBytes);
     senders[one.edit]->put_notice(Refusal{Refusal::Code::refused_input, std::move(why)});
+  }
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    if (accepted[i]) light_->add_edit(edits[i]);
   }
   if (refused->size() == edits.size()) return {};
   welcome();
@@ -86,8 +91,8 @@ Expected<void> WorldLoop::play() {
   if (!settings_.play) return {};
   const double now_s = std::chrono::duration<double>(Clock::now() - start_).count();
   const auto period_s = static_cast<double>(duration_s_);
-  animate(served_.scene, -1,
-          static_cast<float>(period_s > 0.0 ? std::fmod(now_s, period_s) : now_s));
+  time_s_ = static_cast<float>(period_s > 0.0 ? std::fmod(now_s, period_s) : now_s);
+  animate(served_.scene, -1, time_s_);
   const auto moved = served_.world.update();
   if (!moved) return tl::unexpected(moved.error());
   if (moved->any()) state_.last_change = state_.updates + 1;
@@ -113,6 +118,20 @@ void WorldLoop::update_light() {
   const auto interval = std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double, std::milli>(interval_ms));
   next_update_ = std::max(next_update_ + interval, Clock::now());
+}
+
+/// Sends what the update made of the light to those who render it themselves.
+void WorldLoop::send_light() {
+  std::vector<ClientLink*> clients;
+  for (const Viewer& viewer : viewers_) {
+    if (viewer.link->wants(kWantsLight)) clients.push_back(viewer.link.get());
+  }
+  const auto sent = light_->send(served_.field, time_s_, clients);
+  hub_.edit_stats([&](HubStats& stats) { stats.light_bytes = light_->bytes_sent(); });
+  if (sent) return;
+  for (ClientLink* client : clients) {
+    client->put_notice(Refusal{Refusal::Code::failed, sent.error().message()});
+  }
 }
 
 /// One picture for each client that is due and keeps up, until an update is. Whether there was any.
@@ -177,6 +196,9 @@ Clock::time_point WorldLoop::next_work() const {
 }
 
 Expected<void> WorldLoop::run(const std::function<bool()>& stop) {
+  auto light = LightSender::make(settings_.light);
+  if (!light) return tl::unexpected(light.error());
+  light_.emplace(std::move(*light));
   start_ = next_update_ = Clock::now();
   next_stats_ = next_update_ + kStatsInterval;
   while (!stop()) {
@@ -186,6 +208,7 @@ Expected<void> WorldLoop::run(const std::function<bool()>& stop) {
     if (update_is_due) {
       if (const auto done = play(); !done) return done;
       update_light();
+      send_light();
     }
     const bool busy = make_pictures();
     tell_stats(Clock::now());

@@ -6,12 +6,14 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "lambent/field.h"
 #include "lambent/world.h"
-#include "stream/server/edits.h"
+#include "stream/edits/edits.h"
 #include "stream/server/hub.h"
+#include "stream/server/light_sender.h"
 #include "stream/server/picture_maker.h"
 
 namespace lambent::stream {
@@ -22,6 +24,7 @@ struct WorldSettings {
   float update_share = 0.5f;
   bool play = false;  ///< Play the scene's animations, of which there are some, over and over.
   PictureSettings pictures;
+  LightEncoderSettings light;  ///< But for the stream, which is drawn anew.
 };
 
 /// What is served. All is kept by somebody else, outlives the loop, and is used by nobody else
@@ -51,6 +54,7 @@ class WorldLoop {
   Expected<void> follow_clients(bool with_edits);
   Expected<void> play();
   void update_light();
+  void send_light();
   bool make_pictures();
   void tell_stats(Clock::time_point now);
   Clock::time_point next_work() const;
@@ -59,11 +63,13 @@ class WorldLoop {
   WorldSettings settings_;
   Hub& hub_;
   SceneEditor editor_;
+  std::optional<LightSender> light_;  // while it runs
   std::vector<Viewer> viewers_;
   std::size_t first_viewer_ = 0;  // who is made a picture first: one after the other
   WorldState state_;
   Clock::time_point start_;
   float duration_s_ = 0.0f;  // of the longest animation
+  float time_s_ = -1.0f;     // of the animations; below 0: none is played
   Clock::time_point next_update_, next_stats_;
   std::uint64_t updates_at_stats_ = 0;
 };

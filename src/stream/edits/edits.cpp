@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/server/edits.h"
+#include "stream/edits/edits.h"
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <optional>
 
 namespace lambent::stream {
+
+Camera camera_of(const CameraInput& input) {
+  Camera camera;
+  const glm::vec4 q = glm::normalize(input.world_from_view);
+  camera.world_from_view = glm::translate(glm::mat4(1.0f), input.position_ws) *
+                           glm::mat4_cast(glm::quat(q.w, q.x, q.y, q.z));
+  camera.vertical_fov = input.vertical_fov;
+  return camera;
+}
+
+CameraInput input_of(const Camera& camera) {
+  const glm::quat q = glm::normalize(glm::quat_cast(glm::mat3(camera.world_from_view)));
+  CameraInput input;
+  input.position_ws = glm::vec3(camera.world_from_view[3]);
+  input.world_from_view = {q.x, q.y, q.z, q.w};
+  if (!camera.orthographic) input.vertical_fov = camera.vertical_fov;
+  return input;
+}
 
 EditTarget target_of(const Edit& edit) {
   if (const auto* light = std::get_if<LightInput>(&edit)) return {edit.index(), light->light};

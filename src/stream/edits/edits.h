@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What clients change in the shared scene.
+// What clients say of a scene, as the scene has it: cameras, and edits of what all share.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -15,6 +17,11 @@
 #include "stream/protocol/messages.h"
 
 namespace lambent::stream {
+
+/// The matrix of a camera that a client sent.
+Camera camera_of(const CameraInput& input);
+/// The other way round; the camera must be a perspective one.
+CameraInput input_of(const Camera& camera);
 
 using Edit = std::variant<TimeOfDay, SunInput, LightInput, ObjectInput>;
 
