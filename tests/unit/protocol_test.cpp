@@ -5,6 +5,9 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -131,6 +134,21 @@ TEST(Protocol, NumbersOutOfRangeAreRefusedByName) {
               HasSubstr("hours"));
   EXPECT_THAT(cause(with_word(write_message(LightInput{}), kHeaderBytes + 8, 0)),
               HasSubstr("edits"));
+}
+
+TEST(Protocol, FilesOfTheFuzzCorpusAreReadByOneSide) {
+  int files = 0;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(std::string(LAMBENT_FUZZ_CORPUS) + "/protocol")) {
+    std::ifstream file(entry.path(), std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(file)),
+                           std::istreambuf_iterator<char>());
+    const auto bytes = std::as_bytes(std::span(text));
+    EXPECT_TRUE(parse_message(bytes, Sender::client) || parse_message(bytes, Sender::server))
+        << entry.path();
+    ++files;
+  }
+  EXPECT_GE(files, 15);
 }
 
 }  // namespace
