@@ -2,6 +2,7 @@
 // Light to clients that render their own copy of the scene.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <vector>
@@ -9,12 +10,16 @@
 #include "core/image/tone_map.h"
 #include "lambent/renderer.h"
 #include "stream/client/lit_scene.h"
+#include "stream/server/light_sender.h"
 #include "support/served_scene.h"
 
 namespace lambent::stream {
 namespace {
 
 using test::ServedScene;
+
+// Of the light, within which whatever is sent has come.
+constexpr int kUpdates = 200;
 
 Hello light_hello() {
   Hello hello;
@@ -49,7 +54,7 @@ class LightClient {
       const auto followed = lit_.follow(**message);
       EXPECT_TRUE(followed);
       if (!followed) return false;
-      if (followed->answer) EXPECT_TRUE(client_->send(*followed->answer));
+      if (followed->answer && !client_->send(*followed->answer)) return false;
       if (followed->lit) return true;
     }
     return false;
@@ -128,7 +133,10 @@ TEST(LightStream, EditsOfOthersReachTheCopyWithTheirLight) {
   const double before = mean(client.light());
   ASSERT_TRUE(editor->client->send(lamp(1, 0.25f)));
   const glm::vec3 dimmed = 0.25f * scenes::make("cornell-spot")->lights[0].intensity;
-  while (client.scene().lights[0].intensity != dimmed) ASSERT_TRUE(client.follow());
+  for (int i = 0; i < kUpdates && client.scene().lights[0].intensity != dimmed; ++i) {
+    ASSERT_TRUE(client.follow());
+  }
+  ASSERT_EQ(client.scene().lights[0].intensity, dimmed);
   // Some updates may be under way that were made before
   EXPECT_NEAR(mean(client.light()), 0.25 * before, 0.03 * before);
 }
@@ -173,8 +181,52 @@ TEST(LightStream, WhoFallsBehindBeginsAgainWithTheLatest) {
     state = stats->state;
   }
   // Then it catches up with what was under way, and goes on from a key
-  while (slow.lit().update() < enough) ASSERT_TRUE(slow.follow());
+  for (int i = 0; i < kUpdates && slow.lit().update() < enough; ++i) ASSERT_TRUE(slow.follow());
+  EXPECT_GE(slow.lit().update(), enough);
   EXPECT_GT(mean(slow.light()), 0.0);
+}
+
+/// All that waits for a client, parsed.
+std::vector<Message> taken_from(ClientLink& link) {
+  std::vector<Message> messages;
+  while (const SharedBytes bytes = link.next({})) {
+    const auto message = parse_message(*bytes, Sender::server);
+    EXPECT_TRUE(message);
+    if (message) messages.push_back(*message);
+  }
+  return messages;
+}
+
+TEST(LightSender, SendsEditsBeforeTheLightThatFollowedToThoseWhoFollowAndThoseWhoBegin) {
+  const Scene scene = *scenes::make("cornell-spot");
+  const World world(scene);
+  auto field = *IrradianceField::make(ServedScene::small_field(), open_bounds(world));
+  auto sender = LightSender::make({});
+  ASSERT_TRUE(sender);
+  ClientLink follows(
+      light_hello(), Role::view, [] {}, [] {});
+  ClientLink late(
+      light_hello(), Role::view, [] {}, [] {});
+  const std::array<ClientLink*, 1> one = {&follows};
+  const std::array<ClientLink*, 2> both = {&follows, &late};
+  field.update(world);
+  ASSERT_TRUE(sender->send(field, 1.5f, one));
+  const std::vector<Message> first = taken_from(follows);
+  ASSERT_FALSE(first.empty());
+  EXPECT_EQ(std::get<LightPayload>(first.front()).time_s, 1.5f);
+
+  sender->add_edit(lamp(9, 0.5f));
+  field.update(world);
+  ASSERT_TRUE(sender->send(field, 1.6f, one));
+  const std::vector<Message> second = taken_from(follows);
+  ASSERT_GE(second.size(), 2u);
+  EXPECT_EQ(std::get<LightInput>(second.front()).input, 0u) << "the number is the sender's own";
+  EXPECT_TRUE(std::holds_alternative<LightPayload>(second.back()));
+
+  field.update(world);
+  ASSERT_TRUE(sender->send(field, 1.7f, both));
+  EXPECT_TRUE(std::holds_alternative<LightPayload>(taken_from(follows).front())) << "it has it";
+  EXPECT_TRUE(std::holds_alternative<LightInput>(taken_from(late).front()));
 }
 
 class LightLink : public ::testing::Test {
