@@ -44,8 +44,8 @@ struct LightEncoderSettings {
   /// the bytes.
   float target_error = 0.01f;
   /// A probe's distances are sent again where they are off by more than this at root mean square
-  /// [probe spacings], 0.001 to 1. Halving it sends noise of their averages, too.
-  float distance_threshold = 0.05f;
+  /// [probe spacings], 0.001 to 1. Half of it sends the noise of their averages, too.
+  float distance_threshold = 0.1f;
 };
 
 /// The side of the server: turns the states of one field into messages for any number of clients.
@@ -76,7 +76,6 @@ class LightEncoder {
   LightErrors errors() const;
 
  private:
-  friend class LightDecoder;
   struct State;
   explicit LightEncoder(std::unique_ptr<State> state);
   std::unique_ptr<State> state_;

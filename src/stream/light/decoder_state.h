@@ -47,6 +47,7 @@ struct LightDecoder::State {
   LightState light;
   bool lost = false;  ///< A change is missing.
   std::vector<int> changed;
+  bool corrected = false;  ///< The last message changed corrections.
   std::vector<std::int32_t> levels;
 
   Expected<void> receive(std::span<const std::byte> bytes);

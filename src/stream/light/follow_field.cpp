@@ -79,7 +79,14 @@ FieldGeometry geometry_of(const IrradianceField& field) {
       copy_probe(state, static_cast<int>(probe), geometry);
     }
   });
+  geometry.corrections = corrections_of(field);
   return geometry;
+}
+
+std::vector<CodedCorrectionBlock> corrections_of(const IrradianceField& field) {
+  const FieldAccess::State& state = FieldAccess::state_of(field);
+  state.backend->fetch_corrections();
+  return encode_corrections(state.data.correction.blocks());
 }
 
 std::vector<int> follow(const IrradianceField& field, float threshold, int first, int stride,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light stream tells of a field besides its light: grids, and where probes stand, what they
-// are for, and how far what surrounds them is.
+// What a light stream tells of a field besides its light: grids; where probes stand, what they are
+// for, and how far what surrounds them is; and corrections of lookups.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "field/probes/probe_status.h"
 #include "field/probes/volumes.h"
 #include "lambent/field.h"
+#include "stream/light/corrections.h"
 #include "stream/light/light_state.h"
 
 namespace lambent::stream {
@@ -40,6 +41,7 @@ struct FieldGeometry {
   std::vector<std::uint32_t> offsets;
   std::vector<ProbeState> states;
   std::vector<CodedMoments> moments;  ///< Tiles without gutter, one after the other.
+  std::vector<CodedCorrectionBlock> corrections;
 
   int probes() const { return static_cast<int>(offsets.size()); }
   std::size_t tile() const { return static_cast<std::size_t>(distance_texels) * distance_texels; }
@@ -56,6 +58,8 @@ bool same_place(const ProbeGrid& a, const ProbeGrid& b);
 FieldGeometry kind_of(const IrradianceField& field);
 /// The geometry of a field.
 FieldGeometry geometry_of(const IrradianceField& field);
+/// What a field has learned of how far lookups are off.
+std::vector<CodedCorrectionBlock> corrections_of(const IrradianceField& field);
 
 /// What coding of light needs to know of a geometry.
 LightLayout layout_of(const FieldGeometry& geometry);
@@ -63,7 +67,8 @@ LightLayout layout_of(const FieldGeometry& geometry);
 /// Brings `sent` up to date with a field of the same kind: its grids, the probes that stand
 /// elsewhere or came into or out of solid matter, and of each `stride`-th other probe, from number
 /// `first` on, those whose distances are off by more than `threshold` [smallest spacings] at root
-/// mean square. Returns the probes that were brought up to date, in ascending order.
+/// mean square. Leaves corrections alone. Returns the probes that were brought up to date, in
+/// ascending order.
 std::vector<int> follow(const IrradianceField& field, float threshold, int first, int stride,
                         FieldGeometry& sent);
 

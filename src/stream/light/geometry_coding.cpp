@@ -10,41 +10,36 @@
 #include "core/little_endian.h"
 #include "stream/light/bit_models.h"
 #include "stream/light/message.h"
+#include "stream/light/signed_number.h"
 
 namespace lambent::stream {
 namespace {
 
 // Sizes [bytes] of what stands before coded probes.
-constexpr std::size_t kKindBytes = 12, kVolumeBytes = 124, kPlaceBytes = 60;
+constexpr std::size_t kKindBytes = 16, kVolumeBytes = 124, kPlaceBytes = 60;
 
 // Bytes of a client's state: coefficients and levels, and a decoded tile, of a texel; an encoded
 // and two decoded moments of a texel; the rest of a probe.
 constexpr std::uint64_t kTexelBytes = 40, kMomentsBytes = 12, kProbeBytes = 128;
 
+// In place of the number of blocks: corrections are as they were.
+constexpr std::uint32_t kSameCorrections = 0xFFFFFFFFu;
+
+/// The blocks that a field of so many probes has room for.
+std::uint64_t most_blocks(std::uint64_t probes) {
+  return std::uint64_t{kCorrectionBucketsPerProbe} * kCorrectionBucket * probes;
+}
+
 /// Contexts of probes' records. The numbers of texels are told by how much the texels beside them
 /// differ from one another.
 struct ProbeModels {
-  static constexpr int kActivities = 5, kStateBits = 3, kPrefix = 10;
-  struct Number {
-    BitModel nonzero, negative;
-    std::array<BitModel, kPrefix> size;
-  };
+  static constexpr int kActivities = 5, kStateBits = 3;
+  using Number = SignedNumberModels;
   std::array<BitModel, 2> changed;
   std::array<BitModel, 1 << kStateBits> state;
   BitModel centred, blank;
   std::array<std::array<Number, kActivities>, 2> numbers;  // of means, and of deviations
 };
-
-/// Codes a signed number.
-template <class Coder>
-int code_number(Coder& coder, ProbeModels::Number& models, int value) {
-  if (!code_bit(coder, models.nonzero, value != 0)) return 0;
-  const bool negative = code_bit(coder, models.negative, value < 0);
-  const auto rest = Coder::kWrites ? static_cast<std::uint32_t>(std::abs(value) - 1) : 0u;
-  // Larger ones than there are come from no encoder, and are found out to be out of range
-  const std::uint32_t coded = std::min(code_exp_golomb(coder, models.size, rest), 0xFFFFu);
-  return negative ? -static_cast<int>(coded) - 1 : static_cast<int>(coded) + 1;
-}
 
 /// What is expected of a number from those to its left, above, and above left (the median edge
 /// detector of LOCO-I: Weinberger et al., "The LOCO-I Lossless Image Compression Algorithm", IEEE
@@ -77,7 +72,7 @@ bool code_tile(Coder& coder, std::array<ProbeModels::Number, ProbeModels::kActiv
       const int corner = x > 0 && y > 0 ? difference(x - 1, y - 1) : left;
       const int expected = expected_number(left, above, corner);
       const std::size_t t = static_cast<std::size_t>(y) * edge + x;
-      const int coded = code_number(coder, models[activity_of(left, above, corner)],
+      const int coded = code_signed(coder, models[activity_of(left, above, corner)],
                                     Coder::kWrites ? difference(x, y) - expected : 0);
       const int value = before[t].*number + expected + coded;
       if (value < 0 || value > most) return false;
@@ -200,20 +195,25 @@ void write_volume(const Volume& volume, ByteWriter& out) {
   write_place(volume.grid, out);
 }
 
-/// Reads what the tiles are like and how many volumes there are.
-Expected<std::uint32_t> read_kind(ByteReader& in, FieldGeometry& geometry) {
+/// How many volumes and blocks of corrections there are.
+struct Counts {
+  std::uint32_t volumes = 0, blocks = 0;
+};
+
+/// Reads what the tiles are like and how much there is.
+Expected<Counts> read_kind(ByteReader& in, FieldGeometry& geometry) {
   const std::uint32_t irradiance_texels = in.u32(), distance_texels = in.u32();
-  const std::uint32_t volumes = in.u32();
+  const Counts counts = {in.u32(), in.u32()};
   if (irradiance_texels < 2 || irradiance_texels > 16 || irradiance_texels % 2 != 0 ||
       distance_texels < 4 || distance_texels > 32) {
     return bad_stream("geometry", "has tiles of a size that no field has");
   }
-  if (volumes < 1 || volumes > kMaxVolumes) {
-    return bad_stream("geometry", "has " + std::to_string(volumes) + " volumes");
+  if (counts.volumes < 1 || counts.volumes > kMaxVolumes) {
+    return bad_stream("geometry", "has " + std::to_string(counts.volumes) + " volumes");
   }
   geometry.irradiance_texels = static_cast<int>(irradiance_texels);
   geometry.distance_texels = static_cast<int>(distance_texels);
-  return volumes;
+  return counts;
 }
 
 }  // namespace
@@ -223,6 +223,7 @@ std::vector<std::byte> write_geometry(const FieldGeometry& geometry) {
   out.u32(static_cast<std::uint32_t>(geometry.irradiance_texels));
   out.u32(static_cast<std::uint32_t>(geometry.distance_texels));
   out.u32(static_cast<std::uint32_t>(geometry.volumes.size()));
+  out.u32(static_cast<std::uint32_t>(geometry.corrections.size()));
   for (const Volume& volume : geometry.volumes) write_volume(volume, out);
   RangeEncoder coder;
   ProbeModels models;
@@ -231,6 +232,7 @@ std::vector<std::byte> write_geometry(const FieldGeometry& geometry) {
   for (int probe = 0; probe < copy.probes(); ++probe) {
     code_probe(coder, models, probe, blank, copy);
   }
+  write_corrections(coder, geometry.corrections);
   out.raw(coder.finish());
   return out.take();
 }
@@ -240,11 +242,11 @@ Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size
   if (body.size() < kKindBytes) return cut_short();
   FieldGeometry geometry;
   ByteReader in(body);
-  const Expected<std::uint32_t> volumes = read_kind(in, geometry);
-  if (!volumes) return tl::unexpected(volumes.error());
-  if (in.left() < kVolumeBytes * *volumes) return cut_short();
+  const Expected<Counts> counts = read_kind(in, geometry);
+  if (!counts) return tl::unexpected(counts.error());
+  if (in.left() < kVolumeBytes * counts->volumes) return cut_short();
   std::uint64_t probes = 0;
-  for (std::uint32_t i = 0; i < *volumes; ++i) {
+  for (std::uint32_t i = 0; i < counts->volumes; ++i) {
     Expected<Volume> volume = read_volume(in);
     if (!volume) return tl::unexpected(volume.error());
     volume->grid.first = static_cast<int>(probes);
@@ -258,6 +260,9 @@ Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size
       most_bytes) {
     return bad_stream("geometry", "would take more memory than is allowed");
   }
+  if (counts->blocks > most_blocks(probes)) {
+    return bad_stream("geometry", "has more corrections than a field can");
+  }
   geometry.offsets.resize(probes);
   geometry.states.resize(probes);
   geometry.moments.resize(probes * geometry.tile());
@@ -269,13 +274,18 @@ Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size
       return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
     }
   }
-  if (coder.left() > 0) return bad_stream("geometry", "goes on after its last probe");
+  geometry.corrections.resize(counts->blocks);
+  if (!read_corrections(coder, counts->volumes, geometry.corrections)) {
+    return bad_stream("geometry", "holds senseless corrections");
+  }
+  if (coder.left() > 0) return bad_stream("geometry", "goes on after its end");
   return geometry;
 }
 
 std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
-                                     std::span<const int> probes) {
+                                     std::span<const int> probes, bool with_corrections) {
   ByteWriter out;
+  out.u32(with_corrections ? static_cast<std::uint32_t>(now.corrections.size()) : kSameCorrections);
   for (const Volume& volume : now.volumes) write_place(volume.grid, out);
   RangeEncoder coder;
   ProbeModels models;
@@ -291,23 +301,28 @@ std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeo
     code_probe(coder, models, probe,
                std::span(before.moments).subspan(probe * before.tile(), before.tile()), copy);
   }
+  if (with_corrections) write_corrections(coder, now.corrections);
   out.raw(coder.finish());
   return out.take();
 }
 
-Expected<void> read_changes(std::span<const std::byte> body, FieldGeometry& geometry,
-                            std::vector<int>& probes) {
-  if (body.size() < kPlaceBytes * geometry.volumes.size()) {
+Expected<GeometryChanges> read_changes(std::span<const std::byte> body, FieldGeometry& geometry) {
+  if (body.size() < sizeof(std::uint32_t) + kPlaceBytes * geometry.volumes.size()) {
     return bad_stream("geometry", "is cut short");
   }
   FieldGeometry now = geometry;
   ByteReader in(body);
+  const std::uint32_t blocks = in.u32();
+  if (blocks != kSameCorrections && blocks > most_blocks(now.offsets.size())) {
+    return bad_stream("geometry", "has more corrections than a field can");
+  }
   for (Volume& volume : now.volumes) {
     if (!read_place(in, volume.grid)) {
       return bad_stream("geometry", "moves to a place that makes no sense");
     }
   }
-  probes.clear();
+  GeometryChanges changes;
+  changes.corrections = blocks != kSameCorrections;
   RangeDecoder coder(body.subspan(body.size() - in.left()));
   ProbeModels models;
   bool last = false;
@@ -315,15 +330,21 @@ Expected<void> read_changes(std::span<const std::byte> body, FieldGeometry& geom
     last = code_bit(coder, models.changed[last ? 1 : 0], false);
     if (coder.overrun()) return bad_stream("geometry", "ends before its last probe");
     if (!last) continue;
-    probes.push_back(probe);
+    changes.probes.push_back(probe);
     if (!code_probe(coder, models, probe,
                     std::span(geometry.moments).subspan(probe * now.tile(), now.tile()), now)) {
       return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
     }
   }
-  if (coder.left() > 0) return bad_stream("geometry", "goes on after its last probe");
+  if (changes.corrections) {
+    now.corrections.assign(blocks, {});
+    if (!read_corrections(coder, static_cast<std::uint32_t>(now.volumes.size()), now.corrections)) {
+      return bad_stream("geometry", "holds senseless corrections");
+    }
+  }
+  if (coder.left() > 0) return bad_stream("geometry", "goes on after its end");
   geometry = std::move(now);
-  return {};
+  return changes;
 }
 
 }  // namespace lambent::stream

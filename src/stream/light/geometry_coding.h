@@ -18,13 +18,19 @@ std::vector<std::byte> write_geometry(const FieldGeometry& geometry);
 /// more than `most_bytes`, before it takes any.
 Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size_t most_bytes);
 
-/// Writes the grids and some probes, in ascending order, of a geometry that was `before`.
+/// Writes the grids, some probes, in ascending order, and where they changed all corrections, of a
+/// geometry that was `before`.
 std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
-                                     std::span<const int> probes);
+                                     std::span<const int> probes, bool with_corrections);
 
-/// Reads what write_changes wrote, and changes the geometry; `probes` are those that differ. Where
-/// it fails, the geometry is as it was.
-Expected<void> read_changes(std::span<const std::byte> body, FieldGeometry& geometry,
-                            std::vector<int>& probes);
+/// What write_changes told of.
+struct GeometryChanges {
+  std::vector<int> probes;
+  bool corrections = false;
+};
+
+/// Reads what write_changes wrote, and changes the geometry. Where it fails, the geometry is as it
+/// was.
+Expected<GeometryChanges> read_changes(std::span<const std::byte> body, FieldGeometry& geometry);
 
 }  // namespace lambent::stream

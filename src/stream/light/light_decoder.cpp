@@ -63,11 +63,14 @@ Expected<void> LightDecoder::State::receive_geometry(const Message& message) {
   if (message.header.geometry != geometry_number(message.header.stream, message.header.update)) {
     return bad_stream("geometry", "changes at an update that is not its own");
   }
-  if (const auto fine = read_changes(body, current->geometry, changed); !fine) {
+  Expected<GeometryChanges> changes = read_changes(body, current->geometry);
+  if (!changes) {
     // What would come next follows on this
     lost = true;
-    return fine;
+    return tl::unexpected(changes.error());
   }
+  changed = std::move(changes->probes);
+  corrected = changes->corrections;
   current->version = message.header.geometry;
   current->lay_out();
   clear_unlit(current->layout, light);
@@ -95,6 +98,7 @@ Expected<void> LightDecoder::State::receive_key(const Message& message) {
   light = std::move(*key);
   light.update = header.update;
   lost = false;
+  corrected = is_of_next;
   changed.resize(current->layout.probes());
   std::iota(changed.begin(), changed.end(), 0);
   return {};

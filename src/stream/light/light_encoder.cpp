@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <optional>
 
 #include "core/little_endian.h"
@@ -35,6 +36,16 @@ constexpr double kTooExact = 0.4;
 // once.
 constexpr double kOtherLight = 16.0;
 
+// Corrections settle as one over the root of the number of updates: they are sent again when that
+// is so many times as large, and at least so often.
+constexpr int kCorrectionsGrowth = 4, kCorrectionsAtLeast = 4096, kFirstCorrections = 4;
+
+/// With which update of a field corrections are sent again.
+int due_after(int updates) {
+  return updates + std::clamp((kCorrectionsGrowth - 1) * std::min(updates, kCorrectionsAtLeast),
+                              kFirstCorrections, kCorrectionsAtLeast);
+}
+
 double largest(const LightErrors& errors) {
   return std::max(errors.relative, errors.dark);
 }
@@ -59,21 +70,39 @@ struct LightEncoder::State {
   float thrift = 1.0f;
   LightErrors errors;
 
+  // The last message of all of the geometry, without its header
+  mutable std::mutex whole_mutex;
+  mutable std::vector<std::byte> whole_body;
+  mutable std::uint64_t whole_version = 0;
+
+  int next_corrections = 0;  // the number of the field's update with which they are sent again
+
   MessageHeader header(LightMessageKind kind, std::uint64_t update) const {
     return {kind, settings.stream, update, geometry_version};
   }
 
   void begin_geometry(const IrradianceField& field, std::uint64_t update) {
     geometry = geometry_of(field);
+    next_corrections = due_after(field.updates());
     geometry_version = geometry_number(settings.stream, update);
     layout = layout_of(geometry);
     basis.emplace(geometry.irradiance_texels);
     light = LightState{};
   }
 
+  /// All of the geometry, for clients that have none. It is coded once, when the first needs it.
   LightMessage whole_geometry(std::uint64_t update) const {
-    return make_message(header(LightMessageKind::geometry, update),
-                        with_base(0, write_geometry(geometry)));
+    const std::scoped_lock lock(whole_mutex);
+    if (whole_version != geometry_version) {
+      whole_body = with_base(0, write_geometry(geometry));
+      whole_version = geometry_version;
+    }
+    return make_message(header(LightMessageKind::geometry, update), whole_body);
+  }
+
+  void send_corrections(const IrradianceField& field) {
+    geometry.corrections = corrections_of(field);
+    next_corrections = due_after(field.updates());
   }
 
   /// Tells of geometry that changed, if any.
@@ -98,13 +127,15 @@ std::optional<LightMessage> LightEncoder::State::follow_geometry(const Irradianc
   const int turns = moved ? 1 : kDistanceTurns;
   const std::vector<int> probes =
       follow(field, settings.distance_threshold, static_cast<int>(update % turns), turns, geometry);
-  if (probes.empty() && !moved) return std::nullopt;
+  const bool corrects = field.updates() >= next_corrections;
+  if (corrects) send_corrections(field);
+  if (probes.empty() && !moved && !corrects) return std::nullopt;
   const std::uint64_t base = geometry_version;
   geometry_version = geometry_number(settings.stream, update);
   layout = layout_of(geometry);
   clear_unlit(layout, light);
   return make_message(header(LightMessageKind::geometry, update),
-                      with_base(base, write_changes(before, geometry, probes)));
+                      with_base(base, write_changes(before, geometry, probes, corrects)));
 }
 
 LightMessage LightEncoder::State::encode_key(const FieldLight& field, std::uint64_t update,

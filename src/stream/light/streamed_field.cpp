@@ -38,6 +38,7 @@ struct StreamedField::State {
   void make_field(const FieldGeometry& of_stream);
   void copy_places(const FieldGeometry& of_stream);
   void copy_distances(std::span<const int> probes);
+  void copy_corrections(const FieldGeometry& of_stream);
   void copy_light(std::span<const int> probes);
 };
 
@@ -76,6 +77,12 @@ void StreamedField::State::copy_distances(std::span<const int> probes) {
   }
 }
 
+void StreamedField::State::copy_corrections(const FieldGeometry& of_stream) {
+  CorrectionTable& table = FieldAccess::state_of(*field).data.correction;
+  table = CorrectionTable(of_stream.probes());
+  table.restore(decode_corrections(of_stream.corrections), 1.0f);
+}
+
 void StreamedField::State::copy_light(std::span<const int> probes) {
   FieldAccess::State& state = FieldAccess::state_of(*field);
   const auto texels = static_cast<std::size_t>(state.data.tile_texels());
@@ -110,6 +117,7 @@ Expected<void> StreamedField::receive(std::span<const std::byte> message) {
     if (anew) s.make_field(decoded.current->geometry);
     s.copy_places(decoded.current->geometry);
     s.copy_distances(changed);
+    if (anew || decoded.corrected) s.copy_corrections(decoded.current->geometry);
     s.geometry = version;
   }
   s.copy_light(changed);

@@ -24,9 +24,9 @@ std::vector<std::uint8_t> plane(const unsigned char* rows, int stride, int width
 
 struct PictureDecoder::Codec {
   struct Destroy {
-    void operator()(ISVCDecoder* decoder) const {
-      decoder->Uninitialize();
-      WelsDestroyDecoder(decoder);
+    void operator()(ISVCDecoder* made) const {
+      made->Uninitialize();
+      WelsDestroyDecoder(made);
     }
   };
   std::unique_ptr<ISVCDecoder, Destroy> decoder;

@@ -49,9 +49,9 @@ SEncParamExt parameters(ISVCEncoder& encoder, const EncoderSettings& settings) {
 
 struct PictureEncoder::Codec {
   struct Destroy {
-    void operator()(ISVCEncoder* encoder) const {
-      encoder->Uninitialize();
-      WelsDestroySVCEncoder(encoder);
+    void operator()(ISVCEncoder* made) const {
+      made->Uninitialize();
+      WelsDestroySVCEncoder(made);
     }
   };
   std::unique_ptr<ISVCEncoder, Destroy> encoder;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a client gets first.
+#include <cstdio>
+#include <vector>
+
+#include "bench/stage.h"
+#include "bench/stream/scenes.h"
+#include "core/stopwatch.h"
+
+namespace lambent::light_stream {
+
+void measure_geometry() {
+  constexpr int kRepetitions = 9;
+  MovingAtrium atrium(rest(), 0);
+  stream::LightEncoder encoder = bench::value_or_throw(stream::LightEncoder::create());
+  bench::value_or_throw(encoder.encode(atrium.field()));
+  bench::Median join_ms, receive_ms;
+  std::size_t geometry = 0, key = 0;
+  for (int i = 0; i < kRepetitions; ++i) {
+    Stopwatch watch;
+    const auto messages = bench::value_or_throw(encoder.join());
+    join_ms.add(watch.lap());
+    stream::StreamedField client;
+    for (const stream::LightMessage& message : messages) {
+      bench::value_or_throw(client.receive(message.bytes));
+    }
+    receive_ms.add(watch.lap());
+    geometry = messages.front().bytes.size();
+    key = messages.back().bytes.size();
+  }
+  std::printf("### What a client gets first, atrium\n");
+  std::printf(
+      "| probes | raw store [kB] | geometry [kB] | key [kB] | join [ms] | receive [ms] |\n");
+  std::printf("|---|---|---|---|---|---|\n");
+  std::printf("| %d | %.0f | %.0f | %.0f | %.0f | %.0f |\n", atrium.field().probes(),
+              1e-3 * static_cast<double>(atrium.field().store_bytes()),
+              1e-3 * static_cast<double>(geometry), 1e-3 * static_cast<double>(key),
+              join_ms.value(), receive_ms.value());
+}
+
+}  // namespace lambent::light_stream

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/rows.h"
+#include "bench/stream/scenes.h"
+
+int main(int argc, char** argv) {
+  using namespace lambent::light_stream;
+  return lambent::bench::run_rows(
+      "lambent_light_stream",
+      {{"rates", measure_rates}, {"quality", measure_quality}, {"geometry", measure_geometry}},
+      argc, argv);
+}
