@@ -190,6 +190,7 @@ TEST(Help, OfRenderBeginsWithFiveOptionsAndThreeExamples) {
   const ProgramResult result = run_program("render --help");
   ASSERT_EQ(result.status, 0) << result.errors;
   const std::string& help = result.output;
+  EXPECT_THAT(help, HasSubstr("\n  --no-relocation  "));
   const std::size_t most_used = help.find("Most used:"), examples = help.find("Examples:");
   ASSERT_LT(most_used, examples);
   ASSERT_NE(examples, std::string::npos);
