@@ -2,7 +2,9 @@
 // lambent connect: pictures of a server, or in its light, in files.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <optional>
@@ -102,6 +104,26 @@ Expected<std::optional<stream::CameraInput>> make_camera(const ConnectOptions& o
   return camera;
 }
 
+/// What pictures took, in the mean.
+struct Costs {
+  double render_ms = 0.0, encode_ms = 0.0, bytes = 0.0;
+  int pictures = 0;
+
+  void add(const stream::Picture& picture) {
+    render_ms += static_cast<double>(picture.render_ms);
+    encode_ms += static_cast<double>(picture.encode_ms);
+    bytes += static_cast<double>(picture.bytes.size());
+    ++pictures;
+  }
+  std::string text() const {
+    std::array<char, 128> text;
+    std::snprintf(text.data(), text.size(),
+                  "each rendered in %.0f ms, encoded in %.1f ms, sent as %s", render_ms / pictures,
+                  encode_ms / pictures, cli::bytes_text(bytes / pictures).c_str());
+    return text.data();
+  }
+};
+
 /// The next picture; fails once the server ends the stream, with what it said last.
 Expected<stream::Picture> next_picture(stream::Client& client, std::chrono::milliseconds timeout) {
   const auto end = std::chrono::steady_clock::now() + timeout;
@@ -129,6 +151,7 @@ Expected<void> receive_frames(const ConnectOptions& options, stream::Client& cli
   if (!decoder) return tl::unexpected(decoder.error());
   const std::uint32_t first_input = options.eye.empty() ? 0 : kCameraInput;
   std::vector<std::string> written;
+  Costs costs;
   glm::uvec2 size{0};
   const InterruptGuard guard;
   while (static_cast<int>(written.size()) < options.frames && !guard.interrupted()) {
@@ -142,10 +165,12 @@ Expected<void> receive_frames(const ConnectOptions& options, stream::Client& cli
     const std::string path = name_of_frame(options, written.size());
     if (const auto done = write_png(path, stream::to_display(*decoded)); !done) return done;
     written.push_back(path);
+    costs.add(*picture);
     size = picture->size;
   }
   if (written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
-  tell_written(written, pixels_text(static_cast<int>(size.x), static_cast<int>(size.y)));
+  tell_written(written, pixels_text(static_cast<int>(size.x), static_cast<int>(size.y)),
+               costs.text());
   return {};
 }
 

@@ -76,6 +76,11 @@ TEST(Protocol, MessagesThatAreCutOffOrTooLongAreRefused) {
       cut = with_word(cut, 4, static_cast<std::uint32_t>(size - kHeaderBytes));
       EXPECT_FALSE(parse_message(cut, sender)) << message.index() << " cut to " << size;
     }
+    // With one that does not agree, though all is there
+    const auto body = static_cast<std::uint32_t>(whole.size() - kHeaderBytes);
+    for (const std::uint32_t wrong : {body - 1, body + 1, 0xffffffffu}) {
+      EXPECT_FALSE(parse_message(with_word(whole, 4, wrong), sender)) << message.index();
+    }
     std::vector<std::byte> longer = whole;
     longer.push_back(std::byte{0});
     EXPECT_FALSE(parse_message(longer, sender)) << message.index();

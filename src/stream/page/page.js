@@ -67,10 +67,17 @@ function show(frame) {
   canvas.dataset.pictures = pictures;
 }
 
+/// A stream that cannot be decoded begins again with a key picture.
+function restart(error) {
+  tell(`Decoding failed: ${error.message}`, true);
+  keyNeeded = true;
+  socket?.close();
+}
+
 function decode(picture) {
   if (picture.key) {
     if (decoder && decoder.state !== 'closed') decoder.close();
-    decoder = new VideoDecoder({ output: show, error: (error) => { tell(`Decoding failed: ${error.message}`, true); } });
+    decoder = new VideoDecoder({ output: show, error: restart });
     decoder.configure({ codec: codecOf(picture.bytes), optimizeForLatency: true });
     keyNeeded = false;
   }
