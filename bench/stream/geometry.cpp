@@ -11,9 +11,13 @@ namespace lambent::light_stream {
 
 void measure_geometry() {
   constexpr int kRepetitions = 9;
-  MovingAtrium atrium(rest(), 0);
+  constexpr int kUpdates = 24;
+  const Scene scene = bench::open_stage("atrium");
+  const World world(scene);
+  IrradianceField field = bench::value_or_throw(IrradianceField::make({}, open_bounds(world)));
+  for (int i = 0; i < kUpdates; ++i) field.update(world);
   stream::LightEncoder encoder = bench::value_or_throw(stream::LightEncoder::create());
-  bench::value_or_throw(encoder.encode(atrium.field()));
+  bench::value_or_throw(encoder.encode(field));
   bench::Median join_ms, receive_ms;
   std::size_t geometry = 0, key = 0;
   for (int i = 0; i < kRepetitions; ++i) {
@@ -32,10 +36,9 @@ void measure_geometry() {
   std::printf(
       "| probes | raw store [kB] | geometry [kB] | key [kB] | join [ms] | receive [ms] |\n");
   std::printf("|---|---|---|---|---|---|\n");
-  std::printf("| %d | %.0f | %.0f | %.0f | %.0f | %.0f |\n", atrium.field().probes(),
-              1e-3 * static_cast<double>(atrium.field().store_bytes()),
-              1e-3 * static_cast<double>(geometry), 1e-3 * static_cast<double>(key),
-              join_ms.value(), receive_ms.value());
+  std::printf("| %d | %.0f | %.0f | %.0f | %.0f | %.0f |\n", field.probes(),
+              1e-3 * static_cast<double>(field.store_bytes()), 1e-3 * static_cast<double>(geometry),
+              1e-3 * static_cast<double>(key), join_ms.value(), receive_ms.value());
 }
 
 }  // namespace lambent::light_stream

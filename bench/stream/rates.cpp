@@ -34,7 +34,8 @@ void print_head(const char* what) {
   std::printf("### %s, atrium, 10 states/s, %d states\n", what, kStates);
   std::printf(
       "| what moves | budget | light [Mbit/s] | geometry [Mbit/s] | errors [%%] | largest [%%] | "
-      "keys after the first | key at the end [kB] | encode, decode [ms] | saved of the raw store "
+      "keys after the first | key at the end [kB] | encode, decode [ms of one core] | saved of the "
+      "raw store "
       "[%%] |\n");
   std::printf("|---|---|---|---|---|---|---|---|---|---|\n");
 }

@@ -56,9 +56,9 @@ struct StreamCost {
   std::uint64_t light_bytes = 0;     ///< Of deltas, and of keys but the first.
   std::uint64_t geometry_bytes = 0;  ///< Of geometry but the first.
   std::uint64_t first_key = 0, first_geometry = 0, last_key = 0;
-  double relative = 0.0, dark = 0.0;  ///< Means of LightErrors.
-  double most = 0.0;                  ///< The largest of them.
-  bench::Median encode_ms, decode_ms;
+  double relative = 0.0, dark = 0.0;   ///< Means of LightErrors.
+  double most = 0.0;                   ///< The largest of them.
+  bench::Median encode_ms, decode_ms;  ///< Processor time.
 
   double light_mbit_s() const;
   double geometry_mbit_s() const;

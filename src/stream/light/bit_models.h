@@ -68,12 +68,14 @@ bool code_bit(Coder& coder, BitModel& model, bool value) {
 // Log odds are numbers of 8 fractional bits, within -2047 to 2047.
 inline constexpr int kMaxLogOdds = 2047;
 
-/// The probability of log odds: 65536 / (1 + exp(-x / 256)), interpolated between 33 values.
-inline std::uint32_t probability_of(int log_odds) {
-  static constexpr std::array<std::int32_t, 33> kLogistic = {
-      22,    36,    60,    98,    162,   267,   439,   720,   1179,  1921,  3108,
-      4971,  7812,  11955, 17625, 24743, 32768, 40793, 47911, 53581, 57724, 60565,
-      62428, 63615, 64357, 64816, 65097, 65269, 65374, 65438, 65476, 65500, 65514};
+// 65536 / (1 + exp(-i / 2)) for i of -16 to 16.
+inline constexpr std::array<std::int32_t, 33> kLogistic = {
+    22,    36,    60,    98,    162,   267,   439,   720,   1179,  1921,  3108,
+    4971,  7812,  11955, 17625, 24743, 32768, 40793, 47911, 53581, 57724, 60565,
+    62428, 63615, 64357, 64816, 65097, 65269, 65374, 65438, 65476, 65500, 65514};
+
+/// The probability of log odds: 65536 / (1 + exp(-x / 256)), interpolated between those 33.
+constexpr std::uint32_t probability_of(int log_odds) {
   constexpr int kBetween = 128;
   const int shifted = std::clamp(log_odds, -kMaxLogOdds, kMaxLogOdds) + kMaxLogOdds + 1;
   const int below = shifted / kBetween, rest = shifted % kBetween;
@@ -81,19 +83,23 @@ inline std::uint32_t probability_of(int log_odds) {
       (kLogistic[below] * (kBetween - rest) + kLogistic[below + 1] * rest) / kBetween);
 }
 
-/// The log odds of a probability: the least whose probability is no lower, to 1 / 4096.
+// Log odds are found for probabilities rounded down to multiples of 2^kLogOddsShift.
+inline constexpr int kLogOddsShift = 4;
+
+/// Log odds by probability: the least whose probability is no lower.
+inline constexpr auto kLogOdds = [] {
+  std::array<std::int16_t, (kProbabilityOne >> kLogOddsShift)> table{};
+  int x = -kMaxLogOdds;
+  for (std::uint32_t p = 0; p < table.size(); ++p) {
+    while (x < kMaxLogOdds && probability_of(x) < (p << kLogOddsShift)) ++x;
+    table[p] = static_cast<std::int16_t>(x);
+  }
+  return table;
+}();
+
+/// The log odds of a probability.
 inline int log_odds_of(std::uint32_t probability) {
-  static constexpr int kShift = 4;
-  static const auto kLogOdds = [] {
-    std::array<std::int16_t, (kProbabilityOne >> kShift)> table{};
-    int x = -kMaxLogOdds;
-    for (std::uint32_t p = 0; p < table.size(); ++p) {
-      while (x < kMaxLogOdds && probability_of(x) < (p << kShift)) ++x;
-      table[p] = static_cast<std::int16_t>(x);
-    }
-    return table;
-  }();
-  return kLogOdds[probability >> kShift];
+  return kLogOdds[probability >> kLogOddsShift];
 }
 
 // Weights have 16 fractional bits, and are within these.

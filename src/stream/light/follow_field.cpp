@@ -12,21 +12,31 @@ namespace {
 
 constexpr std::size_t kChunk = 64;  // probes that one core takes at a time
 
-/// Calls visit(texel, moments [m, m^2]) for the texels of a probe's tile.
+/// Calls visit(texel, moments [m, m^2]) for the texels of a probe's tile, as
+/// ProbeStore::moments_texel finds them.
 template <class Visit>
-void for_each_moments(const ProbeStore& store, int probe, Visit visit) {
-  const int n = store.distance_texels();
-  for (int t = 0; t < n * n; ++t) {
-    visit(t, store.moments_texel(probe, ivec2(t % n, t / n) + 1));
+void for_each_moments(const ProbeStore& store, const ProbeGrid& grid, int probe, Visit visit) {
+  const int n = store.distance_texels(), words = store.words_per_distance_texel();
+  const float unit = distance_unit(grid);
+  const uint* tile =
+      &store.distance_words()[static_cast<std::size_t>(probe) * (n + 2) * (n + 2) * words];
+  for (int y = 0; y < n; ++y) {
+    const uint* word = tile + ((y + 1) * (n + 2) + 1) * words;
+    for (int x = 0; x < n; ++x, word += words) {
+      const vec2 moments = words == 1 ? decode_half2(word[0])
+                                      : vec2(uintBitsToFloat(word[0]), uintBitsToFloat(word[1]));
+      visit(y * n + x, moments * vec2(unit, unit * unit));
+    }
   }
 }
 
 void copy_probe(const FieldAccess::State& field, int probe, FieldGeometry& geometry) {
   const ProbeStore& store = field.data.store;
-  const float longest = max_probe_distance(store.grid_of(probe));
+  const ProbeGrid& grid = store.grid_of(probe);
+  const float longest = max_probe_distance(grid);
   geometry.offsets[probe] = store.offset_words()[probe];
   geometry.states[probe] = field.statuses[probe].state;
-  for_each_moments(store, probe, [&](int t, const vec2& moments) {
+  for_each_moments(store, grid, probe, [&](int t, const vec2& moments) {
     geometry.moments[probe * geometry.tile() + t] = encode_moments(moments, longest);
   });
 }
@@ -39,18 +49,17 @@ bool is_lit(ProbeState state) {
 bool is_off(const ProbeStore& store, const FieldGeometry& sent, int probe, float threshold) {
   const ProbeGrid& grid = store.grid_of(probe);
   const float longest = max_probe_distance(grid);
-  const auto deviation = [](const vec2& moments) {
-    return std::sqrt(std::max(moments.y - moments.x * moments.x, 0.0f));
-  };
-  double means = 0.0, deviations = 0.0;
-  for_each_moments(store, probe, [&](int t, const vec2& now) {
-    const vec2 then = decode_moments(sent.moments[probe * sent.tile() + t], longest);
-    const float of_mean = now.x - then.x, of_deviation = deviation(now) - deviation(then);
+  float means = 0.0f, deviations = 0.0f;
+  const CodedMoments* then = &sent.moments[probe * sent.tile()];
+  for_each_moments(store, grid, probe, [&](int t, const vec2& now) {
+    const float deviation = std::sqrt(std::max(now.y - now.x * now.x, 0.0f));
+    const float of_mean = now.x - decode_mean(then[t], longest);
+    const float of_deviation = deviation - decode_deviation(then[t], longest);
     means += of_mean * of_mean;
     deviations += of_deviation * of_deviation;
   });
-  const double most = threshold * smallest_spacing(grid);
-  return std::max(means, deviations) > most * most * static_cast<double>(sent.tile());
+  const float most = threshold * smallest_spacing(grid);
+  return std::max(means, deviations) > most * most * static_cast<float>(sent.tile());
 }
 
 }  // namespace

@@ -5,13 +5,6 @@
 #include <cmath>
 
 namespace lambent::stream {
-namespace {
-
-// The standard deviation of numbers between 0 and 1 is at most this.
-constexpr float kMaxDeviationShare = 0.5f;
-
-}  // namespace
-
 CodedMoments encode_moments(const glm::vec2& moments, float longest) {
   if (!(moments.x > 0.0f)) return {};
   const float mean = moments.x / longest;
@@ -27,9 +20,8 @@ CodedMoments encode_moments(const glm::vec2& moments, float longest) {
 }
 
 glm::vec2 decode_moments(const CodedMoments& moments, float longest) {
-  const float mean = longest * static_cast<float>(moments.mean) / CodedMoments::kMaxMean;
-  const float root = static_cast<float>(moments.deviation) / CodedMoments::kMaxDeviation;
-  const float deviation = kMaxDeviationShare * longest * root * root;
+  const float mean = decode_mean(moments, longest);
+  const float deviation = decode_deviation(moments, longest);
   return {mean, mean * mean + deviation * deviation};
 }
 

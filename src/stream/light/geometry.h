@@ -29,6 +29,20 @@ struct CodedMoments {
   bool operator==(const CodedMoments&) const = default;
 };
 
+// The standard deviation of numbers between 0 and 1 is at most this.
+inline constexpr float kMaxDeviationShare = 0.5f;
+
+/// The mean distance, and the standard deviation [m].
+inline float decode_mean(const CodedMoments& moments, float longest) {
+  return static_cast<float>(moments.mean) * (longest / CodedMoments::kMaxMean);
+}
+inline float decode_deviation(const CodedMoments& moments, float longest) {
+  const auto root = static_cast<float>(moments.deviation);
+  return root * root *
+         (kMaxDeviationShare * longest /
+          (CodedMoments::kMaxDeviation * CodedMoments::kMaxDeviation));
+}
+
 /// Mean distance [m] and mean squared distance [m^2], and back.
 CodedMoments encode_moments(const glm::vec2& moments, float longest);
 glm::vec2 decode_moments(const CodedMoments& moments, float longest);
