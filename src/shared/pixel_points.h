@@ -48,7 +48,7 @@ LAMBENT_FN uint hilbert_index(uint x, uint y) {
 
 /// Point of the unit square for one of the rays that a pixel sends out in a sample.
 LAMBENT_FN vec2 pixel_point(uint x, uint y, uint ray, uint rays_per_pixel, uint sample_index,
-                             uint seed) {
+                            uint seed) {
   uint index = hilbert_index(x, y) * rays_per_pixel + ray;
   uint shift = hash_pcg(seed);
   return vec2(
