@@ -12,13 +12,24 @@ lambent_packages=(
   libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev libwebp-dev libtinygltf-dev libdraco-dev
   libmeshoptimizer-dev
   nlohmann-json3-dev
+  # The server: TLS, H.264; Boost is below
+  libssl-dev libopenh264-dev
   # Program and errors
   libcli11-dev libexpected-dev
+  # Bakes on several machines
+  libopenmpi-dev openmpi-bin
   # Vulkan's headers; its loader is found at run time
   libvulkan-dev
   # Tests and benches
   libgtest-dev libgmock-dev libbenchmark-dev
 )
+
+# The server's HTTP and WebSocket. Debian 12 has a newer Boost beside the one that it calls libboost-dev.
+if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then
+  lambent_packages+=(libboost1.81-dev)
+else
+  lambent_packages+=(libboost-dev)
+fi
 
 # Prints the packages of the list that are not installed.
 lambent_missing_packages() {

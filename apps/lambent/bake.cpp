@@ -1,18 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // lambent bake: a field that has settled, in a file.
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
+#include "bake/checkpoint.h"
+#include "core/stopwatch.h"
+#include "field/field_access.h"
 #include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
 #include "lambent/field_options.h"
 #include "lambent/help.h"
+#include "lambent/job.h"
 #include "lambent/memory_check.h"
 #include "lambent/output.h"
 #include "lambent/progress_bar.h"
@@ -35,18 +44,28 @@ struct Options {
   int bounces = -1;             // -1: all
   std::uint32_t seed = 1;
   int threads = 0;  // 0: all
+  std::string checkpoint;
+  double every_s = 600.0;
 };
+
+// Between two lines of progress, where there is no terminal to draw it on [s].
+constexpr double kSecondsBetweenLines = 10.0;
 
 Expected<void> check(const Options& options) {
   if (const auto fine = check_own_output(options.output, "a field"); !fine) return fine;
   if (!options.stats.empty()) {
     if (const auto fine = check_place(options.stats); !fine) return fine;
   }
+  if (!options.checkpoint.empty()) {
+    const auto fine = check_own_output(options.checkpoint, "a checkpoint");
+    if (!fine) return fine;
+  }
   CommandFiles files;
   files.reads_scene(options.stage.scene);
   files.reads(options.stage.light.environment, "--environment");
   files.writes(options.output, "-o");
   files.writes(options.stats, "--stats");
+  files.writes(options.checkpoint, "--checkpoint");
   return files.check();
 }
 
@@ -60,56 +79,175 @@ void tell_baked(const Options& options, const IrradianceField& field,
   tell_written(options.output, std::to_string(field.probes()) + " probes", text.data());
 }
 
-Expected<void> bake(const Options& options) {
-  if (const auto fine = check(options); !fine) return fine;
+/// What a bake works with.
+struct Baking {
+  Scene scene;
+  std::unique_ptr<World> world;
+  std::optional<IrradianceField> field;
+  UpdateRequest request;
+};
+
+/// Reads the scene, and makes the field that is to be baked. Every process does so for itself.
+Expected<void> prepare(const Options& options, const Job& job, Baking& baking) {
+  // Files are the first process's alone
+  if (job.leads()) {
+    if (const auto fine = check(options); !fine) return fine;
+  }
   // What is wrong with the options is told before the scene is read
   if (const auto fine = field_settings(options.field, {}, options.seed, options.bounces); !fine) {
     return tl::unexpected(fine.error());
   }
-  const ThreadLimit limit(options.threads);
-
   begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
+  baking.scene = std::move(*scene);
   if (options.time_s) {
-    if (scene->animations.empty()) {
+    if (baking.scene.animations.empty()) {
       return fail("--time", "", "the scene has no animation that can be played");
     }
-    animate(*scene, -1, *options.time_s);
+    animate(baking.scene, -1, *options.time_s);
   }
   begin_step("preparing the scene for rays");
-  World world(*scene);
+  baking.world = std::make_unique<World>(baking.scene);
+  World& world = *baking.world;
   const Expected<View> view = choose_view(options.stage, world, FirstViewSettings().aspect);
   if (!view) return tl::unexpected(view.error());
-  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  const auto light = add_first_light(options.stage.light, view->camera, baking.scene, world);
   if (!light) return tl::unexpected(light.error());
   tell("light: " + *light);
-  const auto settings = field_settings(options.field, *scene, options.seed, options.bounces);
+  const auto settings = field_settings(options.field, baking.scene, options.seed, options.bounces);
   if (!settings) return tl::unexpected(settings.error());
   begin_step("updating the field");
-  Expected<IrradianceField> field = make_field(*settings, options.field, world, view->camera, 1);
+  Expected<IrradianceField> field = make_field(*settings, options.field, world, view->camera, 1,
+                                               {job.ranks.count(), job.on_this_machine});
   if (!field) return tl::unexpected(field.error());
+  baking.field.emplace(std::move(*field));
+  baking.request = {0, 0.0, glm::vec3(view->camera.world_from_view[3])};
+  return {};
+}
 
-  nlohmann::ordered_json stats;
-  stats["triangles"] = triangle_count(*scene);
-  stats["build_ms"] = world.build_ms();
-  FieldProgress reached;
-  const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
-  {
-    const ProgressFn progress = terminal_progress();
-    reached = options.updates > 0
-                  ? update_field(world, options.updates, request, *field, progress, stats)
-                  : settle_field(world, request, *field, progress, stats);
+/// Fails where another process has another scene, or other options.
+Expected<void> check_alike(const Job& job, const Baking& baking) {
+  const std::vector<std::uint32_t> each =
+      gather_each(job.ranks, bake_identity(*baking.field, *baking.world, baking.request.viewer_ws));
+  const auto other = std::find_if(each.begin(), each.end(),
+                                  [&](std::uint32_t identity) { return identity != each.front(); });
+  if (other == each.end()) return {};
+  return fail("", "rank " + std::to_string(other - each.begin()),
+              "has another scene than rank 0, or other options");
+}
+
+/// Goes on where an earlier bake was interrupted, if it was. Whether there is a checkpoint is what
+/// the first process sees.
+Expected<void> resume(const Options& options, const Job& job, Baking& baking) {
+  if (options.checkpoint.empty()) return {};
+  std::error_code ignored;
+  const bool here = job.leads() && std::filesystem::exists(options.checkpoint, ignored);
+  if (gather_each<std::uint8_t>(job.ranks, here ? 1 : 0).front() == 0) return {};
+  begin_step("reading the checkpoint");
+  Expected<Checkpoint> read =
+      read_checkpoint(options.checkpoint, *baking.world, baking.request.viewer_ws, *baking.field);
+  Expected<void> fine;
+  if (!read) fine = tl::unexpected(read.error());
+  if (read && options.updates > 0 && read->updates() > options.updates) {
+    fine = fail(options.checkpoint, "",
+                "has had " + std::to_string(read->updates()) + " updates, more than --updates");
   }
-  stats["settled"] = reached.settled;
+  if (const auto all_fine = agree(job, fine); !all_fine) return all_fine;
+  begin_step("updating the field");
+  resume_from(*read, *baking.world, baking.request.viewer_ws, *baking.field);
+  tell("going on from " + options.checkpoint + ", after " +
+       std::to_string(baking.field->updates()) + " updates");
+  return {};
+}
+
+/// Returns what is done after each update: checkpoints, and where nobody watches a terminal, lines
+/// of how far the processes are.
+std::function<void(const FieldProgress&)> between_updates(const Options& options, const Job& job,
+                                                          const Baking& baking, bool tells_lines) {
+  auto since_checkpoint = std::make_shared<Stopwatch>();
+  auto since_line = std::make_shared<Stopwatch>();
+  auto seconds = std::make_shared<std::array<double, 2>>();
+  return [&options, &job, &baking, tells_lines, since_checkpoint, since_line,
+          seconds](const FieldProgress& reached) {
+    constexpr double kMsPerSecond = 1000.0;
+    auto& [unsaved, untold] = *seconds;
+    untold += since_line->lap() / kMsPerSecond;
+    if (tells_lines && untold >= kSecondsBetweenLines) {
+      untold = 0.0;
+      std::array<char, 96> text;
+      std::snprintf(text.data(), text.size(), "update %d changed the light by %.3g %%",
+                    reached.updates, 100.0 * reached.change);
+      tell(text.data());
+    }
+    if (options.checkpoint.empty()) return;
+    unsaved += since_checkpoint->lap() / kMsPerSecond;
+    // The first process's clock counts
+    const bool due = unsaved >= options.every_s;
+    if (gather_each<std::uint8_t>(job.ranks, due ? 1 : 0).front() == 0) return;
+    unsaved = 0.0;
+    // Where that fails, so does what follows, which says why
+    if (job.leads()) (void)make_folders(options.checkpoint);
+    const auto saved =
+        save_checkpoint(options.checkpoint, *baking.field, *baking.world, baking.request.viewer_ws);
+    // The bake may still come to its end without
+    if (!saved) warn(saved.error().message());
+  };
+}
+
+/// Writes the baked field and what else was asked for.
+Expected<void> write(const Options& options, const Job& job, const Baking& baking,
+                     const FieldProgress& reached, const nlohmann::ordered_json& stats) {
   begin_step("writing the field");
-  if (const auto made = make_folders(options.output); !made) return made;
-  if (const auto saved = save_field(options.output, *field, world); !saved) return saved;
+  Expected<void> made;
+  if (job.leads()) made = make_folders(options.output);
+  if (const auto all_made = agree(job, made); !all_made) return all_made;
+  const auto saved = save_field(options.output, *baking.field, *baking.world);
+  if (!saved || !job.leads()) return saved;
+  if (!options.checkpoint.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(options.checkpoint, ignored);
+  }
   if (!options.stats.empty()) {
     if (const auto told = write_statistics(options.stats, stats); !told) return told;
   }
-  tell_baked(options, *field, reached);
+  tell_baked(options, *baking.field, reached);
   return {};
+}
+
+/// The most memory that this process has had so far [bytes].
+std::uint64_t peak_memory() {
+  struct rusage usage {};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // told in KiB
+}
+
+Expected<void> bake(const Options& options, const Job& job) {
+  const ThreadLimit limit(options.threads);
+  Baking baking;
+  if (const auto fine = agree(job, prepare(options, job, baking)); !fine) return fine;
+  if (const auto fine = check_alike(job, baking); !fine) return fine;
+  share_work(*baking.field, job.ranks);
+  if (const auto fine = resume(options, job, baking); !fine) return fine;
+
+  nlohmann::ordered_json stats;
+  stats["triangles"] = triangle_count(baking.scene);
+  stats["build_ms"] = baking.world->build_ms();
+  stats["ranks"] = job.ranks.count();
+  FieldProgress reached;
+  {
+    const ProgressFn progress = terminal_progress();
+    const bool tells_lines = job.ranks.count() > 1 && !progress;
+    reached =
+        bake_field(*baking.world, baking.request,
+                   {options.updates, progress, between_updates(options, job, baking, tells_lines)},
+                   *baking.field, stats);
+  }
+  stats["settled"] = reached.settled;
+  stats["surfel_bytes"] = sum_over(job.ranks, baking.field->surfel_bytes());
+  const auto peaks = gather_each(job.ranks, peak_memory());
+  stats["peak_memory_of_a_rank_bytes"] = *std::max_element(peaks.begin(), peaks.end());
+  return agree(job, write(options, job, baking, reached, stats));
 }
 
 }  // namespace
@@ -140,9 +278,19 @@ void add_bake(CLI::App& app, Run& run) {
       ->type_name("N");
   command->add_option("--stats", o->stats, "Write times and counts to this .json file")
       ->type_name("FILE");
+  command
+      ->add_option("--checkpoint", o->checkpoint,
+                   "Keep what is done so far in this file, and go on from it if it is there")
+      ->type_name("FILE");
+  command->add_option("--every", o->every_s, "Seconds between checkpoints")
+      ->needs("--checkpoint")
+      ->check(number(0.0, kMaxTime))
+      ->capture_default_str()
+      ->type_name("S");
   add_scene_options(*command, o->stage);
   add_field_options(*command, o->field);
-  command->callback([o, &run] { run = [o] { return bake(*o); }; });
+  command->callback(
+      [o, &run] { run = [o] { return run_job([o](const Job& job) { return bake(*o, job); }); }; });
 }
 
 }  // namespace lambent::cli

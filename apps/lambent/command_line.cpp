@@ -13,7 +13,9 @@ namespace lambent::cli {
 namespace {
 
 /// Subcommands that later versions will have.
-constexpr const char* kPlanned[] = {"view", "serve"};
+constexpr const char* kPlanned[] = {"view"};
+/// Subcommands that builds without LAMBENT_STREAM have not.
+constexpr const char* kOfStreams[] = {"serve", "connect"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -44,6 +46,13 @@ Expected<std::vector<std::string>> complete_arguments(const CLI::App& app,
     arguments.erase(first);
     arguments.push_back("--help");
     return arguments;
+  }
+  for (const char* left_out : kOfStreams) {
+    if (word != left_out) continue;
+    return fail("", "",
+                "'" + word +
+                    "' is left out of this build: it needs Boost, OpenSSL and OpenH264 "
+                    "(LAMBENT_STREAM)");
   }
   for (const char* planned : kPlanned) {
     if (word != planned) continue;

@@ -27,4 +27,8 @@ void add_prepare(CLI::App& app, Run& run);
 void add_render(CLI::App& app, Run& run);
 void add_scenes(CLI::App& app, Run& run);
 
+// Of builds with LAMBENT_STREAM.
+void add_connect(CLI::App& app, Run& run);
+void add_serve(CLI::App& app, Run& run);
+
 }  // namespace lambent::cli

@@ -16,6 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 bool quiet_asked = false;
+bool muted = false;
 const Clock::time_point program_start = Clock::now();
 
 }  // namespace
@@ -28,6 +29,11 @@ bool is_quiet() {
   return quiet_asked;
 }
 
+void set_mute() {
+  quiet_asked = true;
+  muted = true;
+}
+
 void tell(const std::string& text) {
   if (!quiet_asked) tell_error(text);
 }
@@ -37,7 +43,7 @@ void warn(const std::string& text) {
 }
 
 void tell_error(const std::string& text) {
-  std::fprintf(stderr, "lambent: %s\n", text.c_str());
+  if (!muted) std::fprintf(stderr, "lambent: %s\n", text.c_str());
 }
 
 void tell_written(const std::string& path, const std::string& what, const std::string& more) {

@@ -13,6 +13,8 @@ namespace lambent::cli {
 /// There is one stderr, hence one such choice.
 void set_quiet(bool quiet);
 bool is_quiet();
+/// From now on, not even errors are told: another process of the same job does.
+void set_mute();
 
 /// Prints "lambent: TEXT" on stderr, unless the program is quiet.
 void tell(const std::string& text);

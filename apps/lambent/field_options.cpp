@@ -61,16 +61,23 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
   return names;
 }
 
-FieldProgress run_updates(const World& world, int most, bool until_settled,
+using AfterUpdate = std::function<void(const FieldProgress&)>;
+
+/// Updates a field until it has had `most` updates more than `before`, or has settled.
+FieldProgress run_updates(const World& world, int before, int most, bool until_settled,
                           const UpdateRequest& request, IrradianceField& field,
-                          const ProgressFn& progress, nlohmann::ordered_json& stats) {
+                          const ProgressFn& progress, const AfterUpdate& after,
+                          nlohmann::ordered_json& stats) {
   FieldProgress reached;
+  reached.updates = before;
   UpdateStatistics last, sum;
   std::map<std::string, double> pass_ms;
   for (const char* pass : kPasses) pass_ms[pass] = 0.0;
-  while (reached.updates < most && !(until_settled && reached.settled)) {
+  const auto done = [&] { return reached.updates >= most || (until_settled && reached.settled); };
+  while (!done()) {
     last = field.update(world, request);
     ++reached.updates;
+    reached.change = last.change;
     reached.settled = last.change < kSettledChange;
     for (const PassTime& pass : last.passes) pass_ms[pass.name] += pass.ms;
     sum.probe_rays += last.probe_rays;
@@ -81,8 +88,8 @@ FieldProgress run_updates(const World& world, int most, bool until_settled,
     sum.probes_changed += last.probes_changed;
     sum.probes_recycled += last.probes_recycled;
     if (progress) progress("field", static_cast<double>(reached.updates) / most);
+    if (after && !done()) after(reached);
   }
-  reached.change = last.change;
   const FieldGrid& grid = field.grids().front();
   stats["updates"] = reached.updates;
   stats["probes"] = field.probes();
@@ -238,12 +245,19 @@ Error in_options(Error error, const FieldOptions& options) {
 FieldProgress update_field(const World& world, int updates, const UpdateRequest& request,
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats) {
-  return run_updates(world, updates, false, request, field, progress, stats);
+  return run_updates(world, 0, updates, false, request, field, progress, {}, stats);
 }
 
 FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
                            const ProgressFn& progress, nlohmann::ordered_json& stats) {
-  return run_updates(world, kMaxSettleUpdates, true, request, field, progress, stats);
+  return run_updates(world, 0, kMaxSettleUpdates, true, request, field, progress, {}, stats);
+}
+
+FieldProgress bake_field(const World& world, const UpdateRequest& request, const BakeLoop& loop,
+                         IrradianceField& field, nlohmann::ordered_json& stats) {
+  const bool until_settled = loop.updates == 0;
+  return run_updates(world, field.updates(), until_settled ? kMaxSettleUpdates : loop.updates,
+                     until_settled, request, field, loop.progress, loop.after_update, stats);
 }
 
 }  // namespace lambent::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -61,5 +62,18 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
 /// Likewise, until an update changes the field by less than 0.2 %, at most 256 times.
 FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
                            const ProgressFn& progress, nlohmann::ordered_json& stats);
+
+/// What a bake does beside updating.
+struct BakeLoop {
+  int updates = 0;  ///< Of the field in all; 0: until it has settled, as settle_field has it.
+  ProgressFn progress;
+  /// Called after each update but the last.
+  std::function<void(const FieldProgress&)> after_update;
+};
+
+/// Updates a field, which may have had updates before, until it is baked. FieldProgress counts
+/// those, too; `stats` does so in "updates" alone.
+FieldProgress bake_field(const World& world, const UpdateRequest& request, const BakeLoop& loop,
+                         IrradianceField& field, nlohmann::ordered_json& stats);
 
 }  // namespace lambent::cli

@@ -74,6 +74,8 @@ class HelpFormatter final : public CLI::Formatter {
     std::ostringstream out;
     std::string name = option->get_name(is_positional, !is_positional);
     if (const auto comma = name.find(','); comma != std::string::npos) name.insert(comma + 1, " ");
+    // Flags that switch something off carry what they set it to: --name{false}
+    name = name.substr(0, name.find('{'));
     const bool valued = !is_positional && option->get_type_size() > 0;
     const std::string standard = option->get_default_str();
     append_row(out, valued ? name + " " + option->get_type_name() : name,

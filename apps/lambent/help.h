@@ -27,6 +27,7 @@ inline constexpr const char* kProgramGroup = "Help and messages";
 inline constexpr const char* kPictureGroup = "Pictures";
 inline constexpr const char* kSceneGroup = "Scenes";
 inline constexpr const char* kFieldGroup = "Fields";
+inline constexpr const char* kStreamGroup = "Streams";
 inline constexpr const char* kMachineGroup = "This machine";
 
 /// Examples of a subcommand: command lines, each with what it does after two spaces or more.

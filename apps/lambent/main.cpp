@@ -50,6 +50,10 @@ void add_subcommands(CLI::App& app, Run& run) {
   add_prepare(app, run);
   add_bake(app, run);
   add_field(app, run);
+#if LAMBENT_STREAM
+  add_serve(app, run);
+  add_connect(app, run);
+#endif
   add_devices(app, run);
 }
 

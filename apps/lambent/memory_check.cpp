@@ -133,6 +133,19 @@ Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, 
   return fail("the field", "", cause, Error::Kind::failed);
 }
 
+Expected<void> check_shared_field_memory(const FieldMemory& field, int rays_per_probe,
+                                         const FieldRanks& ranks, std::uint64_t available) {
+  const std::uint64_t bytes = static_cast<std::uint64_t>(ranks.on_this_machine) *
+                              (kFixedBytes + field.bytes_of_rank(rays_per_probe, ranks.all));
+  if (bytes <= available) return {};
+  return fail("the field", "",
+              std::to_string(field.probes) + " probes of " + std::to_string(rays_per_probe) +
+                  " rays, " + std::to_string(ranks.on_this_machine) + " of " +
+                  std::to_string(ranks.all) + " ranks on this machine: " + need(bytes, available) +
+                  "; more machines, fewer probes or --rays would help",
+              Error::Kind::failed);
+}
+
 Expected<void> check_comparison_memory(const glm::ivec2& size, std::uint64_t available) {
   const std::uint64_t bytes = pixels_of(size) * kComparisonBytes;
   if (bytes <= available) return {};
@@ -148,12 +161,15 @@ int host_rays(const FieldSettings& settings, const World& world) {
 }
 
 Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
-                                     const World& world, const Camera& camera, int fields) {
+                                     const World& world, const Camera& camera, int fields,
+                                     const FieldRanks& ranks) {
   const Bounds bounds = open_bounds(world, glm::vec3(camera.world_from_view[3]));
   const Expected<FieldMemory> memory = planned_memory(settings, bounds);
   if (!memory) return tl::unexpected(in_options(memory.error(), options));
-  const auto fits =
-      check_field_memory(*memory, host_rays(settings, world), fields, available_memory());
+  const int rays = host_rays(settings, world);
+  const auto fits = ranks.all == 1
+                        ? check_field_memory(*memory, rays, fields, available_memory())
+                        : check_shared_field_memory(*memory, rays, ranks, available_memory());
   if (!fits) return tl::unexpected(fits.error());
   Expected<IrradianceField> field = IrradianceField::make(settings, bounds);
   if (!field) return tl::unexpected(in_options(std::move(field.error()), options));

@@ -26,6 +26,15 @@ Expected<void> check_picture_memory(const RenderOptions& options, const glm::ive
 /// Fails where so many fields of that many rays a probe take more than is available [bytes].
 Expected<void> check_field_memory(const FieldMemory& field, int rays_per_probe, int fields,
                                   std::uint64_t available);
+/// The processes that a field is made for.
+struct FieldRanks {
+  int all = 1;              ///< That share it.
+  int on_this_machine = 1;  ///< Of these.
+};
+
+/// Fails where what ranks on this machine take of a field that they share is more than that.
+Expected<void> check_shared_field_memory(const FieldMemory& field, int rays_per_probe,
+                                         const FieldRanks& ranks, std::uint64_t available);
 
 /// Fails where comparing two images of that size takes more than is available [bytes], beside the
 /// images themselves.
@@ -39,6 +48,7 @@ int host_rays(const FieldSettings& settings, const World& world);
 /// seen by `camera`. Fails where they would not fit. `options` are those that the settings came
 /// from: errors name them.
 Expected<IrradianceField> make_field(const FieldSettings& settings, const FieldOptions& options,
-                                     const World& world, const Camera& camera, int fields);
+                                     const World& world, const Camera& camera, int fields,
+                                     const FieldRanks& ranks = {});
 
 }  // namespace lambent::cli

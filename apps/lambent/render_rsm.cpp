@@ -82,7 +82,7 @@ void add_rsm_options(CLI::App& command, RsmOptions& o) {
         ->type_name("N");
   };
   const auto length = [&command](const char* name, float& value, const char* what) {
-    command.add_option(name, value, what)
+    return command.add_option(name, value, what)
         ->check(number(-kAnyNumber, kAnyNumber))
         ->capture_default_str()
         ->type_name("R");
@@ -99,7 +99,8 @@ void add_rsm_options(CLI::App& command, RsmOptions& o) {
       ->check(one_of({"restructured", "sub-maps", "full"}))
       ->capture_default_str()
       ->type_name("L");
-  length("--rsm-radius", s.disk_radius, "Of the disk, in edges of the map, above 0 to 2");
+  o.radius =
+      length("--rsm-radius", s.disk_radius, "Of the disk, in edges of the map, above 0 to 2");
   length("--rsm-softening", s.softening, "Times a texel's area that its light is spread over");
   count("--sub-blur", s.sub_blur_radius, "Radius of the blur in sub-images, 0 to 4");
   command.add_flag("--irregular-blur", s.irregular_blur, "Repeat that blur with irregular taps");
@@ -125,6 +126,9 @@ Expected<RsmSettings> rsm_settings(const RsmOptions& options, const std::string&
       if (option->count() == 0) continue;
       return fail(option->get_name(), "", "goes with --method rsm and rsm+field alone");
     }
+  }
+  if (options.radius->count() > 0 && kPatterns.at(options.pattern) != RsmPattern::disk) {
+    return fail("--rsm-radius", "", "goes with --rsm-pattern disk alone");
   }
   RsmSettings settings = options.settings;
   settings.pattern = kPatterns.at(options.pattern);

@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "shared/cross_bilateral.h"
+
 namespace lambent {
 
 /// Usual width of what surrounds a picture [pixels], and the farthest that taps may reach then.
@@ -53,9 +55,6 @@ struct ConstPlanes {
   const float* at(int plane) const { return first + plane * stride; }
 };
 
-/// What tells a pixel's surface from its neighbours': position x, y, z [m]; normal x, y, z, unit, 0
-/// where nothing is seen; one over depth [1/m].
-inline constexpr int kPositionPlane = 0, kNormalPlane = 3, kInverseDepthPlane = 6, kGuidePlanes = 7;
 /// Irradiance r, g, b. While it is blurred, each holds two values, so that half as much memory is
 /// read: in its upper half the upper half of the irradiance's float, rounded, in its lower half
 /// that of a component x, y, z of what it is relit with, R of shared/reorient_irradiance.h.

@@ -11,8 +11,8 @@
 //   LAMBENT_UNROLL_TAPS      before the loop over neighbours
 //   Real zero_unless_positive(Real condition, Real value)
 //   Real fetch_guide(int plane, int x, int y)
-//       of core/cross_bilateral.h, or kLevelPlane, at the pixel that lies so far from this one
-//   Real fetch_light(int plane, int x, int y)   planes of atrous_math.h, likewise
+//       a plane of the guide (atrous_pass.h) at the pixel that lies so far from this one
+//   Real fetch_light(int plane, int x, int y)   planes of atrous_pass.h, likewise
 // In C++ it is included in the body of a struct that has these as members.
 
 /// Where a pixel is, and how it faces.
@@ -33,23 +33,29 @@ struct AtrousLight {
   Real share;
 };
 
+LAMBENT_REAL_FN Real3 guide_vector(int plane, int x, int y) {
+  return Real3(fetch_guide(plane, x, y), fetch_guide(plane + 1, x, y),
+               fetch_guide(plane + 2, x, y));
+}
+
+LAMBENT_REAL_FN Real3 light_vector(int plane, int x, int y) {
+  return Real3(fetch_light(plane, x, y), fetch_light(plane + 1, x, y),
+               fetch_light(plane + 2, x, y));
+}
+
 LAMBENT_REAL_FN AtrousGuide guide_at(int x, int y) {
   AtrousGuide at;
-  at.position_ws = Real3(fetch_guide(0, x, y), fetch_guide(1, x, y), fetch_guide(2, x, y));
-  at.normal_ws = Real3(fetch_guide(3, x, y), fetch_guide(4, x, y), fetch_guide(5, x, y));
+  at.position_ws = guide_vector(kPositionPlane, x, y);
+  at.normal_ws = guide_vector(kNormalPlane, x, y);
   return at;
 }
 
 LAMBENT_REAL_FN AtrousLight light_at(AtrousPass by, int x, int y) {
   AtrousLight at;
-  at.light = Real3(fetch_light(0, x, y), fetch_light(1, x, y), fetch_light(2, x, y));
+  at.light = light_vector(kLightPlane, x, y);
   at.spread = fetch_light(kSpreadPlane, x, y);
   at.share = fetch_light(kSharePlane, x, y);
-  at.base = at.light;
-  if (by.has_base != 0u) {
-    at.base = Real3(fetch_light(kBasePlane, x, y), fetch_light(kBasePlane + 1, x, y),
-                    fetch_light(kBasePlane + 2, x, y));
-  }
+  at.base = by.has_base != 0u ? light_vector(kBasePlane, x, y) : at.light;
   return at;
 }
 
@@ -85,7 +91,7 @@ LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
 /// The pixel's light after the pass.
 LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
   AtrousGuide here = guide_at(0, 0);
-  Real plane_scale = fetch_guide(6, 0, 0) * by.plane_scale;
+  Real plane_scale = fetch_guide(kInverseDepthPlane, 0, 0) * by.plane_scale;
   Real inverse_level = plane_scale * 0.0f + 1.0f;
   if (by.has_levels != 0u) inverse_level = 1.0f / max(fetch_guide(kLevelPlane, 0, 0), kLeastLevel);
   AtrousLight own = light_at(by, 0, 0);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/cross_bilateral.h"
-#include "denoise/atrous_math.h"
+#include "denoise/atrous_pass.h"
 
 namespace lambent {
 

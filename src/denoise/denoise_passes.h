@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "denoise/atrous_math.h"
+#include "denoise/atrous_pass.h"
 #include "lambent/denoise.h"
 
 namespace lambent {

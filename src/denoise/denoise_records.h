@@ -3,7 +3,7 @@
 #ifndef LAMBENT_DENOISE_DENOISE_RECORDS_H
 #define LAMBENT_DENOISE_DENOISE_RECORDS_H
 
-#include "denoise/atrous_math.h"
+#include "denoise/atrous_pass.h"
 #include "raytracing/vulkan/scene_records.h"
 
 LAMBENT_BEGIN

@@ -60,6 +60,7 @@ Expected<IrradianceField> IrradianceField::make(const FieldSettings& settings,
 
 void IrradianceField::reset() {
   State& s = *state_;
+  assert(s.data.share.alone());
   s.backend = make_field_backend_cpu(s.data);
   s.data.clear();
   std::fill(s.statuses.begin(), s.statuses.end(), ProbeStatus{});
@@ -117,6 +118,13 @@ void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQ
   assert(queries.size() == result.size());
   FieldAccess::state_of(field).backend->irradiance(queries, &world, CorrectionUse::uncorrected,
                                                    result);
+}
+
+void share_work(IrradianceField& field, Ranks& ranks) {
+  FieldAccess::State& state = FieldAccess::state_of(field);
+  assert(state.updates == 0);
+  state.data.share.part_among(ranks);
+  state.data.correction.part_among(ranks);
 }
 
 std::span<const ProbeStatus> statuses_of(const IrradianceField& field) {

@@ -11,6 +11,7 @@ namespace lambent {
 
 class DeviceLookups;
 class ProbeStore;
+class Ranks;
 struct ProbeStatus;
 
 /// Opens a field to the functions below, and to those that save and load it.
@@ -28,6 +29,12 @@ const ProbeStore& store_of(const IrradianceField& field);
 /// combined with what other means find of the same pixels.
 void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
                             std::span<glm::vec3> result, const World& world);
+
+/// Parts the work on a field among processes. Each has a field of the same settings over the same
+/// world on the processor that holds no light yet, and makes the same calls of it. What they have
+/// afterwards has the bits that one process alone finds. Until the last update the world must not
+/// be edited, the viewer must stay, and updates have no budget. `ranks` must outlive the field.
+void share_work(IrradianceField& field, Ranks& ranks);
 
 /// The state and history of each probe.
 std::span<const ProbeStatus> statuses_of(const IrradianceField& field);

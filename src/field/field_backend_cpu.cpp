@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A field in the processor's memory, and the passes of an update there.
 #include <algorithm>
+#include <cassert>
 
 #include "core/parallel.h"
 #include "core/pass_times.h"
@@ -38,10 +39,46 @@ void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& 
   });
 }
 
+/// Brings the visibility between probes of some cells up to date on all ranks. Returns the number
+/// of rays that this one traced.
+std::uint64_t update_visibility(const World& world, std::span<const int> cells, ProbeData& data) {
+  const std::uint64_t traced =
+      data.cell_visibility.update(tracer_of(world), data.store, data.share.own(cells));
+  data.share.gather(data.cell_visibility.all_cells());
+  return traced;
+}
+
+/// Parts an update among the ranks: leaves this one's probes in its groups. Surfels of probes that
+/// are now another's are dropped.
+void take_own_share(ProbeUpdate& update, ProbeData& data) {
+  if (data.share.alone()) return;
+  assert(update.groups.size() <= 1);  // so that the probes are in ascending order
+  data.share.divide(update.probes);
+  for (TraceGroup& group : update.groups) {
+    const std::span<const int> own = data.share.own(update.probes);
+    group.probes.assign(own.begin(), own.end());
+  }
+  for (int probe = 0; probe < data.store.probes(); ++probe) {
+    if (!data.share.has(probe)) data.traces[probe] = {data.traces[probe].rays, {}, {}, {}};
+  }
+}
+
+/// Those of an update's numbers, one a probe, that are of this rank's probes.
+std::span<const float> own_weights(const ProbeUpdate& update, const ProbeShare& share) {
+  if (share.alone()) return update.blend_weights;
+  const std::size_t before = share.places_of_parts(update.probes)[share.ranks().own()];
+  return std::span(update.blend_weights).subspan(before, share.own(update.probes).size());
+}
+
 class FieldPassesCpu final : public FieldPasses {
  public:
+  /// take_own_share() has left this rank's probes in the update's groups.
   FieldPassesCpu(ProbeUpdate& update, ProbeData& data)
-      : update_(update), data_(data), timer_(result.passes) {}
+      : update_(update),
+        data_(data),
+        own_(data.share.own(update.probes)),
+        blend_weights_(own_weights(update, data.share)),
+        timer_(result.passes) {}
 
   ProbeUpdateResult result;
 
@@ -60,7 +97,7 @@ class FieldPassesCpu final : public FieldPasses {
   }
 
   void blend_distances() override {
-    std::span<const float> blend_weights = update_.blend_weights;
+    std::span<const float> blend_weights = blend_weights_;
     for (const TraceGroup& group : update_.groups) {
       const DistanceBlend blend(data_.settings, group.rays->directions);
       lambent::blend_distances(data_.solid_sides, blend, group,
@@ -68,11 +105,12 @@ class FieldPassesCpu final : public FieldPasses {
                                data_.store);
       blend_weights = blend_weights.subspan(group.probes.size());
     }
+    data_.share.gather(data_.store.distance_words());
   }
 
   void visibility() override {
-    result.shadow_rays += data_.cell_visibility.update(tracer_of(update_.world), data_.store,
-                                                       cells_around(data_.store, update_.probes));
+    result.shadow_rays +=
+        update_visibility(update_.world, cells_around(data_.store, update_.probes), data_);
   }
 
   bool learns() const override { return update_.learns; }
@@ -83,34 +121,41 @@ class FieldPassesCpu final : public FieldPasses {
   }
 
   void lookups() override {
-    result.shadow_rays += find_surfel_lookups(data_.store, visibility_in(update_.world, data_),
-                                              update_.probes, data_.traces);
+    result.shadow_rays +=
+        find_surfel_lookups(data_.store, visibility_in(update_.world, data_), own_, data_.traces);
   }
 
   void solve() override {
-    const TransportOperator to_these = data_.transport(update_.probes);
+    const TransportOperator to_these = data_.transport(own_);
     const int bounces = data_.settings.max_bounces;
-    history_ = light_of(data_.light, update_.probes, data_.tile_texels());
+    history_ = light_of(data_.light, own_, data_.tile_texels());
+    SolveShare share;
+    if (!data_.share.alone()) share = {data_.share, update_.probes, data_.tile_texels()};
     const SolveResult solved =
         bounces >= 0
-            ? solve_counted_bounces(to_these, update_.blend_weights, bounces, data_.light)
-            : solve_bounces(to_these, update_.blend_weights, {}, update_.solve, data_.light);
+            ? solve_counted_bounces(to_these, blend_weights_, bounces, share, data_.light)
+            : solve_bounces(to_these, blend_weights_, {}, update_.solve, share, data_.light);
     result.iterations = solved.iterations;
     result.error = solved.error;
     result.change = solved.change;
-    store_last_estimates(update_.probes, solved.solution, data_);
+    store_last_estimates(own_, solved.solution, data_);
   }
 
   void variability() override {
     const auto texels = static_cast<std::size_t>(data_.tile_texels());
-    for (std::size_t k = 0; k < update_.probes.size(); ++k) {
-      const TileLight held(&data_.light[update_.probes[k] * texels], texels),
+    std::vector<LightChange> changes;
+    for (std::size_t k = 0; k < own_.size(); ++k) {
+      const TileLight held(&data_.light[own_[k] * texels], texels),
           before(&history_[k * texels], texels);
-      result.changes.push_back(light_change(before, held));
+      changes.push_back(light_change(before, held));
     }
+    result.changes = gather_all(data_.share.ranks(), std::move(changes));
   }
 
-  void store() override { store_irradiance(update_.probes, update_.dither_seed, data_); }
+  void store() override {
+    store_irradiance(own_, update_.dither_seed, data_);
+    data_.share.gather(data_.store.irradiance_words());
+  }
 
   // The host has scheduled and placed the probes before the update.
   void scroll() override {}
@@ -126,9 +171,11 @@ class FieldPassesCpu final : public FieldPasses {
  private:
   ProbeUpdate& update_;
   ProbeData& data_;
+  std::span<const int> own_;              // this rank's of the update's probes
+  std::span<const float> blend_weights_;  // of these
   PassTimer timer_;
   const char* name_ = nullptr;
-  WorkingIrradiance history_;  // what the update's probes held
+  WorkingIrradiance history_;  // what these held
 };
 
 class FieldBackendCpu final : public FieldBackend {
@@ -148,24 +195,35 @@ class FieldBackendCpu final : public FieldBackend {
   void push_places(std::span<const int>) override {}
 
   ProbeUpdateResult update_probes(ProbeUpdate update) override {
+    take_own_share(update, data_);
     FieldPassesCpu passes(update, data_);
     lambent::update_probes(passes);
-    return std::move(passes.result);
+    ProbeUpdateResult& result = passes.result;
+    // Most work is in proportion to rays
+    data_.share.learn_work(
+        data_.share.own(update.probes).size(),
+        static_cast<double>(result.probe_rays + result.shadow_rays + result.correction_rays));
+    for (std::uint64_t* rays : {&result.probe_rays, &result.shadow_rays, &result.correction_rays}) {
+      *rays = sum_over(data_.share.ranks(), *rays);
+    }
+    return std::move(result);
   }
 
   InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
                              std::span<const int> probes, std::span<const int> among,
                              uint dither_seed) override {
+    assert(data_.share.alone());
     return invalidate_surfels(world, data_.solid_sides, changes, data_.settings, probes, among,
                               visibility_in(world, data_), data_.store, data_.traces, dither_seed);
   }
 
   std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) override {
-    return data_.cell_visibility.update(tracer_of(world), data_.store, cells);
+    return sum_over(data_.share.ranks(), update_visibility(world, cells, data_));
   }
 
   std::uint64_t find_lookups(const World& world, std::span<const int> moved,
                              std::span<const int> among) override {
+    assert(data_.share.alone());
     return find_surfel_lookups(data_.store, visibility_in(world, data_),
                                probes_reading(moved, among, data_.store, data_.traces),
                                data_.traces);
@@ -174,15 +232,18 @@ class FieldBackendCpu final : public FieldBackend {
   SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
                     const WorkingIrradiance& history_ratio,
                     const SolveSettings& settings) override {
+    assert(data_.share.alone());
     return solve_bounces(data_.transport(probes), blend_weights, history_ratio, settings,
                          data_.light);
   }
 
   void receive(std::span<const int> probes, WorkingIrradiance& received) override {
+    assert(data_.share.alone());
     data_.transport(probes).apply(data_.light, received, received);
   }
 
   std::vector<double> direct_light(std::span<const int> probes) override {
+    assert(data_.share.alone());
     return direct_light_of(data_.traces, probes);
   }
 
@@ -195,6 +256,7 @@ class FieldBackendCpu final : public FieldBackend {
   }
 
   std::vector<float> scatter_importance(std::span<const float> received, float least) override {
+    assert(data_.share.alone());
     return scatter_from_surfels(data_.store, data_.traces, received, least);
   }
 

@@ -13,6 +13,8 @@ namespace {
 // Light of all probes that exists at once, each a vec4 a texel: what the field holds and was told,
 // and in the solve the iterates, their differences and the steps that it extrapolates from.
 constexpr std::uint64_t kLightCopies = 20;
+// Those of them that every rank has of all probes: what the field holds and was told.
+constexpr std::uint64_t kLightCopiesOnAll = 2;
 
 std::uint64_t tile_bytes(int texels, std::uint64_t texel_bytes) {
   const auto side = static_cast<std::uint64_t>(texels) + 2;
@@ -28,11 +30,16 @@ FieldMemory field_memory(const FieldSettings& s, std::uint64_t probes) {
   const auto texels = static_cast<std::uint64_t>(s.irradiance_texels) * s.irradiance_texels;
   FieldMemory memory;
   memory.probes = probes;
-  memory.bytes_per_probe = tile_bytes(s.irradiance_texels, irradiance_texel) +
-                           tile_bytes(s.distance_texels, distance_texel) +
-                           kLightCopies * texels * sizeof(vec4) + sizeof(ProbeTrace) +
-                           sizeof(ProbeStatus) + sizeof(ClassificationInput);
-  if (s.corrections) memory.bytes_per_probe += CorrectionTable::bytes_per_probe();
+  memory.bytes_per_probe_on_all = tile_bytes(s.irradiance_texels, irradiance_texel) +
+                                  tile_bytes(s.distance_texels, distance_texel) +
+                                  kLightCopiesOnAll * texels * sizeof(vec4) + sizeof(ProbeTrace) +
+                                  sizeof(ProbeStatus) + sizeof(ClassificationInput);
+  memory.bytes_per_probe =
+      memory.bytes_per_probe_on_all + (kLightCopies - kLightCopiesOnAll) * texels * sizeof(vec4);
+  if (s.corrections) {
+    memory.bytes_per_probe_on_all += CorrectionTable::bytes_per_probe_on_all();
+    memory.bytes_per_probe += CorrectionTable::bytes_per_probe();
+  }
   memory.bytes_per_ray = sizeof(Surfel) + sizeof(SurfelLookup) + sizeof(Hit);
   return memory;
 }

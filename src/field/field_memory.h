@@ -13,10 +13,17 @@ namespace lambent {
 struct FieldMemory {
   std::uint64_t probes = 0;
   std::uint64_t bytes_per_probe = 0;  ///< Whatever its rays: tiles, and the light being solved for.
-  std::uint64_t bytes_per_ray = 0;    ///< Of each probe: what it met, kept and in passing.
+  /// The part of these that every rank takes for each probe where ranks share the field.
+  std::uint64_t bytes_per_probe_on_all = 0;
+  std::uint64_t bytes_per_ray = 0;  ///< Of each probe: what it met, kept and in passing.
 
   std::uint64_t bytes(int rays_per_probe) const {
     return probes * (bytes_per_probe + bytes_per_ray * static_cast<std::uint64_t>(rays_per_probe));
+  }
+  /// What each of so many ranks takes that share the field.
+  std::uint64_t bytes_of_rank(int rays_per_probe, int ranks) const {
+    const std::uint64_t on_all = probes * bytes_per_probe_on_all;
+    return on_all + (bytes(rays_per_probe) - on_all) / static_cast<std::uint64_t>(ranks);
   }
 };
 

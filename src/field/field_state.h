@@ -116,6 +116,8 @@ struct IrradianceField::State {
   void restore(const FieldFile& file, const World& world, float correction_weight);
   /// A volume as a file stores it.
   FieldVolume volume_for_file(int volume, const World& world) const;
+  /// All that a file stores but the corrections.
+  FieldFile for_file(const World& world) const;
 };
 
 }  // namespace lambent

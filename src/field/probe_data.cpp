@@ -6,9 +6,19 @@
 #include "field/probes/tile_fit.h"
 
 namespace lambent {
+namespace {
+
+int probes_of(std::span<const ProbeGrid> volumes) {
+  int probes = 0;
+  for (const ProbeGrid& grid : volumes) probes += probe_count(grid);
+  return probes;
+}
+
+}  // namespace
 
 ProbeData::ProbeData(std::span<const ProbeGrid> volumes, const FieldSettings& field_settings)
     : settings(field_settings),
+      share(probes_of(volumes)),
       store(volumes, field_settings),
       tile_fit(tile_texels(), tile_texels(), tile_fit_matrix(settings.irradiance_texels)),
       traces(store.probes()),

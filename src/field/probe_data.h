@@ -8,6 +8,7 @@
 
 #include "field/correction/correction_table.h"
 #include "field/lookup/visibility.h"
+#include "field/probe_share.h"
 #include "field/probes/probe_store.h"
 #include "field/transport/blend.h"
 #include "field/transport/solve_bounces.h"
@@ -24,6 +25,7 @@ struct ProbeData {
   ProbeData(std::span<const ProbeGrid> volumes, const FieldSettings& field_settings);
 
   const FieldSettings& settings;
+  ProbeShare share;  ///< Whose surfels are here. Everything else is of all probes.
   ProbeStore store;
   BlendMatrix tile_fit;
   /// Of the world that the field follows; made before its first probe is placed.

@@ -101,7 +101,7 @@ class GatherChunk {
     const auto y = static_cast<uint>(pixel / width) + static_cast<uint>(request_.first_row);
     const auto count = static_cast<uint>(rays_per_pixel_);
     for (uint ray = 0; ray < count; ++ray) {
-      const vec2 point = gather_point(x, y, ray, count, request_.sample, request_.seed);
+      const vec2 point = pixel_point(x, y, ray, count, request_.sample, request_.seed);
       rays_.push_back(
           {origin, 0.0f, gather_direction(frame, point), kInfiniteDistance, kRayGathers});
     }

@@ -1,63 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the rays that gather a pixel's light go, and what they bring.
-//
-// Rays of neighbouring pixels and of following samples cover the hemisphere together, so that a
-// filter over either finds all of it: pixels along a Hilbert curve take points of one
-// low-discrepancy sequence in turn. Based on: Roberts, "The Unreasonable Effectiveness of
-// Quasirandom Sequences", 2018; Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo
-// Sampling Error via Hierarchical Ordering of Pixels", SIGGRAPH Asia 2020.
 #ifndef LAMBENT_GATHER_GATHER_MATH_H
 #define LAMBENT_GATHER_GATHER_MATH_H
 
 #include "raytracing/shaded_hit.h"
 #include "shared/color.h"
-#include "shared/random.h"
+#include "shared/pixel_points.h"
 #include "shared/sampling.h"
 
 LAMBENT_BEGIN
-
-// Steps of Kronecker sequences, in 2^-32: the inverse powers of the plastic number from point to
-// point, and those of the root of x^5 = x + 1 (Roberts's constant of four dimensions) from sample
-// to sample, which have no relation to these.
-const uint kPlasticBitsX = 3242174889u;
-const uint kPlasticBitsY = 2447445414u;
-const uint kSampleBitsX = 3679390609u;
-const uint kSampleBitsY = 3152041523u;
-
-// The largest picture is 2^14 pixels wide.
-const int kHilbertLevels = 14;
-
-/// Place of a pixel along a Hilbert curve over 2^14 x 2^14 pixels. Hilbert, "Ueber die stetige
-/// Abbildung einer Linie auf ein Flaechenstueck", 1891.
-LAMBENT_FN uint hilbert_index(uint x, uint y) {
-  uint index = 0u;
-  for (int level = kHilbertLevels - 1; level >= 0; --level) {
-    uint bit_x = (x >> uint(level)) & 1u;
-    uint bit_y = (y >> uint(level)) & 1u;
-    index = index * 4u + ((3u * bit_x) ^ bit_y);
-    // Turn the quarter so that its curve begins where the one before ended
-    if (bit_y == 0u) {
-      if (bit_x == 1u) {
-        x = ~x;
-        y = ~y;
-      }
-      uint swapped = x;
-      x = y;
-      y = swapped;
-    }
-  }
-  return index;
-}
-
-/// Point of the unit square for one of a pixel's rays.
-LAMBENT_FN vec2 gather_point(uint x, uint y, uint ray, uint rays_per_pixel, uint sample_index,
-                             uint seed) {
-  uint index = hilbert_index(x, y) * rays_per_pixel + ray;
-  uint shift = hash_pcg(seed);
-  return vec2(
-      uniform_from_bits(index * kPlasticBitsX + sample_index * kSampleBitsX + shift),
-      uniform_from_bits(index * kPlasticBitsY + sample_index * kSampleBitsY + hash_pcg(shift)));
-}
 
 /// Direction of a ray, of density cosine over pi about the frame's normal.
 LAMBENT_FN vec3 gather_direction(Frame frame, vec2 point) {

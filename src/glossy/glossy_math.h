@@ -12,6 +12,7 @@
 #include "raytracing/coat_share.h"
 #include "raytracing/ray_records.h"
 #include "shared/cross_bilateral.h"
+#include "shared/pixel_points.h"
 #include "shared/random.h"
 
 LAMBENT_BEGIN
@@ -101,22 +102,9 @@ LAMBENT_FN bool traces_coat(Reflectance surface, float coat_share, int row, uint
   return sharp || has_coat_rays(row, sample_index, rows);
 }
 
-/// Place of a pixel in tiles of 4 x 4 pixels with rays: neighbours are far apart in the order
-/// (Bayer's). A window of as many pixels, wherever it lies, has every place once.
-LAMBENT_FN uint place_in_tile(uint x, uint y) {
-  uint differs = x ^ y;
-  return ((differs & 1u) << 3u) | ((y & 1u) << 2u) | (differs & 2u) | ((y & 2u) >> 1u);
-}
-
-/// Where in the unit square a pixel draws its ray: windows of 4 x 4 rays cover it evenly, and so do
-/// the samples of a pixel.
+/// Where in the unit square a pixel draws its ray.
 LAMBENT_FN vec2 coat_uniforms(uvec2 pixel, uint sample_index, uint rows, uint seed) {
-  RandomStream random = make_random_stream(kCoatSalt, 0u, seed);
-  vec2 shift = next_uniform2(random);
-  uint place = place_in_tile(pixel.x, pixel.y / rows);
-  // Steps of samples: fractions of the golden ratio and of the square root of two
-  vec2 step = float(sample_index) * vec2(kGoldenRatio - 1.0f, 0.41421356f);
-  return fract(shift + plastic_sequence(place) + step);
+  return pixel_point(pixel.x, pixel.y / rows, 0u, 1u, sample_index, seed ^ kCoatSalt);
 }
 
 /// A direction drawn of a coat's lobe.

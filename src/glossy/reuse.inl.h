@@ -9,7 +9,7 @@
 
 /// Light of a pixel's coat by rays, and 1; all 0 where there is none near it. Rays are those of
 /// the pixels around it in every `rows`-th row, the outermost with half their weight, so that they
-/// are as many as in a tile (see place_in_tile), and its own, which `at` has.
+/// weigh as much as 4 x 4 rays, and its own, which `at` has.
 LAMBENT_FN vec4 reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at, uint sample_index,
                            uint rows) {
   CoatSums sums = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f};

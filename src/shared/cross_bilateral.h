@@ -9,6 +9,13 @@
 
 LAMBENT_BEGIN
 
+// What tells a pixel's surface from its neighbours', as planes of single numbers: position x, y, z
+// [m]; normal x, y, z, unit, 0 where nothing is seen; one over depth [1/m].
+const int kPositionPlane = 0;
+const int kNormalPlane = 3;
+const int kInverseDepthPlane = 6;
+const int kGuidePlanes = 7;
+
 /// Weight, 0 to 1, of a pixel for another one, whose light is relit for that one's normal
 /// (shared/reorient_irradiance.h). `offset` leads from the other one's point to its own;
 /// `inverse_tolerance` is one over the distance [1/m] from the other one's plane at which it counts

@@ -102,6 +102,7 @@ TEST_F(RenderRsm, RefusesWhatMakesNoSenseAndSaysWhy) {
         BadUse{"--method rsm+field --gather 4", "--gather"},
         BadUse{"--method rsm+field --rsm-from-camera", "--rsm-from-camera"},
         BadUse{"--method rsm --rsm-pattern square", "--rsm-pattern"},
+        BadUse{"--method rsm --rsm-radius 0.5", "--rsm-radius"},
         BadUse{"--method rsm --rsm-pattern disk --rsm-texels 0", "--rsm-texels"}}) {
     const ProgramResult result = render(std::string("cornell-spot --size 8x8 ") + use.arguments);
     EXPECT_EQ(result.status, 2) << use.arguments;

@@ -49,7 +49,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"scene_to_make", "make-scene two-room -o a.glb", "did you mean 'two-rooms'?"},
         Mistake{"nothing_near", "frobnicate", "neither a subcommand nor a scene (see"},
         Mistake{"view", "view cornell", "'view' is not part of this version yet"},
-        Mistake{"serve", "serve", "'serve' is not part of this version yet"},
         Mistake{"flag", "render cornell --probs 3", "unknown option '--probs'; did you mean"},
         Mistake{"flag_before_the_scene", "bake --probs 3x3x3 cornell -o f", "'--probes'?"},
         Mistake{"flag_with_a_value", "cornell --sise=64x64", "'--sise'; did you mean '--size'?"},
@@ -191,6 +190,7 @@ TEST(Help, OfRenderBeginsWithFiveOptionsAndThreeExamples) {
   const ProgramResult result = run_program("render --help");
   ASSERT_EQ(result.status, 0) << result.errors;
   const std::string& help = result.output;
+  EXPECT_THAT(help, HasSubstr("\n  --no-relocation  "));
   const std::size_t most_used = help.find("Most used:"), examples = help.find("Examples:");
   ASSERT_LT(most_used, examples);
   ASSERT_NE(examples, std::string::npos);

@@ -48,9 +48,9 @@ TEST(Gather, RaysCoverTheHemisphereInSpaceAndInTime) {
   for (const uint seed : {1u, 2u, 77u}) {
     std::vector<vec2> of_block, of_time, of_pixel;
     for (uint i = 0; i < 64; ++i) {
-      of_block.push_back(gather_point(8 + i % 8, 40 + i / 8, 0, 1, 3, seed));
-      of_time.push_back(gather_point(13, 7, 0, 1, i, seed));
-      of_pixel.push_back(gather_point(13, 7, i, 64, 0, seed));
+      of_block.push_back(pixel_point(8 + i % 8, 40 + i / 8, 0, 1, 3, seed));
+      of_time.push_back(pixel_point(13, 7, 0, 1, i, seed));
+      of_pixel.push_back(pixel_point(13, 7, i, 64, 0, seed));
     }
     EXPECT_GE(cells_met(of_block, 8), kEnough);
     EXPECT_GE(cells_met(of_time, 8), kEnough);

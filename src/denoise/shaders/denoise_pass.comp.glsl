@@ -32,9 +32,9 @@ float fetch_guide(int plane, int x, int y) {
   if (!pixel_at(x, y, i)) return 0.0f;
   if (plane == kLevelPlane) return args.levels.at[i];
   float depth = args.depths.at[i];
-  if (plane == 6) return depth > 0.0f ? 1.0f / depth : 0.0f;
-  if (plane < 3) return args.positions_ws.at[i][plane];
-  return depth > 0.0f ? args.normals_ws.at[i][plane - 3] : 0.0f;
+  if (plane == kInverseDepthPlane) return depth > 0.0f ? 1.0f / depth : 0.0f;
+  if (plane < kNormalPlane) return args.positions_ws.at[i][plane - kPositionPlane];
+  return depth > 0.0f ? args.normals_ws.at[i][plane - kNormalPlane] : 0.0f;
 }
 
 float fetch_light(int plane, int x, int y) {
@@ -42,7 +42,7 @@ float fetch_light(int plane, int x, int y) {
   if (!pixel_at(x, y, i)) return 0.0f;
   if (plane == kSpreadPlane) return args.in_light.at[i].spread;
   if (plane == kSharePlane) return args.in_light.at[i].share;
-  return plane < kSpreadPlane ? args.in_light.at[i].light[plane]
+  return plane < kSpreadPlane ? args.in_light.at[i].light[plane - kLightPlane]
                               : args.in_light.at[i].base[plane - kBasePlane];
 }
 

@@ -2,6 +2,7 @@
 #include "field/correction/correction_table.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/parallel.h"
 #include "core/simd.h"
@@ -35,6 +36,7 @@ LAMBENT_FORCE_INLINE uint fetch_refined(const Corrections& table, uint slot, int
 /// What learn.inl.h works on.
 struct Learning {
   CorrectionKey* keys;
+  std::size_t first_slot;  // of those that have learned cells here
   std::array<LearnedCorrection, kCellCorners>* learned;
   const CorrectionItem* items;
 };
@@ -49,11 +51,11 @@ LAMBENT_FORCE_INLINE void store_key(const Learning& table, uint slot, const Corr
 }
 LAMBENT_FORCE_INLINE const LearnedCorrection& fetch_learned(const Learning& table, uint slot,
                                                             int cell) {
-  return table.learned[slot][cell];
+  return table.learned[slot - table.first_slot][cell];
 }
 LAMBENT_FORCE_INLINE void store_learned(const Learning& table, uint slot, int cell,
                                         const LearnedCorrection& learned) {
-  table.learned[slot][cell] = learned;
+  table.learned[slot - table.first_slot][cell] = learned;
 }
 LAMBENT_FORCE_INLINE const CorrectionItem& fetch_item(const Learning& table, uint item) {
   return table.items[item];
@@ -71,13 +73,35 @@ std::uint64_t CorrectionTable::bytes_per_probe() {
   return kCorrectionBucketsPerProbe * (kCorrectionBucket * kSlot + sizeof(std::uint32_t));
 }
 
+std::uint64_t CorrectionTable::bytes_per_probe_on_all() {
+  return kCorrectionBucketsPerProbe * kCorrectionBucket * (sizeof(CorrectionKey) + sizeof(Cells));
+}
+
+void CorrectionTable::part_among(Ranks& ranks) {
+  assert(empty_);
+  ranks_ = &ranks;
+}
+
+/// The first slot of each rank's part, and the number of all slots.
+std::vector<std::size_t> CorrectionTable::first_slots() const {
+  const std::size_t buckets =
+      std::size_t{kCorrectionBucketsPerProbe} * static_cast<std::size_t>(probes_);
+  const auto count = static_cast<std::size_t>(ranks_->count());
+  std::vector<std::size_t> firsts;
+  for (std::size_t r = 0; r <= count; ++r)
+    firsts.push_back(r * buckets / count * kCorrectionBucket);
+  return firsts;
+}
+
 void CorrectionTable::make_room() {
-  const std::size_t slots = std::size_t{kCorrectionBucket} * kCorrectionBucketsPerProbe *
-                            static_cast<std::size_t>(probes_);
-  keys_.resize(slots);
-  learned_.resize(slots);
-  refined_.resize(slots);
-  first_items_.resize(slots / kCorrectionBucket);
+  const std::vector<std::size_t> firsts = first_slots();
+  const auto own = static_cast<std::size_t>(ranks_->own());
+  const std::size_t own_slots = firsts[own + 1] - firsts[own];
+  first_slot_ = firsts[own];
+  keys_.resize(firsts.back());
+  refined_.resize(firsts.back());
+  learned_.resize(own_slots);
+  first_items_.resize(own_slots / kCorrectionBucket);
 }
 
 __attribute__((flatten)) float CorrectionTable::at(const ProbeGrid& grid, int volume,
@@ -110,14 +134,14 @@ void CorrectionTable::refine(std::size_t slot) {
                              static_cast<uint>(keys_.size() / kCorrectionBucket)};
   const CorrectionKey key = keys_[slot];
   for (int k = 0; k < kCellCorners; ++k) {
-    refined_[slot][k] = refined_cell(table, key, k, learned_[slot][k]);
+    refined_[slot][k] = refined_cell(table, key, k, learned_[slot - first_slot_][k]);
   }
 }
 
 /// Lists each sample in the buckets of its blocks. `mean` is that of what lookups find.
 void CorrectionTable::list_items(std::span<const ProbeGrid> grids,
                                  std::span<const CorrectionSample> samples, float mean) {
-  const auto buckets = static_cast<uint>(first_items_.size());
+  const auto buckets = static_cast<uint>(keys_.size() / kCorrectionBucket);
   items_.clear();
   for (const CorrectionSample& sample : samples) {
     const ProbeGrid& grid = grids[sample.volume];
@@ -127,11 +151,13 @@ void CorrectionTable::list_items(std::span<const ProbeGrid> grids,
     for (uint level = 0; level < kCorrectionLevels; ++level) {
       CorrectionItem item =
           correction_item(coords, axis, level, static_cast<uint>(sample.volume), sum);
-      std::uint32_t& first = first_items_[correction_bucket(item.key, buckets) / kCorrectionBucket];
+      coords *= 1.0f / kCorrectionGrowth;
+      const std::size_t slot = correction_bucket(item.key, buckets);
+      if (!has_slot(slot)) continue;
+      std::uint32_t& first = first_items_[(slot - first_slot_) / kCorrectionBucket];
       item.next = first;
       items_.push_back(item);
       first = static_cast<std::uint32_t>(items_.size());
-      coords *= 1.0f / kCorrectionGrowth;
     }
   }
 }
@@ -145,33 +171,54 @@ void CorrectionTable::learn(std::span<const ProbeGrid> grids,
   if (empty_) make_room();
   empty_ = false;
   list_items(grids, samples, mean);
-  const Learning learning = {keys_.data(), learned_.data(), items_.data()};
+  const Learning learning = {keys_.data(), first_slot_, learned_.data(), items_.data()};
   const float keep = kept_corrections(number);
   parallel_chunks(first_items_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
-      merge_bucket(learning, static_cast<uint>(b * kCorrectionBucket), first_items_[b], keep);
+      merge_bucket(learning, static_cast<uint>(first_slot_ + b * kCorrectionBucket),
+                   first_items_[b], keep);
       first_items_[b] = 0;
     }
   });
+  gather_parts(*ranks_, std::span(keys_), first_slots());
   refine_all();
+}
+
+/// Gives every rank what the others refined of a level: the next one reads it.
+void CorrectionTable::share_refined(uint level) {
+  if (ranks_->count() == 1) return;
+  struct Refined {
+    std::uint32_t slot;
+    Cells cells;
+  };
+  std::vector<Refined> own;
+  for (std::size_t slot = first_slot_; slot < first_slot_ + learned_.size(); ++slot) {
+    if (keys_[slot].rest == 0 || level_of_key(keys_[slot]) != level) continue;
+    own.push_back({static_cast<std::uint32_t>(slot), refined_[slot]});
+  }
+  for (const Refined& block : gather_all(*ranks_, std::move(own))) {
+    refined_[block.slot] = block.cells;
+  }
 }
 
 /// Refines all levels, the coarsest first.
 void CorrectionTable::refine_all() {
   for (int level = kCorrectionLevels - 1; level >= 0; --level) {
-    parallel_chunks(keys_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t slot = begin; slot < end; ++slot) {
+    parallel_chunks(learned_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t slot = first_slot_ + begin; slot < first_slot_ + end; ++slot) {
         const bool used = keys_[slot].rest != 0;
         if (used && level_of_key(keys_[slot]) == static_cast<uint>(level)) refine(slot);
       }
     });
+    share_refined(static_cast<uint>(level));
   }
 }
 
 std::vector<CorrectionBlock> CorrectionTable::blocks() const {
   std::vector<CorrectionBlock> blocks;
-  for (std::size_t slot = 0; slot < keys_.size(); ++slot) {
-    if (keys_[slot].rest != 0) blocks.push_back({keys_[slot], learned_[slot]});
+  for (std::size_t own = 0; own < learned_.size(); ++own) {
+    const CorrectionKey& key = keys_[first_slot_ + own];
+    if (key.rest != 0) blocks.push_back({key, learned_[own]});
   }
   return blocks;
 }
@@ -182,18 +229,19 @@ void CorrectionTable::restore(std::span<const CorrectionBlock> blocks, float wei
   empty_ = false;
   for (const CorrectionBlock& block : blocks) {
     const std::size_t slot = claim(block.key);
-    if (slot == kNoCorrectionBlock) continue;
+    if (slot == kNoCorrectionBlock || !has_slot(slot)) continue;
     for (int k = 0; k < kCellCorners; ++k) {
       const LearnedCorrection& cell = block.cells[k];
-      learned_[slot][k] = {weight * cell.gathered, weight * cell.looked_up, weight * cell.samples};
+      learned_[slot - first_slot_][k] = {weight * cell.gathered, weight * cell.looked_up,
+                                         weight * cell.samples};
     }
   }
   refine_all();
 }
 
 void CorrectionTable::forget(std::span<const ProbeGrid> grids, std::span<const float> kept) {
-  parallel_chunks(keys_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t slot = begin; slot < end; ++slot) {
+  parallel_chunks(learned_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t slot = first_slot_ + begin; slot < first_slot_ + end; ++slot) {
       if (keys_[slot].rest == 0) continue;
       const ProbeGrid& grid = grids[volume_of_key(keys_[slot])];
       const ProbeCell cell = probe_cell(grid, block_centre(grid, keys_[slot]));
@@ -202,7 +250,7 @@ void CorrectionTable::forget(std::span<const ProbeGrid> grids, std::span<const f
         least = min(least, kept[probe_index(grid, cell.base + cell_corner(k))]);
       }
       if (least >= 1.0f) continue;
-      for (LearnedCorrection& learned : learned_[slot]) {
+      for (LearnedCorrection& learned : learned_[slot - first_slot_]) {
         learned = updated_correction(learned, least, {0u, 0u}, 0u);
       }
     }

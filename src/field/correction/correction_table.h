@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/ranks.h"
 #include "field/correction/correction_math.h"
 
 namespace lambent {
@@ -37,14 +38,21 @@ enum class CorrectionRead : std::uint8_t {
 };
 
 /// A hash table of blocks of cells on surfaces.
+///
+/// Where ranks share a field, each holds what lookups read of all blocks, but what was learned of
+/// its own part of the buckets alone. They call the same functions that change the table, together.
 class CorrectionTable {
  public:
   /// An empty table for a field of so many probes. It takes memory once there is something to
   /// learn.
   explicit CorrectionTable(int probes);
+  /// Parts an empty table among ranks, which must outlive it.
+  void part_among(Ranks& ranks);
 
   /// Memory that a table takes for each probe of its field, once it has learned something.
   static std::uint64_t bytes_per_probe();
+  /// The part of it that every rank takes where the table is parted.
+  static std::uint64_t bytes_per_probe_on_all();
 
   /// Whether nothing has been learned.
   bool empty() const { return empty_; }
@@ -60,13 +68,15 @@ class CorrectionTable {
   /// as much as before, 0 to 1.
   void forget(std::span<const ProbeGrid> grids, std::span<const float> kept);
 
-  /// All blocks, as restore() takes them.
+  /// All blocks, as restore() takes them: those of this rank's part, which come after those of the
+  /// ranks before it.
   std::vector<CorrectionBlock> blocks() const;
   /// Fills an empty table with the blocks of another, so that lookups read the same from both.
   /// Their samples count `weight` times as much for what is learned later.
   void restore(std::span<const CorrectionBlock> blocks, float weight);
 
-  // The table's arrays, by slot, as devices hold them; empty until something is learned.
+  // The table's arrays, by slot, as devices hold them; empty until something is learned. Tables of
+  // devices are not parted.
   using Cells = std::array<uint, kCellCorners>;
   using LearnedCells = std::array<LearnedCorrection, kCellCorners>;
   std::span<const CorrectionKey> keys() const { return keys_; }
@@ -80,13 +90,21 @@ class CorrectionTable {
                   float mean);
   void refine(std::size_t slot);
   void refine_all();
+  void share_refined(uint level);
+  bool has_slot(std::size_t slot) const {
+    return slot >= first_slot_ && slot - first_slot_ < learned_.size();
+  }
+  std::vector<std::size_t> first_slots() const;
 
   int probes_;
+  Ranks* ranks_ = &one_rank();
+  std::size_t first_slot_ = 0;  // of this rank's part
   // By slot; none until something is learned
   std::vector<CorrectionKey> keys_;
-  std::vector<LearnedCells> learned_;
-  std::vector<Cells> refined_;  // encode_correction()
-  // While it learns: the new samples, and by bucket the place of the first one, from 1; 0: none
+  std::vector<LearnedCells> learned_;  // of this rank's part alone
+  std::vector<Cells> refined_;         // encode_correction()
+  // While it learns: the new samples, and by bucket the place of the first one, from 1; 0: none.
+  // Of this rank's part alone
   std::vector<CorrectionItem> items_;
   std::vector<std::uint32_t> first_items_;
   bool empty_ = true;

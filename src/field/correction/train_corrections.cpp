@@ -2,7 +2,9 @@
 #include "field/correction/train_corrections.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "field/correction/train_math.h"
@@ -32,14 +34,16 @@ struct Training {
   uint number, seed;
 };
 
-/// The points at which an update learns: those of trained_surfels() that reflect light.
+/// The points at which this rank learns in an update: those of trained_surfels() that are here and
+/// reflect light.
 std::vector<TrainingPoint> points_of(const Training& training, std::span<const int> probes) {
   std::vector<TrainingPoint> points;
   uint point = 0;
   for (const TrainedSurfel& at : trained_surfels(training.data, probes, training.number)) {
+    const uint index = point++;
+    if (!training.data.share.alone() && !training.data.share.has(at.probe)) continue;
     const ProbeTrace& trace = training.data.traces[at.probe];
     const Surfel& surfel = trace.surfels[at.ray];
-    const uint index = point++;
     if (!surfel.reflects() || surfel.gi_share <= 0.0f) continue;
     points.push_back({{surfel.position_ws, decode_unit_vector(surfel.normal_ws),
                        -trace.rays->directions[at.ray]},
@@ -166,10 +170,53 @@ std::uint64_t compare(const Training& training, std::span<const TrainingPoint> p
   return traced;
 }
 
-std::vector<CorrectionSample> joined(const std::vector<std::vector<CorrectionSample>>& parts) {
+/// How many points the ranks before this one have.
+std::size_t points_before(Ranks& ranks, std::size_t own) {
+  const std::vector<std::uint64_t> each = gather_each<std::uint64_t>(ranks, own);
+  return std::accumulate(each.begin(), each.begin() + ranks.own(), std::uint64_t{0});
+}
+
+/// Samples of a task's points, and of those that follow them.
+using TaskSamples = std::array<std::vector<CorrectionSample>, 2>;
+
+/// Samples that follow one another among those of all ranks.
+struct SampleRun {
+  std::uint64_t order;  ///< Twice the task's number, and 1 more for points that follow.
+  std::uint64_t count;
+};
+
+/// The samples of all ranks, in the order in which a single rank has them: its sums have their
+/// bits. `tasks` are numbered from `first_task` on; neighbouring ranks may share one.
+std::vector<CorrectionSample> joined(Ranks& ranks, std::span<const TaskSamples> tasks,
+                                     std::uint64_t first_task) {
+  std::vector<CorrectionSample> own;
+  std::vector<SampleRun> own_runs;
+  for (std::size_t t = 0; t < tasks.size(); ++t) {
+    for (std::size_t part = 0; part < tasks[t].size(); ++part) {
+      const std::vector<CorrectionSample>& samples = tasks[t][part];
+      own_runs.push_back({2 * (first_task + t) + part, samples.size()});
+      own.insert(own.end(), samples.begin(), samples.end());
+    }
+  }
+  if (ranks.count() == 1) return own;
+
+  const std::vector<SampleRun> runs = gather_all(ranks, std::move(own_runs));
+  const std::vector<CorrectionSample> gathered = gather_all(ranks, std::move(own));
+  std::vector<std::size_t> begins, places(runs.size());
+  std::size_t begin = 0;
+  for (const SampleRun& run : runs) {
+    begins.push_back(begin);
+    begin += run.count;
+  }
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::stable_sort(places.begin(), places.end(),
+                   [&](std::size_t a, std::size_t b) { return runs[a].order < runs[b].order; });
   std::vector<CorrectionSample> all;
-  for (const std::vector<CorrectionSample>& part : parts)
-    all.insert(all.end(), part.begin(), part.end());
+  all.reserve(gathered.size());
+  for (const std::size_t place : places) {
+    const auto first = gathered.begin() + static_cast<std::ptrdiff_t>(begins[place]);
+    all.insert(all.end(), first, first + static_cast<std::ptrdiff_t>(runs[place].count));
+  }
   return all;
 }
 
@@ -208,12 +255,16 @@ std::uint64_t train_corrections(const World& world, std::span<const int> probes,
       world, data, by, by, training_shading(data.settings, number), number, data.settings.seed};
   training.uncorrected.correction = nullptr;
   const std::vector<TrainingPoint> points = points_of(training, probes);
-  std::vector<std::vector<CorrectionSample>> samples((points.size() + kPointsPerTask - 1) /
-                                                     kPointsPerTask);
+  // Tasks are runs of the points of all ranks; this one's begin within its first task
+  const std::size_t before = points_before(data.share.ranks(), points.size());
+  const std::size_t lead = before % kPointsPerTask, last = lead + points.size();
+  std::vector<TaskSamples> samples((last + kPointsPerTask - 1) / kPointsPerTask);
   std::atomic<std::uint64_t> traced = 0;
-  parallel_chunks(points.size(), kPointsPerTask, [&](std::size_t begin, std::size_t end) {
-    const std::span<const TrainingPoint> own = std::span(points).subspan(begin, end - begin);
-    std::vector<CorrectionSample>& out = samples[begin / kPointsPerTask];
+  parallel_chunks(last, kPointsPerTask, [&](std::size_t begin, std::size_t end) {
+    auto& [out, out_following] = samples[begin / kPointsPerTask];
+    begin = max(begin, lead);
+    const std::span<const TrainingPoint> own =
+        std::span(points).subspan(begin - lead, end > begin ? end - begin : 0);
     const Gathers gathers = gather(training, own);
     traced += gathers.traced + compare(training, own, gathers, out);
 
@@ -224,9 +275,10 @@ std::uint64_t train_corrections(const World& world, std::span<const int> probes,
       if (next.gi_share > 0.0f) following.push_back(next);
     }
     const Gathers further = gather(training, following);
-    traced += further.traced + compare(training, following, further, out);
+    traced += further.traced + compare(training, following, further, out_following);
   });
-  data.correction.learn(data.store.grids(), joined(samples), number);
+  data.correction.learn(data.store.grids(),
+                        joined(data.share.ranks(), samples, before / kPointsPerTask), number);
   return traced;
 }
 

@@ -28,8 +28,9 @@ ShadeHitsSettings training_shading(const FieldSettings& settings, uint number);
 /// Learns how far the field's lookups are off: gathers irradiance at a share of the surfels of
 /// `probes`, and at points that these gathers meet, and compares it with what lookups find there
 /// without corrections. The field holds the light of the update before update `number`, whose
-/// surfels are known already. `by` says how lookups see probes, with corrections. Returns the
-/// number of rays traced.
+/// surfels are known already. `by` says how lookups see probes, with corrections. Where ranks share
+/// the field, each gathers at its own surfels, and all learn from all. Returns the number of rays
+/// that this one traced.
 std::uint64_t train_corrections(const World& world, std::span<const int> probes,
                                 const VisibilityRays& by, uint number, ProbeData& data);
 

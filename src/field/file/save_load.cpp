@@ -4,10 +4,10 @@
 #include <numeric>
 #include <vector>
 
-#include "core/files/atomic_file.h"
 #include "field/field_access.h"
 #include "field/field_state.h"
 #include "field/file/field_file.h"
+#include "field/file/field_stream.h"
 #include "field/probes/tile_light.h"
 #include "lambent/world.h"
 
@@ -104,19 +104,24 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
   return result;
 }
 
+FieldFile IrradianceField::State::for_file(const World& world) const {
+  FieldFile file;
+  file.updates = static_cast<std::uint32_t>(updates);
+  file.scene = identify(world.scene(), settings);
+  for (int volume = 0; volume < data.store.volumes(); ++volume) {
+    file.volumes.push_back(volume_for_file(volume, world));
+  }
+  return file;
+}
+
 Expected<void> save_field(const std::string& path, const IrradianceField& field,
                           const World& world) {
   const FieldAccess::State& state = FieldAccess::state_of(field);
   state.backend->fetch_store();
   state.backend->fetch_corrections();
-  FieldFile file;
-  file.updates = static_cast<std::uint32_t>(state.updates);
-  file.scene = identify(world.scene(), state.settings);
-  for (int volume = 0; volume < state.data.store.volumes(); ++volume) {
-    file.volumes.push_back(state.volume_for_file(volume, world));
-  }
-  file.corrections = state.data.correction.blocks();
-  return write_file_atomically(path, encode_field(file));
+  Ranks& ranks = state.data.share.ranks();
+  const FieldFile file = ranks.own() == 0 ? state.for_file(world) : FieldFile{};
+  return write_shared_field(path, {}, file, state.data.correction, ranks);
 }
 
 Expected<LoadedField> load_field(const std::string& path, const FieldSettings& settings,

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cassert>
 
 #include "core/checksum.h"
 #include "core/little_endian.h"
 #include "field/file/field_file.h"
+#include "field/file/field_stream.h"
 #include "field/file/layout.h"
 
 namespace lambent {
@@ -14,11 +16,53 @@ std::uint64_t volume_bytes(const FieldVolume& volume) {
          sizeof(uint) * (volume.irradiance.size() + volume.distance.size());
 }
 
-void write_vec3(const glm::vec3& v, ByteWriter& out) {
+// What a stream holds back before it writes [bytes].
+constexpr std::size_t kStreamPart = std::size_t{1} << 20;
+
+/// Sends numbers to a file, a part at a time, and finds their checksum.
+class PartWriter {
+ public:
+  PartWriter(AtomicFile& file, std::uint32_t& checksum) : file_(file), checksum_(checksum) {}
+
+  void u32(std::uint32_t value) { part_.u32(value), send_if_full(); }
+  void u64(std::uint64_t value) { part_.u64(value), send_if_full(); }
+  void f32(float value) { part_.f32(value), send_if_full(); }
+  void u32s(std::span<const uint> values) {
+    constexpr std::size_t kMost = kStreamPart / sizeof(uint);
+    for (std::size_t first = 0; first < values.size(); first += kMost) {
+      part_.u32s(values.subspan(first, std::min(kMost, values.size() - first)));
+      send_if_full();
+    }
+  }
+  /// Sends what is left. Fails where anything could not be written.
+  Expected<void> finish() {
+    send();
+    return written_;
+  }
+
+ private:
+  void send_if_full() {
+    if (part_.size() >= kStreamPart) send();
+  }
+  void send() {
+    checksum_ = crc32_of(part_.bytes(), checksum_);
+    if (written_) written_ = file_.write(part_.bytes());
+    part_.clear();
+  }
+
+  AtomicFile& file_;
+  std::uint32_t& checksum_;
+  ByteWriter part_;
+  Expected<void> written_;
+};
+
+template <class Out>
+void write_vec3(const glm::vec3& v, Out& out) {
   for (int axis = 0; axis < 3; ++axis) out.f32(v[axis]);
 }
 
-void write_volume(const FieldVolume& volume, ByteWriter& out) {
+template <class Out>
+void write_volume(const FieldVolume& volume, Out& out) {
   const ProbeGrid& grid = volume.grid;
   assert(volume.records.size() == static_cast<std::size_t>(probe_count(grid)));
   assert(grid.scroll == ivec3(0));
@@ -52,14 +96,17 @@ void write_volume(const FieldVolume& volume, ByteWriter& out) {
   out.u32s(volume.distance);
 }
 
-}  // namespace
-
-std::vector<std::byte> encode_field(const FieldFile& field) {
-  ByteWriter out;
+/// Writes what comes before the size.
+void write_start(ByteWriter& out) {
   out.raw(std::as_bytes(std::span(kFieldMagic)));
   out.u32(kFieldFileVersion);
-  out.u32(0);  // replaced by the checksum and the size below
-  out.u64(0);
+  out.u32(0);  // replaced by the checksum at the end
+  assert(out.size() == kSizeOffset);
+}
+
+/// Writes all that is between the size and the blocks of corrections.
+template <class Out>
+void write_front(const FieldFile& field, std::uint32_t corrections, Out& out) {
   out.u32(static_cast<std::uint32_t>(field.volumes.size()));
   out.u32(field.updates);
   out.u64(field.scene.triangles);
@@ -68,10 +115,13 @@ std::vector<std::byte> encode_field(const FieldFile& field) {
   out.u32(field.scene.geometry);
   out.u32(field.scene.light);
   out.u32(kHeaderBytes);
-  assert(out.size() == kHeaderBytes);
   for (const FieldVolume& volume : field.volumes) write_volume(volume, out);
-  out.u32(static_cast<std::uint32_t>(field.corrections.size()));
-  for (const CorrectionBlock& block : field.corrections) {
+  out.u32(corrections);
+}
+
+template <class Out>
+void write_blocks(std::span<const CorrectionBlock> blocks, Out& out) {
+  for (const CorrectionBlock& block : blocks) {
     out.u32(block.key.xy);
     out.u32(block.key.rest);
     for (const LearnedCorrection& cell : block.cells) {
@@ -80,9 +130,44 @@ std::vector<std::byte> encode_field(const FieldFile& field) {
       out.f32(cell.samples);
     }
   }
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_field(const FieldFile& field) {
+  ByteWriter out;
+  write_start(out);
+  out.u64(0);  // replaced below
+  write_front(field, static_cast<std::uint32_t>(field.corrections.size()), out);
+  write_blocks(field.corrections, out);
   std::vector<std::byte> bytes = out.take();
   seal_field(bytes);
   return bytes;
+}
+
+Expected<void> FieldStream::write_front(const FieldFile& field, std::uint32_t corrections) {
+  std::uint64_t size = kHeaderBytes + sizeof(std::uint32_t) + kCorrectionBlockBytes * corrections;
+  for (const FieldVolume& volume : field.volumes) size += volume_bytes(volume);
+  ByteWriter start;
+  write_start(start);
+  if (const auto written = file_.write(start.bytes()); !written) return written;
+  PartWriter out(file_, checksum_);
+  out.u64(size);
+  lambent::write_front(field, corrections, out);
+  return out.finish();
+}
+
+Expected<void> FieldStream::write(std::span<const CorrectionBlock> blocks) {
+  PartWriter out(file_, checksum_);
+  write_blocks(blocks, out);
+  return out.finish();
+}
+
+Expected<void> FieldStream::finish() {
+  ByteWriter checksum;
+  checksum.u32(checksum_);
+  if (const auto found = file_.seek(begin_ + kChecksumOffset); !found) return found;
+  return file_.write(checksum.bytes());
 }
 
 void seal_field(std::span<std::byte> bytes) {

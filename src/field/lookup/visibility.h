@@ -29,6 +29,8 @@ class CellVisibility {
 
   /// Which corners of a cell see each other (all_visible). `base` is the cell's lowest probe.
   const uvec2& of_cell(int base) const { return cells_[base]; }
+  /// The same of all cells, by their lowest probes.
+  std::span<uvec2> all_cells() { return cells_; }
 
  private:
   std::vector<uvec2> cells_;

@@ -79,8 +79,9 @@ std::vector<int> IrradianceField::State::place_probes(const World& world,
     const std::vector<uint> before(data.store.offset_words().begin(),
                                    data.store.offset_words().end());
     for (const int probe : probes) data.store.set_probe_offset(probe, vec3(0.0f));
-    relocate_probes({world.scene(), tracer_of(world), data.solid_sides, moving}, probes,
-                    data.store);
+    relocate_probes({world.scene(), tracer_of(world), data.solid_sides, moving},
+                    data.share.own(probes), data.store);
+    data.share.gather(data.store.offset_words());
     for (const int probe : probes) {
       if (data.store.offset_words()[probe] != before[probe]) moved.push_back(probe);
     }
@@ -199,11 +200,11 @@ void IrradianceField::State::update_classification_inputs(const World& world,
     data.store.blend_moments(probe, moments, 1.0f, dither_seed());
   };
   const std::size_t batch = viewpoints_of_batch(tracer_of(world));
-  parallel_chunks(probes.size(), batch, [&](std::size_t first, std::size_t last) {
+  const std::span<const int> own = data.share.own(probes);
+  parallel_chunks(own.size(), batch, [&](std::size_t first, std::size_t last) {
     std::vector<Viewpoint> viewpoints;
     for (std::size_t k = first; k < last; ++k) {
-      viewpoints.push_back(
-          {data.store.probe_position_ws(probes[k]), data.store.grid_of(probes[k]).axes});
+      viewpoints.push_back({data.store.probe_position_ws(own[k]), data.store.grid_of(own[k]).axes});
     }
     std::vector<FixedRayHit> around(viewpoints.size() * directions);
     trace_fixed_rays({world.scene(), tracer_of(world), data.solid_sides, moving}, viewpoints,
@@ -211,10 +212,12 @@ void IrradianceField::State::update_classification_inputs(const World& world,
     // A device traces large batches, whose results all cores work on
     parallel_chunks(viewpoints.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) {
-        learn(probes[first + k], {&around[k * directions], directions});
+        learn(own[first + k], {&around[k * directions], directions});
       }
     });
   });
+  data.share.gather(std::span(placement.classification_inputs));
+  if (learn_distances) data.share.gather(data.store.distance_words());
 }
 
 void classify(const World& world, const ProbeStore& store, PlacementState& placement,

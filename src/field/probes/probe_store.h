@@ -66,6 +66,7 @@ class ProbeStore {
     offsets_[probe] = encode_probe_offset(cells);
   }
   std::span<const uint> offset_words() const { return offsets_; }
+  std::span<uint> offset_words() { return offsets_; }
 
   /// Irradiance [W/m^2] of a texel, coordinates with gutter (0 to texels + 1).
   vec3 irradiance_texel(int probe, ivec2 with_gutter) const;
@@ -87,6 +88,8 @@ class ProbeStore {
   /// distance_unit() of the volume.
   std::span<const uint> irradiance_words() const { return irradiance_; }
   std::span<const uint> distance_words() const { return distance_; }
+  std::span<uint> irradiance_words() { return irradiance_; }
+  std::span<uint> distance_words() { return distance_; }
   int words_per_irradiance_texel() const { return words_of_irradiance(irradiance_code()); }
   int words_per_distance_texel() const { return distance_format_ == DistanceFormat::rg32f ? 2 : 1; }
 

@@ -2,6 +2,7 @@
 #include "field/transport/anderson.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -18,6 +19,27 @@ constexpr std::size_t kDepth = kAndersonDepth;
 // kAndersonRidge in double precision.
 constexpr double kRidge = 1e-10;
 
+/// Calls body(begin, end) for the parts of the chunks of `size` texels that lie within
+/// [first, last), in their order.
+template <class Body>
+void for_each_part(std::size_t first, std::size_t last, Body body) {
+  while (first < last) {
+    const std::size_t end = std::min(last, (first / kTexelsPerTask + 1) * kTexelsPerTask);
+    body(first, end);
+    first = end;
+  }
+}
+
+/// Whether a part of a chunk of `size` texels is all of it.
+bool is_whole(std::size_t begin, std::size_t end, std::size_t size) {
+  return begin % kTexelsPerTask == 0 && (end % kTexelsPerTask == 0 || end == size);
+}
+
+/// How many numbers a part of a chunk is summed up in: see SharedTexels::inner_product().
+std::size_t numbers_of(std::size_t begin, std::size_t end, std::size_t size) {
+  return is_whole(begin, end, size) ? 1 : end - begin;
+}
+
 }  // namespace
 
 double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b) {
@@ -29,6 +51,55 @@ double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b) {
 }
 
 double norm(const WorkingIrradiance& a) {
+  return std::sqrt(inner_product(a, a));
+}
+
+SharedTexels::SharedTexels(Ranks& ranks, std::vector<std::size_t> firsts)
+    : ranks_(&ranks), firsts_(std::move(firsts)), first_numbers_{0} {
+  assert(firsts_.size() == static_cast<std::size_t>(ranks.count()) + 1);
+  for (std::size_t r = 0; r + 1 < firsts_.size(); ++r) {
+    std::size_t numbers = first_numbers_.back();
+    for_each_part(firsts_[r], firsts_[r + 1], [&](std::size_t begin, std::size_t end) {
+      numbers += numbers_of(begin, end, firsts_.back());
+    });
+    first_numbers_.push_back(numbers);
+  }
+}
+
+/// Every chunk is summed up where all of it is, and all ranks add the chunks' sums in their order.
+/// Of chunks that ranks share, they exchange all products: the sum has the bits of a single rank's.
+double SharedTexels::inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b) const {
+  if (ranks_->count() == 1) return lambent::inner_product(a, b);
+  const auto own = static_cast<std::size_t>(ranks_->own());
+  const std::size_t first = firsts_[own], size = firsts_.back();
+  assert(a.size() == firsts_[own + 1] - first);
+  std::vector<double> numbers(first_numbers_.back());
+  double* out = numbers.data() + first_numbers_[own];
+  for_each_part(first, firsts_[own + 1], [&](std::size_t begin, std::size_t end) {
+    if (is_whole(begin, end, size)) {
+      double sum = 0.0;
+      for (std::size_t i = begin; i < end; ++i) sum += glm::dot(a[i - first], b[i - first]);
+      *out++ = sum;
+    } else {
+      for (std::size_t i = begin; i < end; ++i) *out++ = glm::dot(a[i - first], b[i - first]);
+    }
+  });
+  gather_parts(*ranks_, std::span(numbers), first_numbers_);
+
+  double sum = 0.0, of_chunk = 0.0;
+  const double* in = numbers.data();
+  for (std::size_t r = 0; r + 1 < firsts_.size(); ++r) {
+    for_each_part(firsts_[r], firsts_[r + 1], [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = 0; i < numbers_of(begin, end, size); ++i) of_chunk += *in++;
+      if (end % kTexelsPerTask != 0 && end != size) return;
+      sum += of_chunk;
+      of_chunk = 0.0;
+    });
+  }
+  return sum;
+}
+
+double SharedTexels::norm(const WorkingIrradiance& a) const {
   return std::sqrt(inner_product(a, a));
 }
 
@@ -48,7 +119,8 @@ void AndersonMemory::push(WorkingIrradiance residual_change, WorkingIrradiance i
   image_changes_.push_back(std::move(image_change));
 }
 
-void AndersonMemory::extrapolate(const WorkingIrradiance& residual, WorkingIrradiance& next) const {
+void AndersonMemory::extrapolate(const SharedTexels& texels, const WorkingIrradiance& residual,
+                                 WorkingIrradiance& next) const {
   const auto steps = static_cast<Eigen::Index>(residual_changes_.size());
   assert(static_cast<float>(kRidge) == kAndersonRidge);
   if (steps == 0) return;
@@ -56,9 +128,9 @@ void AndersonMemory::extrapolate(const WorkingIrradiance& residual, WorkingIrrad
   Eigen::VectorXd projection(steps);
   for (Eigen::Index i = 0; i < steps; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
-      gram(i, j) = gram(j, i) = inner_product(residual_changes_[i], residual_changes_[j]);
+      gram(i, j) = gram(j, i) = texels.inner_product(residual_changes_[i], residual_changes_[j]);
     }
-    projection(i) = inner_product(residual_changes_[i], residual);
+    projection(i) = texels.inner_product(residual_changes_[i], residual);
   }
   const double largest = gram.diagonal().maxCoeff();
   if (largest <= 0.0) return;

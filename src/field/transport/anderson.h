@@ -5,10 +5,12 @@
 // 2011; for a linear f it is equivalent to GMRES.
 #pragma once
 
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "core/large_pages.h"
+#include "core/ranks.h"
 
 namespace lambent {
 
@@ -18,6 +20,27 @@ using WorkingIrradiance = std::vector<glm::vec4, LargePages<glm::vec4>>;
 /// Inner product and norm over all texels. Both give the same bits on any number of threads.
 double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b);
 double norm(const WorkingIrradiance& a);
+
+/// Texels that ranks part among them, rank after rank.
+class SharedTexels {
+ public:
+  /// All of them are this process's.
+  SharedTexels() = default;
+  /// Those of rank r are [firsts[r], firsts[r + 1]). `ranks` must outlive it.
+  SharedTexels(Ranks& ranks, std::vector<std::size_t> firsts);
+
+  /// Whether no rank has any, where this one has `own`.
+  bool empty(std::size_t own) const { return firsts_.empty() ? own == 0 : firsts_.back() == 0; }
+  /// Inner product and norm over the texels of all ranks, with the bits that a single rank finds.
+  /// The arguments are this rank's texels; all ranks call it together.
+  double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b) const;
+  double norm(const WorkingIrradiance& a) const;
+
+ private:
+  Ranks* ranks_ = &one_rank();
+  std::vector<std::size_t> firsts_;         // empty: this process is alone
+  std::vector<std::size_t> first_numbers_;  // of each rank's, among those that are exchanged
+};
 
 /// result = a + scale * b
 void add_scaled(const WorkingIrradiance& a, float scale, const WorkingIrradiance& b,
@@ -30,7 +53,8 @@ class AndersonMemory {
   void push(WorkingIrradiance residual_change, WorkingIrradiance image_change);
 
   /// Moves `next`, the image f(x), to where the linear model of the residual is smallest.
-  void extrapolate(const WorkingIrradiance& residual, WorkingIrradiance& next) const;
+  void extrapolate(const SharedTexels& texels, const WorkingIrradiance& residual,
+                   WorkingIrradiance& next) const;
 
  private:
   std::vector<WorkingIrradiance> residual_changes_, image_changes_;

@@ -46,7 +46,7 @@ void blend_into(const TransportOperator& transport, std::span<const float> blend
 /// relative change of the light.
 double finish(const TransportOperator& transport, std::span<const float> blend_weights,
               const WorkingIrradiance& history, const WorkingIrradiance& solution,
-              WorkingIrradiance& field) {
+              const SolveShare& share, WorkingIrradiance& field) {
   WorkingIrradiance difference(history.size());
   for_each_probe(transport, [&](std::size_t k, std::size_t in_field, std::size_t own) {
     for (int t = 0; t < transport.texels(); ++t) {
@@ -56,8 +56,9 @@ double finish(const TransportOperator& transport, std::span<const float> blend_w
       field[in_field + t] = blended;
     }
   });
-  const double whole = norm(solution);
-  return whole > 0.0 ? norm(difference) / whole : 0.0;
+  share.gather(field);
+  const double whole = share.texels.norm(solution);
+  return whole > 0.0 ? share.texels.norm(difference) / whole : 0.0;
 }
 
 /// Everything that the radiance along a probe's rays depends on.
@@ -224,32 +225,51 @@ SolveSettings solve_settings(const FieldSettings& settings) {
   return {settings.max_albedo, settings.solve_tolerance, settings.max_solve_iterations};
 }
 
+SolveShare::SolveShare(const ProbeShare& parted, std::span<const int> all, int texels_of_tile)
+    : probes(&parted) {
+  std::vector<std::size_t> firsts = parted.places_of_parts(all);
+  for (std::size_t& first : firsts) first *= static_cast<std::size_t>(texels_of_tile);
+  texels = SharedTexels(parted.ranks(), std::move(firsts));
+}
+
+void SolveShare::gather(WorkingIrradiance& field) const {
+  if (probes != nullptr) probes->gather(std::span(field));
+}
+
+float SolveShare::largest(std::span<const float> own) const {
+  const float most = own.empty() ? 0.0f : *std::max_element(own.begin(), own.end());
+  if (probes == nullptr) return most;
+  const std::vector<float> each = gather_each(probes->ranks(), most);
+  return *std::max_element(each.begin(), each.end());
+}
+
 SolveResult solve_counted_bounces(const TransportOperator& transport,
                                   std::span<const float> blend_weights, int bounces,
-                                  WorkingIrradiance& field) {
-  assert(transport.probes().size() * transport.texels() == field.size());
-  const WorkingIrradiance history = field;
-  WorkingIrradiance solution(field.size()), received(field.size());
-  transport.apply_sky(history, solution);
+                                  const SolveShare& share, WorkingIrradiance& field) {
+  const WorkingIrradiance history = light_of(field, transport.probes(), transport.texels());
+  WorkingIrradiance solution = field, received(history.size());
+  const std::vector<float> all_new(transport.probes().size(), 1.0f);
+  transport.apply_sky(history, received);
   for (int i = 0; i < bounces; ++i) {
+    blend_into(transport, all_new, history, received, solution);
+    share.gather(solution);
     transport.apply(solution, history, received);
-    solution.swap(received);
   }
-  const double change = finish(transport, blend_weights, history, solution, field);
-  return {bounces, 0.0, change, std::move(solution)};
+  const double change = finish(transport, blend_weights, history, received, share, field);
+  return {bounces, 0.0, change, std::move(received)};
 }
 
 SolveResult solve_bounces(const TransportOperator& transport, std::span<const float> blend_weights,
                           const WorkingIrradiance& history_ratio, const SolveSettings& settings,
-                          WorkingIrradiance& field) {
+                          const SolveShare& share, WorkingIrradiance& field) {
   const WorkingIrradiance history = light_of(field, transport.probes(), transport.texels());
   const std::size_t size = history.size();
   WorkingIrradiance solution = history, image(size), residual(size);
   WorkingIrradiance previous_image, previous_residual;
   AndersonMemory memory;
   SolveResult result;
-  if (size == 0) return result;
-  const float blend_weight = *std::max_element(blend_weights.begin(), blend_weights.end());
+  if (share.texels.empty(size)) return result;
+  const float blend_weight = share.largest(blend_weights);
   const float bound = blend_weight * settings.max_albedo;
   float observed = 0.0f;
   float contraction = bound;
@@ -257,6 +277,7 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
   while (true) {
     // Apply the transport once
     blend_into(transport, blend_weights, history, solution, field);
+    share.gather(field);
     transport.apply(field, history, image);
     if (!history_ratio.empty()) multiply(image, history_ratio);
     ++result.iterations;
@@ -264,26 +285,27 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
 
     // Compute the contraction: the ratio of the change of the image to the change of its argument.
     // After a single step, only the largest albedo bounds it
-    if (!previous_residual.empty()) {
+    if (result.iterations > 1) {
       WorkingIrradiance residual_change(size), image_change(size), change(size);
       add_scaled(residual, -1.0f, previous_residual, residual_change);
       add_scaled(image, -1.0f, previous_image, image_change);
       add_scaled(image_change, -1.0f, residual_change, change);
-      const double change_norm = norm(change);
+      const double change_norm = share.texels.norm(change);
       if (change_norm > 0.0) {
-        observed = max(observed, static_cast<float>(norm(image_change) / change_norm));
+        observed = max(observed, static_cast<float>(share.texels.norm(image_change) / change_norm));
       }
       contraction = assumed_contraction(observed, bound);
       memory.push(std::move(residual_change), std::move(image_change));
     }
 
     // Estimate the error
-    const double image_norm = norm(image);
-    const double relative_residual = image_norm > 0.0 ? norm(residual) / image_norm : 0.0;
+    const double image_norm = share.texels.norm(image);
+    const double relative_residual =
+        image_norm > 0.0 ? share.texels.norm(residual) / image_norm : 0.0;
     result.error =
         remaining_error(contraction, blend_weight, static_cast<float>(relative_residual));
     if (result.error <= settings.tolerance || result.iterations >= settings.max_iterations) {
-      result.change = finish(transport, blend_weights, history, image, field);
+      result.change = finish(transport, blend_weights, history, image, share, field);
       result.solution = std::move(image);
       return result;
     }
@@ -292,7 +314,7 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
     previous_residual = residual;
     previous_image = image;
     solution = image;
-    memory.extrapolate(residual, solution);
+    memory.extrapolate(share.texels, residual, solution);
   }
 }
 

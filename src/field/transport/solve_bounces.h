@@ -15,6 +15,7 @@
 #include <span>
 #include <vector>
 
+#include "field/probe_share.h"
 #include "field/transport/anderson.h"
 #include "field/transport/surfels.h"
 
@@ -82,17 +83,47 @@ void multiply(WorkingIrradiance& a, const WorkingIrradiance& b);
 /// Copies the texels of some probes from a field.
 WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> probes, int texels);
 
+/// How ranks part a solve: each has an operator for its own probes.
+struct SolveShare {
+  /// All probes are this process's.
+  SolveShare() = default;
+  /// `all` are the probes of all ranks' operators, in ascending order. `parted` must outlive it.
+  SolveShare(const ProbeShare& parted, std::span<const int> all, int texels_of_tile);
+
+  const ProbeShare* probes = nullptr;  ///< Null: all are this process's.
+  SharedTexels texels;
+
+  /// Gives every rank the others' light.
+  void gather(WorkingIrradiance& field) const;
+  /// The largest number >= 0 that any rank has.
+  float largest(std::span<const float> own) const;
+};
+
 /// Solves for the light of the operator's probes, starting from what `field` holds, and blends the
 /// solution into `field` with the weight `blend_weights[k]` for the k-th probe. What the probes
-/// receive is multiplied by `history_ratio`, texel by texel, unless that is empty.
+/// receive is multiplied by `history_ratio`, texel by texel, unless that is empty. Where ranks
+/// share the solve, `field` holds the light of all their probes afterwards.
 SolveResult solve_bounces(const TransportOperator& transport, std::span<const float> blend_weights,
                           const WorkingIrradiance& history_ratio, const SolveSettings& settings,
-                          WorkingIrradiance& field);
+                          const SolveShare& share, WorkingIrradiance& field);
+/// Does so for probes that are all this process's.
+inline SolveResult solve_bounces(const TransportOperator& transport,
+                                 std::span<const float> blend_weights,
+                                 const WorkingIrradiance& history_ratio,
+                                 const SolveSettings& settings, WorkingIrradiance& field) {
+  return solve_bounces(transport, blend_weights, history_ratio, settings, {}, field);
+}
 
 /// Solves for the light of exactly this many bounces, without acceleration. The operator's probes
-/// must be all probes of the field.
+/// of all ranks must be all probes of the field.
 SolveResult solve_counted_bounces(const TransportOperator& transport,
                                   std::span<const float> blend_weights, int bounces,
-                                  WorkingIrradiance& field);
+                                  const SolveShare& share, WorkingIrradiance& field);
+/// Does so for probes that are all this process's.
+inline SolveResult solve_counted_bounces(const TransportOperator& transport,
+                                         std::span<const float> blend_weights, int bounces,
+                                         WorkingIrradiance& field) {
+  return solve_counted_bounces(transport, blend_weights, bounces, {}, field);
+}
 
 }  // namespace lambent

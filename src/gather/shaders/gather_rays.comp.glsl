@@ -23,7 +23,7 @@ void main() {
   Frame frame = make_frame(point.normal_ws);
   vec3 origin_ws = offset_ray_origin(point.position_ws, point.geometric_normal_ws);
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
-    vec2 drawn = gather_point(pixel % args.width, pixel / args.width, r, args.rays_per_pixel,
+    vec2 drawn = pixel_point(pixel % args.width, pixel / args.width, r, args.rays_per_pixel,
                               args.index, args.seed);
     args.rays.at[k * args.rays_per_pixel + r] =
         RayRecord(origin_ws, 0.0f, gather_direction(frame, drawn),

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What both sides of the filter know: how pixels lie in memory, a pass's numbers, and how filtered
 // light is put together.
-#ifndef LAMBENT_DENOISE_ATROUS_MATH_H
-#define LAMBENT_DENOISE_ATROUS_MATH_H
+#ifndef LAMBENT_DENOISE_ATROUS_PASS_H
+#define LAMBENT_DENOISE_ATROUS_PASS_H
 
 #include "shared/color.h"
+#include "shared/cross_bilateral.h"
 
 LAMBENT_BEGIN
 
@@ -15,14 +16,15 @@ const int kDenoiseGuard = 1 << (kMaxDenoisePasses - 1);
 
 // Planes of a pixel's light: red, green, blue; then spread and share (struct AtrousLight); then the
 // base's red, green, blue where there is one.
+const int kLightPlane = 0;
 const int kSpreadPlane = 3;
 const int kSharePlane = 4;
 const int kBasePlane = 5;
 const int kDenoisePlanes = 8;
 
-// Planes of the filter's guide besides those of core/cross_bilateral.h: the light's level.
-const int kLevelPlane = 7;
-const int kDenoiseGuidePlanes = 8;
+// Planes of the filter's guide besides those of shared/cross_bilateral.h: the light's level.
+const int kLevelPlane = kGuidePlanes;
+const int kDenoiseGuidePlanes = kGuidePlanes + 1;
 
 // Contrast that is always taken for noise, in squares of luminance: far below any light, so that
 // equal pixels without variance do not divide zero by zero.

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+// lambent connect: pictures of a server, or in its light, in files.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lambent/command_files.h"
+#include "lambent/commands.h"
+#include "lambent/connect.h"
+#include "lambent/console.h"
+#include "lambent/help.h"
+#include "lambent/image.h"
+#include "lambent/input.h"
+#include "lambent/interrupts.h"
+#include "lambent/output.h"
+#include "lambent/parse.h"
+#include "lambent/render_output.h"
+#include "lambent/step.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
+#include "stream/client/client.h"
+#include "stream/edits/edits.h"
+#include "stream/picture/h264.h"
+
+namespace lambent::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "  lambent connect localhost -o picture.png\n"
+    "  lambent connect localhost --scene scene.glb -o picture.png   render it here\n"
+    "  lambent connect https://light.example.org:8443 --token-file token -o p.png --frames 30\n";
+
+/// "HOST", "HOST:PORT" or either after http:// or https://.
+Expected<stream::ConnectSettings> parse_server(const ConnectOptions& options) {
+  stream::ConnectSettings to = options.connect;
+  std::string text = options.server;
+  const std::string https = "https://", http = "http://";
+  if (text.starts_with(https)) {
+    to.tls = true;
+    text = text.substr(https.size());
+  } else if (text.starts_with(http)) {
+    text = text.substr(http.size());
+  }
+  if (text.ends_with("/")) text.pop_back();
+  const std::size_t colon = text.rfind(':');
+  // Colons within brackets are of an IPv6 address
+  if (colon != std::string::npos && text.find(']', colon) == std::string::npos) {
+    const auto port = finite_number(text.substr(colon + 1));
+    const auto number = static_cast<std::uint16_t>(port.value_or(0.0));
+    if (!port || static_cast<double>(number) != *port || number == 0) {
+      return fail("HOST", options.server, "has no port that can be: 1 to 65535");
+    }
+    to.port = number;
+    text = text.substr(0, colon);
+  }
+  if (text.starts_with("[") && text.ends_with("]")) text = text.substr(1, text.size() - 2);
+  if (text.empty()) return fail("HOST", options.server, "names no host");
+  to.host = text;
+  constexpr double kMsOfSecond = 1000.0;
+  to.timeout = std::chrono::milliseconds(static_cast<int>(options.timeout_s * kMsOfSecond));
+  return to;
+}
+
+Expected<stream::Hello> make_hello(const ConnectOptions& options) {
+  stream::Hello hello;
+  const auto size = parse_size("--size", options.size);
+  if (!size) return tl::unexpected(size.error());
+  if (std::min(size->x, size->y) < static_cast<int>(stream::kMinPictureSide) ||
+      std::max(size->x, size->y) > stream::kMaxEncodedLongSide) {
+    return fail("--size", options.size, "pictures are streamed of 16x16 to 3840x2160 pixels");
+  }
+  hello.size = *size;
+  hello.rate = options.rate;
+  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture : stream::kWantsLight;
+  if (options.token_file.empty()) return hello;
+  std::ifstream file(options.token_file);
+  if (!(file >> hello.token) || hello.token.size() > stream::kMaxTokenBytes) {
+    return fail(options.token_file, "", "holds no token");
+  }
+  return hello;
+}
+
+/// The camera that is asked for in place of the server's, if any.
+Expected<std::optional<stream::CameraInput>> make_camera(const ConnectOptions& options) {
+  if (options.eye.empty() != options.target.empty()) {
+    return fail(options.eye.empty() ? "--target" : "--eye", "", "--eye and --target go together");
+  }
+  if (options.eye.empty()) return std::nullopt;
+  const auto eye = parse_place("--eye", options.eye);
+  if (!eye) return tl::unexpected(eye.error());
+  const auto target = parse_place("--target", options.target);
+  if (!target) return tl::unexpected(target.error());
+  stream::CameraInput camera =
+      stream::input_of(look_at(*eye, *target, glm::radians(options.fov_degrees)));
+  camera.input = kCameraInput;
+  return camera;
+}
+
+/// What pictures took, in the mean.
+struct Costs {
+  double render_ms = 0.0, encode_ms = 0.0, bytes = 0.0;
+  int pictures = 0;
+
+  void add(const stream::Picture& picture) {
+    render_ms += static_cast<double>(picture.render_ms);
+    encode_ms += static_cast<double>(picture.encode_ms);
+    bytes += static_cast<double>(picture.bytes.size());
+    ++pictures;
+  }
+  std::string text() const {
+    std::array<char, 128> text;
+    std::snprintf(text.data(), text.size(),
+                  "each rendered in %.0f ms, encoded in %.1f ms, sent as %s", render_ms / pictures,
+                  encode_ms / pictures, cli::bytes_text(bytes / pictures).c_str());
+    return text.data();
+  }
+};
+
+/// The next picture; fails once the server ends the stream, with what it said last.
+Expected<stream::Picture> next_picture(stream::Client& client, std::chrono::milliseconds timeout) {
+  const auto end = std::chrono::steady_clock::now() + timeout;
+  std::string said;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
+    if (left.count() <= 0) break;
+    auto message = client.receive(left);
+    if (!message) {
+      Error error = message.error();
+      if (!said.empty()) error.cause += "; it said: " + printable(said);
+      return tl::unexpected(error);
+    }
+    if (!*message) break;
+    if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) said = refusal->text;
+    if (auto* picture = std::get_if<stream::Picture>(&**message)) return std::move(*picture);
+  }
+  return fail("", "", "no picture came in time", Error::Kind::failed);
+}
+
+Expected<void> receive_frames(const ConnectOptions& options, stream::Client& client,
+                              std::chrono::milliseconds timeout) {
+  auto decoder = stream::PictureDecoder::make();
+  if (!decoder) return tl::unexpected(decoder.error());
+  const std::uint32_t first_input = options.eye.empty() ? 0 : kCameraInput;
+  std::vector<std::string> written;
+  Costs costs;
+  glm::uvec2 size{0};
+  const InterruptGuard guard;
+  while (static_cast<int>(written.size()) < options.frames && !guard.interrupted()) {
+    const auto picture = next_picture(client, timeout);
+    if (!picture) return tl::unexpected(picture.error());
+    const auto decoded = decoder->decode(picture->bytes);
+    if (!decoded) return tl::unexpected(decoded.error());
+    const auto told = client.send(stream::Received{picture->number, 0.0f});
+    if (!told) return told;
+    if (picture->input < first_input) continue;  // of the camera before
+    const std::string path = name_of_frame(options, written.size());
+    if (const auto done = write_png(path, stream::to_display(*decoded)); !done) return done;
+    written.push_back(path);
+    costs.add(*picture);
+    size = picture->size;
+  }
+  if (written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
+  tell_written(written, pixels_text(static_cast<int>(size.x), static_cast<int>(size.y)),
+               costs.text());
+  return {};
+}
+
+Expected<void> connect(const ConnectOptions& options) {
+  if (const auto fine = check_output(options.output, {".png"}); !fine) return fine;
+  CommandFiles files;
+  files.reads(options.token_file, "--token-file");
+  files.reads_scene(options.stage.scene);
+  files.reads(options.stage.light.environment, "--environment");
+  files.reads(options.connect.authority, "--authority");
+  if (options.frames == 1) {
+    files.writes(options.output, "-o");
+  } else {
+    files.writes_frames(options.output, options.frames, "-o");
+  }
+  if (const auto fine = files.check(); !fine) return fine;
+  if (!options.stage.scene.empty()) {
+    if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
+  }
+  const auto settings = parse_server(options);
+  if (!settings) return tl::unexpected(settings.error());
+  const auto hello = make_hello(options);
+  if (!hello) return tl::unexpected(hello.error());
+  const auto camera = make_camera(options);
+  if (!camera) return tl::unexpected(camera.error());
+
+  begin_step("connecting");
+  auto joined = stream::join(*settings, *hello);
+  if (!joined) return tl::unexpected(joined.error());
+  if (const auto made = make_folders(options.output); !made) return made;
+  Expected<void> done;
+  if (options.stage.scene.empty()) {
+    if (*camera) done = joined->client->send(**camera);
+    begin_step("receiving pictures");
+    if (done) done = receive_frames(options, *joined->client, settings->timeout);
+  } else {
+    done = render_by_stream(options, *settings, *joined, *camera);
+  }
+  joined->client->close();
+  return done;
+}
+
+}  // namespace
+
+std::string name_of_frame(const ConnectOptions& options, std::size_t frame) {
+  if (options.frames == 1) return options.output;
+  return frame_path(options.output, static_cast<int>(frame));
+}
+
+void add_connect(CLI::App& app, Run& run) {
+  auto o = std::make_shared<ConnectOptions>();
+  CLI::App* command = app.add_subcommand("connect", "Write what a server shows to files");
+  command->group(kStreamGroup);
+  command
+      ->add_option("HOST", o->server,
+                   "The server: a name or address, a port after a colon, https:// in front for TLS")
+      ->required();
+  command->option_defaults()->group(kMainGroup);
+  command->add_option("-o,--output", o->output, "The .png file to write")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--frames", o->frames, "Write so many pictures, numbered")
+      ->check(whole_number(1, kMaxUpdates))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--size", o->size, "Pixels that are asked for; the server may send fewer")
+      ->capture_default_str()
+      ->type_name("WxH");
+  command->add_option("--fps", o->rate, "Pictures a second that are asked for")
+      ->check(number(stream::kMinPictureRate, stream::kMaxPictureRate))
+      ->capture_default_str()
+      ->type_name("F");
+  command->add_option("--token-file", o->token_file, "File that holds the token for the server")
+      ->type_name("FILE");
+  command
+      ->add_option("--authority", o->connect.authority,
+                   "Whom to trust besides the system's authorities, PEM")
+      ->type_name("FILE");
+  command->add_option("--timeout", o->timeout_s, "Wait so long for each answer [s]")
+      ->check(number(0.1, 3600.0))
+      ->capture_default_str()
+      ->type_name("S");
+  command->add_option("--eye", o->eye, "Look from here [m]; needs --target")->type_name("X,Y,Z");
+  command->add_option("--target", o->target, "Look at this point [m]")->type_name("X,Y,Z");
+  command->add_option("--fov", o->fov_degrees, "Vertical field of view [degrees], with --eye")
+      ->check(number(1.0, 170.0))
+      ->capture_default_str()
+      ->type_name("DEG");
+  command->option_defaults()->group("Pictures of one's own, from the server's light");
+  command
+      ->add_option("--scene", o->stage.scene,
+                   "Render this copy of the server's scene, in the light that the server sends")
+      ->type_name("SCENE");
+  command
+      ->add_option("--quality", o->quality,
+                   "Of these: draft, interactive (one ray a pixel) or high (some 64)")
+      ->check(one_of({"draft", "interactive", "high"}))
+      ->capture_default_str()
+      ->type_name("Q");
+  add_light_options(*command, o->stage.light);
+  set_examples(*command, kExamples);
+  command->callback([o, &run] { run = [o] { return connect(*o); }; });
+}
+
+}  // namespace lambent::cli

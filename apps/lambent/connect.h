@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lambent connect was asked for.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "lambent/error.h"
+#include "lambent/stage.h"
+#include "stream/client/client.h"
+
+namespace lambent::cli {
+
+struct ConnectOptions {
+  stream::ConnectSettings connect;
+  std::string server;
+  std::string output;
+  std::string token_file;
+  std::string size = "640x360";
+  std::string eye, target;
+  float fov_degrees = 45.0f;
+  double timeout_s = 10.0;
+  float rate = 30.0f;
+  int frames = 1;
+  StageOptions stage;  // its scene is empty: pictures of the server's
+  std::string quality = "interactive";
+};
+
+/// The number of the one input that is sent.
+inline constexpr std::uint32_t kCameraInput = 1;
+
+/// Where a frame of the command's goes.
+std::string name_of_frame(const ConnectOptions& options, std::size_t frame);
+
+/// Renders the options' scene in the light of a server, a picture for each update of it. `camera`:
+/// in place of the server's.
+Expected<void> render_by_stream(const ConnectOptions& options,
+                                const stream::ConnectSettings& settings, stream::Joined& joined,
+                                const std::optional<stream::CameraInput>& camera);
+
+}  // namespace lambent::cli

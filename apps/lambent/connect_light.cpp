@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of a scene of one's own, in the light that a server sends.
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/image/exposure.h"
+#include "core/image/tone_map.h"
+#include "lambent/connect.h"
+#include "lambent/console.h"
+#include "lambent/interrupts.h"
+#include "lambent/parse.h"
+#include "lambent/quality.h"
+#include "lambent/renderer.h"
+#include "lambent/step.h"
+#include "lambent/words.h"
+#include "stream/client/lit_scene.h"
+
+namespace lambent::cli {
+namespace {
+
+/// Takes messages until the light is another one, and answers them.
+Expected<void> wait_for_light(stream::Client& client, stream::LitScene& lit,
+                              std::chrono::milliseconds timeout) {
+  const auto end = std::chrono::steady_clock::now() + timeout;
+  for (;;) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        end - std::chrono::steady_clock::now());
+    if (left.count() <= 0) break;
+    const auto message = client.receive(left);
+    if (!message) return tl::unexpected(message.error());
+    if (!*message) break;
+    const auto followed = lit.follow(**message);
+    if (!followed) return tl::unexpected(followed.error());
+    if (followed->answer) {
+      if (const auto sent = client.send(*followed->answer); !sent) return sent;
+    }
+    if (followed->lit) return {};
+  }
+  return fail("", "", "no light came in time", Error::Kind::failed);
+}
+
+Expected<FrameSettings> settings_of(const ConnectOptions& options) {
+  RenderOptions render;
+  render.quality = options.quality;
+  render.frames = options.frames > 1 ? options.frames : 0;
+  const auto size = parse_size("--size", options.size);
+  if (!size) return tl::unexpected(size.error());
+  return frame_settings(render, *size);
+}
+
+}  // namespace
+
+Expected<void> render_by_stream(const ConnectOptions& options,
+                                const stream::ConnectSettings& settings, stream::Joined& joined,
+                                const std::optional<stream::CameraInput>& camera) {
+  begin_step("reading the scene");
+  Expected<Scene> scene = open_stage(options.stage);
+  if (!scene) return tl::unexpected(scene.error());
+  begin_step("preparing the scene for rays");
+  World world(*scene);
+  // The server chose its first light by its own view
+  const auto light =
+      add_first_light(options.stage.light, stream::camera_of(joined.welcome.camera), *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  const auto frame = settings_of(options);
+  if (!frame) return tl::unexpected(frame.error());
+
+  stream::LitScene lit(*scene, world);
+  std::optional<Renderer> renderer;
+  std::optional<float> stops;
+  std::vector<std::string> written;
+  RenderedFrame picture;
+  const InterruptGuard guard;
+  while (static_cast<int>(written.size()) < options.frames && !guard.interrupted()) {
+    begin_step("receiving light");
+    const auto came = wait_for_light(*joined.client, lit, settings.timeout);
+    if (!came) return came;
+    begin_step("rendering the picture");
+    if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
+    const Camera from = stream::camera_of(camera.value_or(joined.welcome.camera));
+    if (const auto done = renderer->render(from, *frame, picture); !done) return done;
+    const Image& linear = *picture.image.find("");
+    if (!stops) stops = static_cast<float>(std::log2(display_exposure(linear)));
+    const std::string path = name_of_frame(options, written.size());
+    const auto done = write_png(path, display_image(linear, ToneMap::aces, *stops));
+    if (!done) return done;
+    written.push_back(path);
+  }
+  if (written.empty()) return fail("", "", "was interrupted", Error::Kind::failed);
+  tell_written(written, pixels_text(frame->width, frame->height), exposure_text(*stops));
+  return {};
+}
+
+}  // namespace lambent::cli

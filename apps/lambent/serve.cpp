@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+// lambent serve: one shared scene, whose light is kept up to date and sent to clients.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "core/memory.h"
+#include "lambent/command_files.h"
+#include "lambent/commands.h"
+#include "lambent/console.h"
+#include "lambent/field_options.h"
+#include "lambent/help.h"
+#include "lambent/input.h"
+#include "lambent/interrupts.h"
+#include "lambent/memory_check.h"
+#include "lambent/parse.h"
+#include "lambent/progress_bar.h"
+#include "lambent/stage.h"
+#include "lambent/step.h"
+#include "lambent/threads.h"
+#include "lambent/validators.h"
+#include "lambent/words.h"
+#include "stream/server/access.h"
+#include "stream/server/server.h"
+
+namespace lambent::cli {
+namespace {
+
+constexpr const char* kExamples =
+    "  lambent serve scene.glb                      then open http://localhost:8080/\n"
+    "  lambent serve scene.glb --rate 20 --size 480p\n"
+    "  lambent serve scene.glb --host 0.0.0.0 --tokens tokens --certificate c.pem --key k.pem\n";
+
+// Frames over which light is averaged, as in sequences: each counts a tenth.
+constexpr int kAveragedFrames = 10;
+constexpr int kMaxClients = 1000;
+
+struct Options {
+  StageOptions stage;
+  FieldOptions field;
+  stream::ServerSettings server;
+  std::string quality = "interactive";
+  std::string size = "720p";
+  std::string exposure = "auto", tone_map = "aces";
+  double max_megabits = 20.0;
+  double idle_s = 20.0;
+  int updates = 8;
+  std::uint32_t seed = 1;
+  int threads = 0;  // 0: all
+};
+
+const std::map<std::string, Quality> kQualities = {
+    {"draft", Quality::draft}, {"interactive", Quality::interactive}, {"high", Quality::high}};
+
+/// What pictures are like, of the largest size.
+FrameSettings frame_settings(const Options& options) {
+  FrameSettings frame = quality_settings(kQualities.at(options.quality));
+  frame.seed = options.seed;
+  frame.temporal_antialiasing = true;
+  if (frame.denoise && frame.samples == 1) frame.averaged_frames = kAveragedFrames;
+  return frame;
+}
+
+Expected<stream::PictureSettings> picture_settings(const Options& options) {
+  stream::PictureSettings settings;
+  settings.frame = frame_settings(options);
+  const auto size = parse_size("--size", options.size);
+  if (!size) return tl::unexpected(size.error());
+  const int least = static_cast<int>(stream::kMinPictureSide);
+  if (std::min(size->x, size->y) < least ||
+      std::max(size->x, size->y) > stream::kMaxEncodedLongSide ||
+      std::min(size->x, size->y) > stream::kMaxEncodedShortSide) {
+    return fail("--size", options.size, "pictures are streamed of 16x16 to 3840x2160 pixels");
+  }
+  settings.limits = options.server.world.pictures.limits;
+  settings.limits.size = *size;
+  constexpr double kBitsOfMegabit = 1e6;
+  settings.limits.bitrate = static_cast<std::uint32_t>(options.max_megabits * kBitsOfMegabit);
+  const auto stops = parse_exposure(options.exposure);
+  if (!stops) return tl::unexpected(stops.error());
+  settings.exposure_stops = *stops;
+  settings.tone_map = *tone_map_from_name(options.tone_map);
+  return settings;
+}
+
+/// Fails where the renderers of all clients would not fit.
+Expected<void> check_memory(const Options& options, const glm::uvec2& size) {
+  RenderOptions picture;
+  picture.quality = options.quality;
+  const std::uint64_t one = picture_bytes(picture, glm::ivec2(size));
+  const std::uint64_t available = available_memory();
+  if (one * options.server.max_clients <= available) return {};
+  return fail("--clients", std::to_string(options.server.max_clients),
+              "their pictures take " + lambent::bytes_text(one) + " each, and " +
+                  lambent::bytes_text(available) +
+                  " are left; take fewer clients or a smaller --size",
+              Error::Kind::failed);
+}
+
+Expected<void> check(const Options& options) {
+  if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
+  const stream::ListenSettings& listen = options.server.listen;
+  if (listen.certificate.empty() != listen.key.empty()) {
+    return fail(listen.key.empty() ? "--certificate" : "--key", "",
+                "--certificate and --key go together");
+  }
+  if (listen.tokens.empty() && !stream::is_loopback(listen.host)) {
+    return fail("--host", listen.host,
+                "can be reached from other machines: name a file of tokens by --tokens "
+                "(docs/serve.md)");
+  }
+  const auto fine = field_settings(options.field, {}, options.seed, -1);
+  if (!fine) return tl::unexpected(fine.error());
+  return {};
+}
+
+/// Serves until somebody ends it.
+Expected<void> serve_world(const Options& options, const stream::ServedWorld& served,
+                           const stream::ServerSettings& settings) {
+  begin_step("serving");
+  const InterruptGuard guard;
+  const auto server = stream::Server::open(served, settings);
+  if (!server) return tl::unexpected(server.error());
+  tell("serving " + options.stage.scene + " at " + (*server)->url() + " (Ctrl-C ends it)");
+  const auto done = (*server)->run([&guard] { return guard.interrupted(); });
+  if (!done) return done;
+  const stream::HubStats stats = (*server)->stats();
+  tell("served " + count_text(stats.joined, "client") + " with " +
+       count_text(stats.pictures, "picture") + " in " + count_text(stats.state, "update"));
+  return {};
+}
+
+Expected<void> serve(const Options& options) {
+  if (const auto fine = check(options); !fine) return fine;
+  const auto pictures = picture_settings(options);
+  if (!pictures) return tl::unexpected(pictures.error());
+  if (const auto fits = check_memory(options, pictures->limits.size); !fits) return fits;
+  const ThreadLimit limit(options.threads);
+
+  begin_step("reading the scene");
+  Expected<Scene> scene = open_stage(options.stage);
+  if (!scene) return tl::unexpected(scene.error());
+  if (options.server.world.play && scene->animations.empty()) {
+    return fail("--play", "", "the scene has no animation that can be played");
+  }
+  begin_step("preparing the scene for rays");
+  World world(*scene);
+  const glm::vec2 size(pictures->limits.size);
+  const Expected<View> view = choose_view(options.stage, world, size.x / size.y);
+  if (!view) return tl::unexpected(view.error());
+  const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  tell("camera: " + describe(*view));
+  tell("light: " + *light);
+  const auto wanted = field_settings(options.field, *scene, options.seed, -1);
+  if (!wanted) return tl::unexpected(wanted.error());
+  begin_step("updating the field");
+  Expected<IrradianceField> field = make_field(*wanted, options.field, world, view->camera, 1);
+  if (!field) return tl::unexpected(field.error());
+  nlohmann::ordered_json stats;
+  const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
+  update_field(world, options.updates, request, *field, terminal_progress(), stats);
+
+  stream::ServerSettings settings = options.server;
+  settings.world.pictures = *pictures;
+  constexpr double kMsOfSecond = 1000.0;
+  // No picture keeps the light waiting for much longer than an update's interval, in the mean
+  stream::PaceLimits& limits = settings.world.pictures.limits;
+  limits.picture_ms =
+      std::min(limits.picture_ms, 2.0 * kMsOfSecond / static_cast<double>(settings.world.rate));
+  settings.listen.idle_timeout =
+      std::chrono::milliseconds(static_cast<int>(options.idle_s * kMsOfSecond));
+  settings.listen.log = [](const std::string& text) { warn(printable(text)); };
+  return serve_world(options, {*scene, world, *field, view->camera}, settings);
+}
+
+void add_listen_options(CLI::App& command, Options& o) {
+  stream::ListenSettings& listen = o.server.listen;
+  command.add_option("--port", listen.port, "Port to listen at; 0: any that is free")
+      ->check(whole_number(0, std::numeric_limits<std::uint16_t>::max()))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      .add_option("--host", listen.host,
+                  "Address to listen at; those that other machines reach need --tokens")
+      ->capture_default_str()
+      ->type_name("A");
+  command
+      .add_option(
+          "--tokens", listen.tokens,
+          "File of who may look and who may change, a line each: view|change TOKEN [EXPIRY]")
+      ->type_name("FILE");
+  command.add_option("--certificate", listen.certificate, "TLS certificate chain, PEM")
+      ->type_name("FILE");
+  command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
+  command.option_defaults()->group("Clients");
+  command
+      .add_option("--light-error", o.server.world.light.target_error,
+                  "Error that the light stream may have, of the mean irradiance")
+      ->check(number(0.001, 0.2))
+      ->capture_default_str()
+      ->type_name("E");
+  command.add_option("--clients", o.server.max_clients, "Clients at a time")
+      ->check(whole_number(1, kMaxClients))
+      ->capture_default_str()
+      ->type_name("N");
+  command
+      .add_option("--origin", listen.origins,
+                  "Pages from here may connect, too, as https://example.org; as often as wanted")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("O");
+  command
+      .add_option("--fps", o.server.world.pictures.limits.rate,
+                  "Pictures a second that a client gets at most")
+      ->check(number(stream::kMinPictureRate, stream::kMaxPictureRate))
+      ->capture_default_str()
+      ->type_name("F");
+  command.add_option("--bitrate", o.max_megabits, "Of a client's pictures at most [Mbit/s]")
+      ->check(number(0.1, 1000.0))
+      ->capture_default_str()
+      ->type_name("M");
+  command.add_option("--idle", o.idle_s, "End connections without a sign of life after [s]")
+      ->check(number(1.0, 3600.0))
+      ->capture_default_str()
+      ->type_name("S");
+}
+
+void add_world_options(CLI::App& command, Options& o) {
+  command.add_option("--rate", o.server.world.rate, "Updates of the light a second")
+      ->check(number(0.1, 1000.0))
+      ->capture_default_str()
+      ->type_name("R");
+  command.add_flag("--play", o.server.world.play, "Play the scene's animations");
+  command
+      .add_option("--quality", o.quality,
+                  "Of pictures: draft, interactive (one ray a pixel) or high (some 64)")
+      ->check(one_of({"draft", "interactive", "high"}))
+      ->capture_default_str()
+      ->type_name("Q");
+  command
+      .add_option("--size", o.size,
+                  "Pixels of pictures at most; or a name: 480p, 720p, 1080p, 1440p, 4k")
+      ->capture_default_str()
+      ->type_name("WxH");
+}
+
+}  // namespace
+
+void add_serve(CLI::App& app, Run& run) {
+  auto o = std::make_shared<Options>();
+  CLI::App* command =
+      app.add_subcommand("serve", "Serve a scene to browsers and other clients, live");
+  command->group(kStreamGroup);
+  command->option_defaults()->group(kMainGroup);
+  add_world_options(*command, *o);
+  add_listen_options(*command, *o);
+  add_stage_options(*command, o->stage);
+  add_field_options(*command, o->field);
+  command->add_option("--updates", o->updates, "Updates of the field before it is served")
+      ->check(whole_number(1, kMaxUpdates))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--seed", o->seed, "Of all random numbers")
+      ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
+      ->capture_default_str()
+      ->type_name("N");
+  command->add_option("--threads", o->threads, "Threads to use (all)")
+      ->check(whole_number(1, kMaxThreads))
+      ->type_name("N");
+  command->option_defaults()->group("Display");
+  command->add_option("--exposure", o->exposure, "In stops, or auto")
+      ->capture_default_str()
+      ->type_name("E");
+  command->add_option("--tone-map", o->tone_map, "aces, neutral or linear")
+      ->check(one_of({"aces", "neutral", "linear"}))
+      ->capture_default_str()
+      ->type_name("T");
+  set_examples(*command, kExamples);
+  command->callback([o, &run] { run = [o] { return serve(*o); }; });
+}
+
+}  // namespace lambent::cli

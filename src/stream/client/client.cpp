@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/client/client.h"
+
+#include <boost/asio/connect.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <type_traits>
+#include <utility>
+
+namespace lambent::stream {
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+using boost::asio::ip::tcp;
+using PlainStream = beast::tcp_stream;
+using TlsStream = beast::ssl_stream<PlainStream>;
+
+/// What outlives the stream.
+struct Base {
+  boost::asio::io_context io{1};
+  boost::asio::ssl::context tls{boost::asio::ssl::context::tls_client};
+};
+
+template <class Stream>
+class BeastClient : private Base, public Client {
+ public:
+  static constexpr bool kTls = std::is_same_v<Stream, TlsStream>;
+
+  explicit BeastClient(const ConnectSettings& settings)
+      : settings_(settings), socket_([this] {
+          if constexpr (kTls)
+            return websocket::stream<Stream>(io, tls);
+          else
+            return websocket::stream<Stream>(io);
+        }()) {}
+
+  Expected<void> open() {
+    if constexpr (kTls) {
+      if (const auto trusted = trust(); !trusted) return trusted;
+    }
+    tcp::resolver resolver(io);
+    beast::error_code error;
+    const auto found = resolver.resolve(settings_.host, std::to_string(settings_.port), error);
+    if (error) return failed("has no address", error);
+    auto& lowest = beast::get_lowest_layer(socket_);
+    lowest.expires_after(settings_.timeout);
+    error =
+        wait([&](auto done) { lowest.async_connect(found, [done](auto e, auto) { done(e); }); });
+    if (error) return failed("does not answer", error);
+    lowest.socket().set_option(tcp::no_delay(true), error);
+    if constexpr (kTls) {
+      error = wait([&](auto done) {
+        socket_.next_layer().async_handshake(boost::asio::ssl::stream_base::client, done);
+      });
+      if (error) return failed("cannot be trusted", error);
+    }
+    socket_.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
+      if (!settings_.origin.empty()) request.set(beast::http::field::origin, settings_.origin);
+    }));
+    socket_.read_message_max(kHeaderBytes + kMaxLightBytes + kMaxPictureBytes);
+    socket_.auto_fragment(false);
+    const std::string host = settings_.host + ":" + std::to_string(settings_.port);
+    error = wait([&](auto done) { socket_.async_handshake(host, "/stream", done); });
+    if (error) return failed("refused the connection", error);
+    lowest.expires_never();
+    return {};
+  }
+
+  Expected<void> send(const Message& message) override {
+    return send_bytes(write_message(message), true);
+  }
+
+  Expected<void> send_bytes(std::span<const std::byte> bytes, bool binary) override {
+    socket_.binary(binary);
+    bool written = false;
+    beast::error_code result;
+    socket_.async_write(boost::asio::buffer(bytes.data(), bytes.size()),
+                        [&](beast::error_code error, std::size_t) {
+                          result = error;
+                          written = true;
+                        });
+    run_until(written, settings_.timeout);
+    if (!written) {
+      // The bytes must not be looked at once this has returned
+      beast::get_lowest_layer(socket_).close();
+      run_until(written, settings_.timeout);
+      return fail("", name(), "does not read what it is sent", Error::Kind::failed);
+    }
+    if (result) return failed("has ended the connection", result);
+    return {};
+  }
+
+  Expected<std::optional<Message>> receive(std::chrono::milliseconds timeout) override {
+    if (ended_) return failed("has ended the connection", ended_);
+    if (!reading_) {
+      reading_ = true;
+      arrived_ = false;
+      socket_.async_read(buffer_, [this](beast::error_code error, std::size_t) {
+        ended_ = error;
+        arrived_ = true;
+      });
+    }
+    run_until(arrived_, timeout);
+    if (!arrived_) return std::nullopt;
+    reading_ = false;
+    if (ended_) return failed("has ended the connection", ended_);
+    const auto data = buffer_.cdata();
+    auto message =
+        parse_message({static_cast<const std::byte*>(data.data()), data.size()}, Sender::server);
+    buffer_.consume(buffer_.size());
+    if (!message) return tl::unexpected(message.error());
+    return std::optional<Message>(std::move(*message));
+  }
+
+  void close() override {
+    if (ended_) return;
+    bool closed = false;
+    socket_.async_close(websocket::close_code::normal, [&](beast::error_code) { closed = true; });
+    run_until(closed, settings_.timeout);
+    if (!closed) {
+      beast::get_lowest_layer(socket_).close();
+      run_until(closed, settings_.timeout);
+    }
+    ended_ = websocket::error::closed;
+  }
+
+ private:
+  std::string name() const { return settings_.host + ":" + std::to_string(settings_.port); }
+
+  tl::unexpected<Error> failed(const char* how, beast::error_code error) const {
+    return fail("", name(), std::string(how) + ": " + error.message(), Error::Kind::failed);
+  }
+
+  /// Only the host's own certificate will do.
+  Expected<void> trust() {
+    namespace ssl = boost::asio::ssl;
+    beast::error_code error;
+    tls.set_default_verify_paths(error);
+    if (!settings_.authority.empty()) {
+      tls.load_verify_file(settings_.authority, error);
+      if (error) return fail(settings_.authority, "", "cannot be read: " + error.message());
+    }
+    auto& stream = socket_.next_layer();
+    stream.set_verify_mode(ssl::verify_peer);
+    stream.set_verify_callback(ssl::host_name_verification(settings_.host));
+    if (SSL_set_tlsext_host_name(stream.native_handle(), settings_.host.c_str()) != 1) {
+      return fail("", settings_.host, "is no name of a host");
+    }
+    return {};
+  }
+
+  void run_until(const bool& done, std::chrono::milliseconds timeout) {
+    const auto end = std::chrono::steady_clock::now() + timeout;
+    io.restart();
+    while (!done && io.run_one_until(end) > 0) {
+    }
+  }
+
+  /// Starts an operation that the stream's own timeout ends, and waits for it.
+  template <class Start>
+  beast::error_code wait(const Start& start) {
+    bool done = false;
+    beast::error_code result;
+    start([&](beast::error_code error) {
+      result = error;
+      done = true;
+    });
+    io.restart();
+    while (!done && io.run_one() > 0) {
+    }
+    return result;
+  }
+
+  const ConnectSettings settings_;
+  beast::flat_buffer buffer_;
+  websocket::stream<Stream> socket_;
+  bool reading_ = false, arrived_ = false;
+  beast::error_code ended_;
+};
+
+template <class Stream>
+Expected<std::unique_ptr<Client>> open_client(const ConnectSettings& settings) {
+  auto client = std::make_unique<BeastClient<Stream>>(settings);
+  if (const auto opened = client->open(); !opened) return tl::unexpected(opened.error());
+  return client;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Client>> Client::connect(const ConnectSettings& settings) {
+  return settings.tls ? open_client<TlsStream>(settings) : open_client<PlainStream>(settings);
+}
+
+Expected<Joined> join(const ConnectSettings& settings, const Hello& hello) {
+  auto client = Client::connect(settings);
+  if (!client) return tl::unexpected(client.error());
+  if (const auto sent = (*client)->send(hello); !sent) return tl::unexpected(sent.error());
+  const auto answer = (*client)->receive(settings.timeout);
+  if (!answer) return tl::unexpected(answer.error());
+  if (*answer) {
+    if (auto* welcome = std::get_if<Welcome>(&**answer))
+      return Joined{std::move(*client), *welcome};
+    if (auto* refusal = std::get_if<Refusal>(&**answer)) {
+      return fail("", settings.host, "refuses: " + refusal->text);
+    }
+  }
+  return fail("", settings.host, "does not answer as a server of lambent's", Error::Kind::failed);
+}
+
+}  // namespace lambent::stream

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/client/lit_scene.h"
+
+#include <array>
+#include <variant>
+
+namespace lambent::stream {
+
+Expected<void> LitScene::edit(const Edit& edit) {
+  const std::array<Edit, 1> one = {edit};
+  const auto refused = editor_.apply(one);
+  if (!refused) return tl::unexpected(refused.error());
+  if (refused->empty()) return {};
+  return fail("scene", "", "is not the server's: " + refused->front().why);
+}
+
+Expected<LitScene::Followed> LitScene::take_light(const LightPayload& light) {
+  if (light.time_s >= 0.0f && light.time_s != time_s_) {
+    time_s_ = light.time_s;
+    animate(scene_, -1, time_s_);
+    if (const auto moved = world_.update(); !moved) return tl::unexpected(moved.error());
+  }
+  // What is broken or does not apply leaves the light as it was, and is sent again
+  const bool taken = streamed_.receive(light.bytes).has_value();
+  const LightDecoder& decoder = streamed_.decoder();
+  Followed followed;
+  followed.lit = taken && static_cast<LightMessageKind>(light.kind) != LightMessageKind::geometry;
+  followed.answer = LightReceived{light.update, decoder.geometry(), decoder.needs_key() ? 1u : 0u};
+  return followed;
+}
+
+Expected<LitScene::Followed> LitScene::follow(const Message& message) {
+  if (const auto* light = std::get_if<LightPayload>(&message)) return take_light(*light);
+  if (const auto* refusal = std::get_if<Refusal>(&message)) {
+    if (refusal->code == Refusal::Code::refused_input) return Followed{};
+    return fail("", "server", refusal->text, Error::Kind::failed);
+  }
+  Expected<void> edited;
+  std::visit(
+      [&](const auto& any) {
+        if constexpr (std::is_constructible_v<Edit, decltype(any)>) edited = edit(any);
+      },
+      message);
+  if (!edited) return tl::unexpected(edited.error());
+  return Followed{};
+}
+
+}  // namespace lambent::stream

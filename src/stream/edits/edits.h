@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What clients say of a scene, as the scene has it: cameras, and edits of what all share.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "lambent/error.h"
+#include "lambent/scene.h"
+#include "lambent/world.h"
+#include "stream/protocol/messages.h"
+
+namespace lambent::stream {
+
+/// The matrix of a camera that a client sent.
+Camera camera_of(const CameraInput& input);
+/// The other way round; the camera must be a perspective one.
+CameraInput input_of(const Camera& camera);
+
+using Edit = std::variant<TimeOfDay, SunInput, LightInput, ObjectInput>;
+
+/// What an edit changes: two that change the same thing differ in nothing else.
+using EditTarget = std::pair<std::size_t, std::uint32_t>;
+EditTarget target_of(const Edit& edit);
+
+/// The later of two edits of one target, with what it leaves of the earlier one.
+Edit merged(const Edit& earlier, const Edit& later);
+
+/// Way that the sun's light travels at a time of day, at an equinox on 45 degrees of latitude: it
+/// rises in the east (+X) at 6, is highest at 12, in the south (+Z), and sets in the west at 18.
+glm::vec3 sun_direction(float hours);
+
+/// Share of its full irradiance that the sun has at a time of day: it fades as it sets, and at
+/// night there is none.
+float sun_share(float hours);
+
+/// Applies edits of clients to a scene that has its own sun.
+class SceneEditor {
+ public:
+  /// Refers to both, which must outlive it.
+  SceneEditor(Scene& scene, World& world);
+
+  /// An edit that the scene or the world refused: its number in the list, and why.
+  struct Refused {
+    std::size_t edit = 0;
+    std::string why;
+  };
+  /// Applies the edits in their order, and has the world follow. The scene stays as it was in what
+  /// was refused. Fails, as our bug would, where the world refuses what it accepted before.
+  Expected<std::vector<Refused>> apply(std::span<const Edit> edits);
+
+ private:
+  struct Undo;
+  Expected<Undo> apply_one(const Edit& edit);
+  void take_back(const Undo& undo);
+
+  Scene& scene_;
+  World& world_;
+  int sun_ = -1;  // the scene's first directional light; -1: none
+  glm::vec3 sun_irradiance_{0.0f};
+};
+
+}  // namespace lambent::stream

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/server/client_link.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lambent::stream {
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;
+
+}  // namespace
+
+ClientLink::ClientLink(Hello hello, Role role, std::function<void()> wake_connection,
+                       std::function<void()> wake_world)
+    : hello_(std::move(hello)),
+      role_(role),
+      wake_connection_(std::move(wake_connection)),
+      wake_world_(std::move(wake_world)) {}
+
+std::optional<Refusal> ClientLink::take_edit(const Edit& edit) {
+  if (role_ != Role::change) {
+    return Refusal{Refusal::Code::not_allowed, "this token allows to look, not to change"};
+  }
+  const auto same =
+      std::find_if(inputs_.edits.begin(), inputs_.edits.end(),
+                   [&edit](const Edit& earlier) { return target_of(earlier) == target_of(edit); });
+  if (same != inputs_.edits.end()) {
+    const Edit both = merged(*same, edit);
+    inputs_.edits.erase(same);
+    inputs_.edits.push_back(both);
+  } else {
+    if (inputs_.edits.size() >= kMaxEdits) {
+      return Refusal{Refusal::Code::too_many, "too many edits at once"};
+    }
+    inputs_.edits.push_back(edit);
+  }
+  inputs_.last_input = std::visit([](const auto& any) { return any.input; }, edit);
+  if (!first_edit_) first_edit_ = inputs_.last_input;
+  return std::nullopt;
+}
+
+void ClientLink::take_received(const Received& received, Clock::time_point now) {
+  while (!under_way_.empty() && under_way_.front().number <= received.picture) {
+    // One that was not sent yet cannot have arrived
+    if (!under_way_.front().sent) return;
+    const std::chrono::duration<double, std::milli> took = now - *under_way_.front().sent;
+    inputs_.round_trips_ms.push_back(took.count());
+    under_way_.pop_front();
+  }
+}
+
+std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_point now) {
+  std::optional<Refusal> refusal;
+  std::optional<Ping> answer;
+  {
+    const std::lock_guard lock(mutex_);
+    refusal = std::visit(
+        Overloaded{[&](const CameraInput& camera) -> std::optional<Refusal> {
+                     inputs_.camera = camera;
+                     inputs_.last_input = camera.input;
+                     return std::nullopt;
+                   },
+                   [&](const PictureRequest& request) -> std::optional<Refusal> {
+                     inputs_.request = request;
+                     return std::nullopt;
+                   },
+                   [&](const TimeOfDay& edit) { return take_edit(edit); },
+                   [&](const SunInput& edit) { return take_edit(edit); },
+                   [&](const LightInput& edit) { return take_edit(edit); },
+                   [&](const ObjectInput& edit) { return take_edit(edit); },
+                   [&](const Received& received) -> std::optional<Refusal> {
+                     take_received(received, now);
+                     return std::nullopt;
+                   },
+                   [&](const LightReceived& received) -> std::optional<Refusal> {
+                     take_light_received(received);
+                     return std::nullopt;
+                   },
+                   [&](const Ping& ping) -> std::optional<Refusal> {
+                     if (ping.answer == 0) answer = Ping{ping.token, 1};
+                     return std::nullopt;
+                   },
+                   [](const auto&) -> std::optional<Refusal> {
+                     return Refusal{Refusal::Code::bad_message, "this message is not expected now"};
+                   }},
+        message);
+  }
+  if (answer) put_notice(*answer);
+  wake_world_();
+  return refusal;
+}
+
+void ClientLink::take_light_received(const LightReceived& received) {
+  while (!updates_under_way_.empty() && updates_under_way_.front() <= received.update) {
+    updates_under_way_.pop_front();
+  }
+  known_geometry_ = received.geometry;
+  // What it says of the time before all was sent again no longer counts
+  if (received.needs_key == 1 && received.update >= all_sent_at_) light_lost_ = true;
+}
+
+LightNeed ClientLink::need_light() {
+  const std::lock_guard lock(mutex_);
+  const bool late = !light_.empty() || updates_under_way_.size() >= kUpdatesUnderWay;
+  if (late) light_lost_ = true;
+  if (gone_ || late) return LightNeed::nothing;
+  return light_lost_ ? LightNeed::all : LightNeed::changes;
+}
+
+std::uint64_t ClientLink::known_geometry() const {
+  const std::lock_guard lock(mutex_);
+  return known_geometry_;
+}
+
+void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t update,
+                           LightNeed what) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (gone_ || messages.empty()) return;
+    light_.insert(light_.end(), messages.begin(), messages.end());
+    updates_under_way_.push_back(update);
+    if (what == LightNeed::all) {
+      light_lost_ = false;
+      all_sent_at_ = update;
+    }
+  }
+  wake_connection_();
+}
+
+SharedBytes ClientLink::next(Clock::time_point now) {
+  const std::lock_guard lock(mutex_);
+  if (!notices_.empty()) {
+    auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(notices_.front()));
+    notices_.pop_front();
+    return bytes;
+  }
+  if (!light_.empty()) {
+    SharedBytes bytes = std::move(light_.front());
+    light_.pop_front();
+    return bytes;
+  }
+  if (!picture_) return nullptr;
+  for (UnderWay& one : under_way_) {
+    if (one.number == waiting_picture_) one.sent = now;
+  }
+  auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(*picture_));
+  picture_.reset();
+  return bytes;
+}
+
+void ClientLink::leave() {
+  {
+    const std::lock_guard lock(mutex_);
+    gone_ = true;
+    picture_.reset();
+    notices_.clear();
+    light_.clear();
+  }
+  wake_world_();
+}
+
+bool ClientLink::gone() const {
+  const std::lock_guard lock(mutex_);
+  return gone_;
+}
+
+ClientInputs ClientLink::take_inputs(bool with_edits) {
+  const std::lock_guard lock(mutex_);
+  ClientInputs taken = std::exchange(inputs_, {});
+  inputs_.last_input = taken.last_input;
+  if (with_edits) {
+    first_edit_.reset();
+  } else {
+    inputs_.edits = std::exchange(taken.edits, {});
+    if (first_edit_) taken.last_input = std::min(taken.last_input, *first_edit_ - 1);
+  }
+  return taken;
+}
+
+bool ClientLink::ready_for_picture() const {
+  const std::lock_guard lock(mutex_);
+  return !gone_ && !picture_ && under_way_.size() < kPicturesUnderWay;
+}
+
+void ClientLink::put_picture(const Picture& picture) {
+  std::vector<std::byte> bytes = write_message(picture);
+  {
+    const std::lock_guard lock(mutex_);
+    if (gone_) return;
+    picture_ = std::move(bytes);
+    waiting_picture_ = picture.number;
+    under_way_.push_back({picture.number, std::nullopt});
+  }
+  wake_connection_();
+}
+
+void ClientLink::put_notice(const Message& message) {
+  std::vector<std::byte> bytes = write_message(message);
+  {
+    const std::lock_guard lock(mutex_);
+    // Somebody who reads nothing misses what is told; the connection's deadline ends it
+    if (gone_ || notices_.size() >= kMaxNotices) return;
+    notices_.push_back(std::move(bytes));
+  }
+  wake_connection_();
+}
+
+std::size_t ClientLink::waiting_bytes() const {
+  const std::lock_guard lock(mutex_);
+  std::size_t bytes = picture_ ? picture_->size() : 0;
+  for (const auto& notice : notices_) bytes += notice.size();
+  for (const auto& message : light_) bytes += message->size();
+  return bytes;
+}
+
+}  // namespace lambent::stream

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all connections share, and how each ends. For the files that include Boost.Beast alone.
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ssl/context.hpp>
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "stream/server/access.h"
+#include "stream/server/hub.h"
+#include "stream/server/listener.h"
+
+namespace lambent::stream {
+
+/// A WebSocket that may be told to end.
+class Session {
+ public:
+  virtual ~Session() = default;
+  /// Tells the client why, and closes.
+  virtual void refuse(Refusal refusal) = 0;
+  /// Looks whether a deadline has passed, or a token is no longer good.
+  virtual void tick() = 0;
+};
+
+/// Used by the listener's thread alone.
+struct ConnectionContext {
+  ConnectionContext(const ListenSettings& listen, Hub& shared, Access who)
+      : settings(listen),
+        hub(shared),
+        access(std::move(who)),
+        hosts(is_loopback(listen.host), listen.origins) {}
+
+  ListenSettings settings;
+  Hub& hub;
+  Access access;
+  HostCheck hosts;
+  std::unique_ptr<boost::asio::ssl::context> tls;  // null: none
+  std::size_t connections = 0;
+  std::vector<std::weak_ptr<Session>> sessions;
+  boost::asio::io_context io{1};  // last: connections that it keeps end before all else
+
+  void count_refused() {
+    hub.edit_stats([](HubStats& stats) { ++stats.refused; });
+  }
+};
+
+/// Counts a connection while it lives.
+class ConnectionCount {
+ public:
+  explicit ConnectionCount(ConnectionContext& context) : context_(&context) {
+    ++context.connections;
+  }
+  ConnectionCount(ConnectionCount&& from) noexcept
+      : context_(std::exchange(from.context_, nullptr)) {}
+  ConnectionCount& operator=(ConnectionCount&&) = delete;
+  ~ConnectionCount() {
+    if (context_ != nullptr) --context_->connections;
+  }
+
+ private:
+  ConnectionContext* context_;
+};
+
+inline std::int64_t unix_time_s() {
+  return std::chrono::duration_cast<std::chrono::seconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace lambent::stream

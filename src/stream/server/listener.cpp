@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/server/listener.h"
+
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <exception>
+#include <thread>
+#include <utility>
+
+#include "stream/server/connections.h"
+#include "stream/server/http_connection.h"
+
+namespace lambent::stream {
+namespace {
+
+using boost::asio::ip::tcp;
+using ErrorCode = boost::system::error_code;
+
+// How often deadlines and tokens are looked at.
+constexpr std::chrono::milliseconds kTick{250};
+// Until connections that are told to go have gone.
+constexpr std::chrono::seconds kDrainTimeout{2};
+
+/// A TLS server of today: versions 1.2 and 1.3, with the files' certificate.
+Expected<std::unique_ptr<boost::asio::ssl::context>> make_tls(const ListenSettings& settings) {
+  namespace ssl = boost::asio::ssl;
+  auto tls = std::make_unique<ssl::context>(ssl::context::tls_server);
+  ErrorCode error;
+  tls->set_options(ssl::context::default_workarounds | ssl::context::no_tlsv1 |
+                       ssl::context::no_tlsv1_1 | ssl::context::single_dh_use,
+                   error);
+  if (!error) tls->use_certificate_chain_file(settings.certificate, error);
+  if (error) {
+    return fail(settings.certificate, "", "is no certificate that can be used: " + error.message());
+  }
+  tls->use_private_key_file(settings.key, ssl::context::pem, error);
+  if (error) {
+    return fail(settings.key, "", "is no key of that certificate: " + error.message());
+  }
+  return tls;
+}
+
+Expected<tcp::endpoint> resolve(boost::asio::io_context& io, const ListenSettings& settings) {
+  tcp::resolver resolver(io);
+  ErrorCode error;
+  const auto found =
+      resolver.resolve(settings.host, std::to_string(settings.port),
+                       tcp::resolver::passive | tcp::resolver::numeric_service, error);
+  if (error || found.empty()) {
+    return fail("", settings.host, "is no address of this machine: " + error.message());
+  }
+  return found.begin()->endpoint();
+}
+
+class BeastListener : public Listener {
+ public:
+  BeastListener(const ListenSettings& settings, Hub& hub, Access access)
+      : context_(settings, hub, std::move(access)), acceptor_(context_.io), timer_(context_.io) {}
+
+  ~BeastListener() override {
+    if (thread_.joinable()) drain();
+  }
+
+  Expected<void> start() {
+    if (!context_.settings.certificate.empty()) {
+      auto tls = make_tls(context_.settings);
+      if (!tls) return tl::unexpected(tls.error());
+      context_.tls = std::move(*tls);
+    }
+    const auto endpoint = resolve(context_.io, context_.settings);
+    if (!endpoint) return tl::unexpected(endpoint.error());
+    if (const auto bound = bind(*endpoint); !bound) return bound;
+    accept();
+    tick();
+    thread_ = std::thread([this] { serve(); });
+    return {};
+  }
+
+  std::uint16_t port() const override { return port_; }
+
+  std::string url() const override {
+    const std::string& host = context_.settings.host;
+    const bool v6 = host.find(':') != std::string::npos;
+    const std::string name = host == "127.0.0.1" ? "localhost" : v6 ? "[" + host + "]" : host;
+    return (context_.tls ? "https://" : "http://") + name + ":" + std::to_string(port_) + "/";
+  }
+
+  void drain() override {
+    boost::asio::post(context_.io, [this] {
+      ErrorCode ignored;
+      acceptor_.close(ignored);
+      ending_ = Clock::now() + kDrainTimeout;
+      for (const auto& weak : context_.sessions) {
+        if (const auto session = weak.lock()) {
+          session->refuse({Refusal::Code::shutting_down, "the server ends"});
+        }
+      }
+    });
+    thread_.join();
+  }
+
+ private:
+  Expected<void> bind(const tcp::endpoint& endpoint) {
+    ErrorCode error;
+    acceptor_.open(endpoint.protocol(), error);
+    if (!error) acceptor_.set_option(tcp::acceptor::reuse_address(true), error);
+    if (!error) acceptor_.bind(endpoint, error);
+    if (!error) acceptor_.listen(tcp::acceptor::max_listen_connections, error);
+    const std::string at = context_.settings.host + ":" + std::to_string(context_.settings.port);
+    if (error == boost::asio::error::address_in_use) {
+      return fail("", at, "the port is in use by another program", Error::Kind::failed);
+    }
+    if (error) {
+      return fail("", at, "cannot be listened at: " + error.message(), Error::Kind::failed);
+    }
+    port_ = acceptor_.local_endpoint().port();
+    return {};
+  }
+
+  void serve() {
+    for (bool done = false; !done;) {
+      try {
+        context_.io.run();
+        done = true;
+      } catch (const std::exception& failure) {
+        // One connection's misfortune, such as memory that ran out, is not that of all
+        context_.settings.log(std::string("a connection failed: ") + failure.what());
+      }
+    }
+  }
+
+  void accept() {
+    acceptor_.async_accept([this](ErrorCode error, tcp::socket socket) {
+      if (error == boost::asio::error::operation_aborted || !acceptor_.is_open()) return;
+      if (!error) take(std::move(socket));
+      accept();
+    });
+  }
+
+  void take(tcp::socket socket) {
+    if (context_.connections >= context_.settings.max_connections) {
+      context_.count_refused();
+      return;  // which closes it
+    }
+    ErrorCode ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    PlainStream stream(std::move(socket));
+    if (context_.tls) {
+      TlsStream tls(std::move(stream), *context_.tls);
+      std::make_shared<HttpConnection<TlsStream>>(context_, std::move(tls))->start();
+    } else {
+      std::make_shared<HttpConnection<PlainStream>>(context_, std::move(stream))->start();
+    }
+  }
+
+  /// Deadlines, tokens, and the end of it all.
+  void tick() {
+    std::erase_if(context_.sessions, [](const auto& weak) { return weak.expired(); });
+    if (ending_ && (context_.connections == 0 || Clock::now() > *ending_)) {
+      context_.io.stop();
+      return;
+    }
+    if (const auto fresh = context_.access.refresh(); !fresh) {
+      context_.settings.log("no token is good now: " + fresh.error().message());
+    }
+    for (const auto& weak : context_.sessions) {
+      if (const auto session = weak.lock()) session->tick();
+    }
+    timer_.expires_after(ending_ ? kTick / 10 : kTick);
+    timer_.async_wait([this](ErrorCode error) {
+      if (!error) tick();
+    });
+  }
+
+  ConnectionContext context_;
+  tcp::acceptor acceptor_;
+  boost::asio::steady_timer timer_;
+  std::uint16_t port_ = 0;
+  std::optional<Clock::time_point> ending_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<Listener>> Listener::open(const ListenSettings& settings, Hub& hub) {
+  if (settings.certificate.empty() != settings.key.empty()) {
+    return fail("", "", "a certificate and its key go together");
+  }
+  if (settings.tokens.empty() && !is_loopback(settings.host)) {
+    return fail("", settings.host,
+                "can be reached from other machines: a file of tokens is needed there");
+  }
+  Access access;
+  if (!settings.tokens.empty()) {
+    Expected<Access> read = Access::open(settings.tokens);
+    if (!read) return tl::unexpected(read.error());
+    access = std::move(*read);
+  }
+  auto listener = std::make_unique<BeastListener>(settings, hub, std::move(access));
+  if (const auto started = listener->start(); !started) return tl::unexpected(started.error());
+  return listener;
+}
+
+}  // namespace lambent::stream

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/server/picture_maker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/image/exposure.h"
+#include "core/stopwatch.h"
+
+namespace lambent::stream {
+namespace {
+
+// Pictures over which noise is averaged away once nothing moves any more.
+constexpr int kPicturesToSettle = 16;
+// Of the way to the exposure that suits a picture, each picture goes this share.
+constexpr float kExposureStep = 0.2f;
+
+}  // namespace
+
+PictureMaker::PictureMaker(const World& world, const IrradianceField& field,
+                           const PictureSettings& settings, const Camera& camera,
+                           const Hello& hello)
+    : world_(world),
+      settings_(settings),
+      renderer_(world, IndirectSources{&field}),
+      pace_(settings.limits, hello.size, hello.rate),
+      camera_(camera) {}
+
+void PictureMaker::follow(const ClientInputs& inputs) {
+  for (const double ms : inputs.round_trips_ms) pace_.delivered(ms);
+  if (inputs.request) pace_.ask(inputs.request->size, inputs.request->rate);
+  if (inputs.camera) camera_ = camera_of(*inputs.camera);
+  if (inputs.any()) still_pictures_ = 0;
+  last_input_ = inputs.last_input;
+}
+
+std::optional<Clock::time_point> PictureMaker::due(const WorldState& state) const {
+  if (state.last_change == shown_change_ && still_pictures_ >= kPicturesToSettle) {
+    return std::nullopt;
+  }
+  return last_ + std::chrono::duration_cast<Clock::duration>(
+                     std::chrono::duration<double>(1.0 / static_cast<double>(pace_.rate())));
+}
+
+Expected<void> PictureMaker::render() {
+  FrameSettings frame = settings_.frame;
+  frame.width = static_cast<int>(pace_.size().x);
+  frame.height = static_cast<int>(pace_.size().y);
+  if (frame.averaged_frames == 1) frame.seed += number_;  // averaged light draws its own
+  return renderer_.render(camera_, frame, frame_);
+}
+
+Image PictureMaker::shown() {
+  const Image& linear = *frame_.image.find("");
+  if (settings_.exposure_stops) {
+    stops_ = settings_.exposure_stops;
+  } else {
+    const auto suits = static_cast<float>(std::log2(display_exposure(linear)));
+    stops_ = stops_ ? *stops_ + kExposureStep * (suits - *stops_) : suits;
+  }
+  return display_image(linear, settings_.tone_map, *stops_);
+}
+
+Expected<Picture> PictureMaker::make(const WorldState& state, Clock::time_point now) {
+  Picture picture;
+  Stopwatch rendering;
+  if (const auto done = render(); !done) return tl::unexpected(done.error());
+  to_yuv(shown(), yuv_);
+  picture.render_ms = static_cast<float>(rendering.lap());
+
+  Stopwatch encoding;
+  EncoderSettings wanted{yuv_.width, yuv_.height, pace_.likely_rate(), pace_.bitrate()};
+  if (!encoder_ || encoder_->settings().width != wanted.width ||
+      encoder_->settings().height != wanted.height) {
+    Expected<PictureEncoder> encoder = PictureEncoder::make(wanted);
+    if (!encoder) return tl::unexpected(encoder.error());
+    encoder_.emplace(std::move(*encoder));
+  } else {
+    encoder_->aim(wanted.rate, wanted.bitrate);
+  }
+  Expected<EncodedPicture> encoded = encoder_->encode(yuv_);
+  if (!encoded) return tl::unexpected(encoded.error());
+  picture.encode_ms = static_cast<float>(encoding.lap());
+
+  picture.number = ++number_;
+  picture.key = encoded->key ? 1 : 0;
+  picture.size = {static_cast<std::uint32_t>(yuv_.width), static_cast<std::uint32_t>(yuv_.height)};
+  picture.state = state.updates;
+  picture.input = last_input_;
+  picture.bytes = std::move(encoded->bytes);
+  pace_.made(static_cast<double>(picture.render_ms) + static_cast<double>(picture.encode_ms));
+  still_pictures_ = shown_change_ == state.last_change ? still_pictures_ + 1 : 0;
+  shown_change_ = state.last_change;
+  last_ = now;
+  return picture;
+}
+
+}  // namespace lambent::stream

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+
+namespace lambent::stream {
+
+using Clock = std::chrono::steady_clock;
+
+/// Lets so many events a second pass in the mean, and at most `burst` at once.
+class RateLimit {
+ public:
+  RateLimit(double rate, double burst, Clock::time_point now)
+      : rate_(rate), burst_(burst), left_(burst), last_(now) {}
+
+  /// Counts an event; false where it is one too many.
+  bool pass(Clock::time_point now) {
+    left_ = std::min(burst_, left_ + rate_ * std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+    if (left_ < 1.0) return false;
+    left_ -= 1.0;
+    return true;
+  }
+
+ private:
+  double rate_, burst_, left_;
+  Clock::time_point last_;
+};
+
+}  // namespace lambent::stream

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/server/server.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lambent::stream {
+
+Server::Server(const ServedWorld& served, const ServerSettings& settings)
+    : hub_(settings.max_clients), loop_(served, settings.world, hub_) {}
+
+Expected<std::unique_ptr<Server>> Server::open(const ServedWorld& served,
+                                               const ServerSettings& settings) {
+  std::unique_ptr<Server> server(new Server(served, settings));
+  ListenSettings listen = settings.listen;
+  // Plain requests get through when there are as many clients as may be
+  constexpr std::size_t kPlainConnections = 56;
+  listen.max_connections =
+      std::max(listen.max_connections, settings.max_clients + kPlainConnections);
+  auto listener = Listener::open(listen, server->hub_);
+  if (!listener) return tl::unexpected(listener.error());
+  server->listener_ = std::move(*listener);
+  return server;
+}
+
+Expected<void> Server::run(const std::function<bool()>& stop) {
+  Expected<void> done = loop_.run(stop);
+  listener_->drain();
+  return done;
+}
+
+}  // namespace lambent::stream

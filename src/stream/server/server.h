@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// A server of light and pictures: the world's loop and who listens for clients.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "stream/server/listener.h"
+#include "stream/server/world_loop.h"
+
+namespace lambent::stream {
+
+struct ServerSettings {
+  ListenSettings listen;
+  WorldSettings world;
+  std::size_t max_clients = 8;  ///< Each takes a renderer's memory (Renderer).
+};
+
+class Server {
+ public:
+  /// Listens from now on; clients are answered once it runs. Fails as Listener::open does.
+  static Expected<std::unique_ptr<Server>> open(const ServedWorld& served,
+                                                const ServerSettings& settings);
+
+  std::string url() const { return listener_->url(); }
+  std::uint16_t port() const { return listener_->port(); }
+  HubStats stats() const { return hub_.stats(); }
+
+  /// Serves until `stop` says so, asked some ten times a second or more; then tells clients, and
+  /// returns when they have gone. Fails where the world cannot go on.
+  Expected<void> run(const std::function<bool()>& stop);
+
+ private:
+  Server(const ServedWorld& served, const ServerSettings& settings);
+
+  Hub hub_;
+  WorldLoop loop_;
+  std::unique_ptr<Listener> listener_;
+};
+
+}  // namespace lambent::stream

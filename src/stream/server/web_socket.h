@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// A client's WebSocket, over a plain or an encrypted stream.
+#pragma once
+
+#include <boost/asio/post.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <optional>
+#include <utility>
+
+#include "stream/server/connections.h"
+#include "stream/server/rate_limit.h"
+
+namespace lambent::stream {
+
+/// Reads messages of a client and writes what its link has for it, one at a time.
+template <class Stream>
+class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<Stream>> {
+ public:
+  using Request = boost::beast::http::request<boost::beast::http::empty_body>;
+  using ErrorCode = boost::beast::error_code;
+
+  WebSocket(ConnectionContext& context, Stream&& stream, ConnectionCount&& count)
+      : context_(context),
+        count_(std::move(count)),
+        socket_(std::move(stream)),
+        buffer_(kMaxClientMessageBytes),
+        rate_(context.settings.max_message_rate, 2.0 * context.settings.max_message_rate,
+              Clock::now()),
+        hello_deadline_(Clock::now() + context.settings.hello_timeout) {}
+
+  ~WebSocket() override { leave(); }
+
+  void accept(const Request& request) {
+    namespace websocket = boost::beast::websocket;
+    context_.sessions.push_back(this->weak_from_this());
+    // From here on the WebSocket watches the time
+    boost::beast::get_lowest_layer(socket_).expires_never();
+    websocket::stream_base::timeout timeouts{};
+    timeouts.handshake_timeout = context_.settings.hello_timeout;
+    timeouts.idle_timeout = context_.settings.idle_timeout;
+    timeouts.keep_alive_pings = true;
+    socket_.set_option(timeouts);
+    socket_.read_message_max(kMaxClientMessageBytes);
+    socket_.auto_fragment(false);
+    socket_.binary(true);
+    socket_.async_accept(request, [self = this->shared_from_this()](ErrorCode error) {
+      if (!error) self->read();
+    });
+  }
+
+  void refuse(Refusal refusal) override {
+    if (farewell_ || closing_) return;
+    if (refusal.code != Refusal::Code::shutting_down) context_.count_refused();
+    // One that is not read ends with the connection
+    farewell_ = write_message(std::move(refusal));
+    close_deadline_ = Clock::now() + kCloseTimeout;
+    pump();
+  }
+
+  void tick() override {
+    const Clock::time_point now = Clock::now();
+    const bool stuck = (writing_since_ && now > *writing_since_ + context_.settings.write_timeout);
+    if (stuck || (close_deadline_ && now > *close_deadline_)) {
+      boost::beast::get_lowest_layer(socket_).close();
+      leave();
+      return;
+    }
+    if (!link_ && now > hello_deadline_) {
+      refuse({Refusal::Code::bad_message, "a hello was expected"});
+    } else if (admission_ && !context_.access.still_good(*admission_, unix_time_s())) {
+      refuse({Refusal::Code::bad_token, "the token has expired or was revoked"});
+    }
+  }
+
+ private:
+  static constexpr std::chrono::seconds kCloseTimeout{2};
+
+  void leave() {
+    if (!link_) return;
+    context_.hub.leave(link_);
+    link_.reset();
+  }
+
+  void read() {
+    socket_.async_read(buffer_, [self = this->shared_from_this()](ErrorCode error, std::size_t) {
+      if (error) {
+        if (error == boost::beast::websocket::error::message_too_big)
+          self->context_.count_refused();
+        self->leave();
+        return;
+      }
+      if (!self->farewell_ && !self->closing_) self->take_message();
+      self->buffer_.consume(self->buffer_.size());
+      self->read();
+    });
+  }
+
+  void take_message() {
+    const Clock::time_point now = Clock::now();
+    if (!rate_.pass(now)) return refuse({Refusal::Code::too_many, "too many messages a second"});
+    if (!socket_.got_binary()) {
+      return refuse({Refusal::Code::bad_message, "messages are binary"});
+    }
+    const auto data = buffer_.cdata();
+    const auto message =
+        parse_message({static_cast<const std::byte*>(data.data()), data.size()}, Sender::client);
+    if (!message) return refuse({Refusal::Code::bad_message, message.error().message()});
+    if (!link_) return greet(*message);
+    if (auto refusal = link_->receive(*message, now)) refuse(std::move(*refusal));
+  }
+
+  void greet(const Message& message) {
+    const Hello* hello = std::get_if<Hello>(&message);
+    if (hello == nullptr) return refuse({Refusal::Code::bad_message, "a hello was expected"});
+    if (hello->version != kProtocolVersion) {
+      return refuse({Refusal::Code::other_version,
+                     "this server speaks version " + std::to_string(kProtocolVersion)});
+    }
+    admission_ = context_.access.admit(hello->token, unix_time_s());
+    if (!admission_) return refuse({Refusal::Code::bad_token, "the token is not known here"});
+    const Welcome welcome = context_.hub.welcome(admission_->role);
+    if ((hello->wants & ~welcome.offers) != 0) {
+      return refuse({Refusal::Code::bad_message, "this server does not offer what is wanted"});
+    }
+    Hello kept = *hello;
+    kept.token.clear();
+    link_ = context_.hub.join(kept, admission_->role,
+                              [&io = context_.io, weak = this->weak_from_this()] {
+                                boost::asio::post(io, [weak] {
+                                  if (const auto self = weak.lock()) self->pump();
+                                });
+                              });
+    if (!link_) return refuse({Refusal::Code::too_many, "there are as many clients as may be"});
+    link_->put_notice(welcome);
+  }
+
+  /// Writes what there is to write, unless something is being written.
+  void pump() {
+    if (writing_since_ || closing_) return;
+    if (farewell_) {
+      outgoing_ = std::make_shared<const std::vector<std::byte>>(std::move(*farewell_));
+      closing_ = true;
+    } else if (link_) {
+      outgoing_ = link_->next(Clock::now());
+      if (!outgoing_) return;
+    } else {
+      return;
+    }
+    writing_since_ = Clock::now();
+    socket_.async_write(
+        boost::asio::buffer(*outgoing_),
+        [self = this->shared_from_this()](ErrorCode error, std::size_t) { self->written(error); });
+  }
+
+  void written(ErrorCode error) {
+    writing_since_.reset();
+    if (error) return leave();
+    if (!closing_) return pump();
+    leave();
+    const boost::beast::websocket::close_reason reason(
+        boost::beast::websocket::close_code::policy_error);
+    socket_.async_close(reason, [self = this->shared_from_this()](ErrorCode) {});
+  }
+
+  ConnectionContext& context_;
+  ConnectionCount count_;
+  boost::beast::websocket::stream<Stream> socket_;
+  boost::beast::flat_buffer buffer_;
+  RateLimit rate_;
+  Clock::time_point hello_deadline_;
+  std::optional<Clock::time_point> writing_since_, close_deadline_;
+  std::optional<Admission> admission_;
+  std::shared_ptr<ClientLink> link_;
+  SharedBytes outgoing_;
+  std::optional<std::vector<std::byte>> farewell_;
+  bool closing_ = false;
+};
+
+}  // namespace lambent::stream

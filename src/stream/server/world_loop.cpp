@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stream/server/world_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/stopwatch.h"
+
+namespace lambent::stream {
+namespace {
+
+// Light that changed by more than this in an update is seen to change: as settle_field counts.
+constexpr double kSeenChange = 0.002;
+// At most this long until somebody asks whether to stop.
+constexpr std::chrono::milliseconds kLongestWait{50};
+constexpr std::chrono::seconds kStatsInterval{1};
+
+}  // namespace
+
+WorldLoop::WorldLoop(const ServedWorld& served, const WorldSettings& settings, Hub& hub)
+    : served_(served), settings_(settings), hub_(hub), editor_(served.scene, served.world) {
+  for (const Animation& animation : served.scene.animations) {
+    duration_s_ = std::max(duration_s_, duration(animation));
+  }
+  welcome();
+}
+
+void WorldLoop::welcome() {
+  Welcome told;
+  told.offers = kWantsPicture | kWantsLight;
+  told.max_size = settings_.pictures.limits.size;
+  told.rate = settings_.rate;
+  told.camera = input_of(served_.camera);
+  const Bounds bounds = world_bounds(served_.scene);
+  told.min_ws = bounds.min;
+  told.max_ws = bounds.max;
+  told.instances = static_cast<std::uint32_t>(served_.scene.instances.size());
+  for (const Light& light : served_.scene.lights) {
+    if (told.lights.size() == kMaxToldLights) break;
+    told.lights.push_back({light.type, light.intensity, light.position_ws, light.direction_ws});
+  }
+  hub_.set_welcome(told);
+}
+
+/// Takes in who has come, and forgets who has gone.
+void WorldLoop::meet_clients() {
+  std::erase_if(viewers_, [](const Viewer& viewer) { return viewer.link->gone(); });
+  for (const auto& link : hub_.clients()) {
+    const bool known = std::any_of(viewers_.begin(), viewers_.end(),
+                                   [&](const Viewer& viewer) { return viewer.link == link; });
+    if (known || link->gone()) continue;
+    Viewer viewer{link, nullptr};
+    if (link->wants(kWantsPicture)) {
+      viewer.pictures = std::make_unique<PictureMaker>(
+          served_.world, served_.field, settings_.pictures, served_.camera, link->hello());
+    }
+    viewers_.push_back(std::move(viewer));
+  }
+}
+
+/// Takes what clients sent. Their edits change the world that all see, when its light follows.
+Expected<void> WorldLoop::follow_clients(bool with_edits) {
+  std::vector<Edit> edits;
+  std::vector<ClientLink*> senders;
+  for (Viewer& viewer : viewers_) {
+    const ClientInputs inputs = viewer.link->take_inputs(with_edits);
+    if (viewer.pictures) viewer.pictures->follow(inputs);
+    edits.insert(edits.end(), inputs.edits.begin(), inputs.edits.end());
+    senders.resize(edits.size(), viewer.link.get());
+  }
+  if (edits.empty()) return {};
+  const auto refused = editor_.apply(edits);
+  if (!refused) return tl::unexpected(refused.error());
+  std::vector<bool> accepted(edits.size(), true);
+  for (const SceneEditor::Refused& one : *refused) {
+    accepted[one.edit] = false;
+    std::string why = one.why.substr(0, kMaxErrorBytes);
+    senders[one.edit]->put_notice(Refusal{Refusal::Code::refused_input, std::move(why)});
+  }
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    if (accepted[i]) light_->add_edit(edits[i]);
+  }
+  if (refused->size() == edits.size()) return {};
+  welcome();
+  state_.last_change = state_.updates + 1;
+  return {};
+}
+
+/// Poses the scene as its animations have it now; they begin again when the longest has ended.
+Expected<void> WorldLoop::play() {
+  if (!settings_.play) return {};
+  const double now_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  const auto period_s = static_cast<double>(duration_s_);
+  time_s_ = static_cast<float>(period_s > 0.0 ? std::fmod(now_s, period_s) : now_s);
+  animate(served_.scene, -1, time_s_);
+  const auto moved = served_.world.update();
+  if (!moved) return tl::unexpected(moved.error());
+  if (moved->any()) state_.last_change = state_.updates + 1;
+  return {};
+}
+
+void WorldLoop::update_light() {
+  constexpr double kMsOfSecond = 1000.0;
+  const double interval_ms = kMsOfSecond / static_cast<double>(settings_.rate);
+  UpdateRequest request;
+  request.time_budget_ms = interval_ms * static_cast<double>(settings_.update_share);
+  request.viewer_ws = glm::vec3(served_.camera.world_from_view[3]);
+  Stopwatch watch;
+  const UpdateStatistics done = served_.field.update(served_.world, request);
+  const double update_ms = watch.lap();
+  ++state_.updates;
+  if (done.change > kSeenChange) state_.last_change = state_.updates;
+  hub_.edit_stats([&](HubStats& stats) {
+    stats.state = state_.updates;
+    stats.update_ms = update_ms;
+  });
+  // What was missed is not made up for
+  const auto interval = std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double, std::milli>(interval_ms));
+  next_update_ = std::max(next_update_ + interval, Clock::now());
+}
+
+/// Sends what the update made of the light to those who render it themselves.
+void WorldLoop::send_light() {
+  std::vector<ClientLink*> clients;
+  for (const Viewer& viewer : viewers_) {
+    if (viewer.link->wants(kWantsLight)) clients.push_back(viewer.link.get());
+  }
+  const auto sent = light_->send(served_.field, time_s_, clients);
+  hub_.edit_stats([&](HubStats& stats) { stats.light_bytes = light_->bytes_sent(); });
+  if (sent) return;
+  for (ClientLink* client : clients) {
+    client->put_notice(Refusal{Refusal::Code::failed, sent.error().message()});
+  }
+}
+
+/// One picture for each client that is due and keeps up, until an update is. Whether there was any.
+bool WorldLoop::make_pictures() {
+  bool any = false;
+  for (std::size_t i = 0; i < viewers_.size(); ++i) {
+    const Clock::time_point now = Clock::now();
+    if (any && now >= next_update_) return any;
+    const std::size_t index = (first_viewer_ + i) % viewers_.size();
+    Viewer& viewer = viewers_[index];
+    if (!viewer.pictures || !viewer.link->ready_for_picture()) continue;
+    const auto due = viewer.pictures->due(state_);
+    if (!due || *due > now) continue;
+    const Expected<Picture> picture = viewer.pictures->make(state_, now);
+    if (picture) {
+      viewer.link->put_picture(*picture);
+      hub_.edit_stats([&](HubStats& stats) {
+        ++stats.pictures;
+        stats.picture_ms =
+            static_cast<double>(picture->render_ms) + static_cast<double>(picture->encode_ms);
+      });
+    } else {
+      viewer.link->put_notice(Refusal{Refusal::Code::failed, picture.error().message()});
+      viewer.pictures.reset();
+    }
+    any = true;
+    first_viewer_ = index + 1;
+  }
+  return any;
+}
+
+void WorldLoop::tell_stats(Clock::time_point now) {
+  if (now < next_stats_) return;
+  const std::chrono::duration<double> since = now - (next_stats_ - kStatsInterval);
+  const double rate = static_cast<double>(state_.updates - updates_at_stats_) / since.count();
+  updates_at_stats_ = state_.updates;
+  next_stats_ = now + kStatsInterval;
+  hub_.edit_stats([&](HubStats& stats) { stats.rate = rate; });
+  const HubStats stats = hub_.stats();
+  for (const Viewer& viewer : viewers_) {
+    ServerStats told;
+    told.state = stats.state;
+    told.update_ms = static_cast<float>(stats.update_ms);
+    told.rate = static_cast<float>(stats.rate);
+    told.clients = static_cast<std::uint32_t>(viewers_.size());
+    if (viewer.pictures) {
+      told.bitrate = viewer.pictures->pace().bitrate();
+      told.round_trip_ms = static_cast<float>(viewer.pictures->pace().round_trip_ms());
+    }
+    viewer.link->put_notice(told);
+  }
+}
+
+/// When there is something to do again, unless a client sends something before.
+Clock::time_point WorldLoop::next_work() const {
+  Clock::time_point next = std::min(next_update_, Clock::now() + kLongestWait);
+  for (const Viewer& viewer : viewers_) {
+    if (!viewer.pictures || !viewer.link->ready_for_picture()) continue;
+    if (const auto due = viewer.pictures->due(state_)) next = std::min(next, *due);
+  }
+  return next;
+}
+
+Expected<void> WorldLoop::run(const std::function<bool()>& stop) {
+  auto light = LightSender::make(settings_.light);
+  if (!light) return tl::unexpected(light.error());
+  light_.emplace(std::move(*light));
+  start_ = next_update_ = Clock::now();
+  next_stats_ = next_update_ + kStatsInterval;
+  while (!stop()) {
+    meet_clients();
+    const bool update_is_due = Clock::now() >= next_update_;
+    if (const auto done = follow_clients(update_is_due); !done) return done;
+    if (update_is_due) {
+      if (const auto done = play(); !done) return done;
+      update_light();
+      send_light();
+    }
+    const bool busy = make_pictures();
+    tell_stats(Clock::now());
+    if (!busy) hub_.wait_until(next_work());
+  }
+  return {};
+}
+
+}  // namespace lambent::stream

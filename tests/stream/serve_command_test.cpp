@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// lambent serve and lambent connect, as they are typed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <signal.h>
+
+#include <array>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "lambent/image.h"
+#include "support/certificate.h"
+#include "support/http_get.h"
+#include "support/program.h"
+
+namespace lambent {
+namespace {
+
+using test::ProgramResult;
+using test::run_program;
+using ::testing::HasSubstr;
+
+const std::vector<std::string> kSmall = {
+    "serve",  "cornell-spot", "--port",    "0", "--probes", "3x3x3",
+    "--rays", "32",           "--updates", "1", "--size",   "160x96"};
+
+/// A server in a process of its own, of which stderr is read.
+class RunningServer {
+ public:
+  explicit RunningServer(const std::vector<std::string>& more = {}) {
+    std::array<int, 2> ends{};
+    if (pipe(ends.data()) != 0) return;
+    std::vector<std::string> arguments = kSmall;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const int own = dup(STDERR_FILENO);
+    dup2(ends[1], STDERR_FILENO);
+    process_ = test::start_program(arguments);
+    dup2(own, STDERR_FILENO);
+    ::close(own);
+    ::close(ends[1]);
+    errors_ = ends[0];
+    read_until("serving");
+    const std::size_t colon = said_.rfind(':', said_.find("/ (Ctrl-C"));
+    if (colon != std::string::npos) port_ = std::atoi(said_.c_str() + colon + 1);
+  }
+  ~RunningServer() {
+    end(SIGKILL);
+    ::close(errors_);
+  }
+
+  int port() const { return port_; }
+  const std::string& said() const { return said_; }
+  std::string host() const { return "127.0.0.1:" + std::to_string(port_); }
+
+  /// Sends it a signal and waits; its exit status, -1 where it was killed.
+  int end(int signal_number) {
+    if (process_ <= 0) return -1;
+    kill(process_, signal_number);
+    int status = 0;
+    waitpid(process_, &status, 0);
+    process_ = -1;
+    read_until("a line that is never said");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+
+ private:
+  /// Reads what it says until a line says that, or it says no more.
+  void read_until(const std::string& words) {
+    std::array<char, 512> buffer;
+    for (;;) {
+      const std::size_t at = said_.find(words);
+      if (at != std::string::npos && said_.find('\n', at) != std::string::npos) return;
+      const ssize_t size = read(errors_, buffer.data(), buffer.size());
+      if (size <= 0) return;
+      said_.append(buffer.data(), static_cast<std::size_t>(size));
+    }
+  }
+
+  pid_t process_ = -1;
+  int errors_ = -1, port_ = 0;
+  std::string said_;
+};
+
+TEST(ServeCommand, ServesPicturesUntilItIsTerminated) {
+  const test::TemporaryDirectory directory;
+  RunningServer server;
+  ASSERT_GT(server.port(), 0) << server.said();
+  EXPECT_THAT(test::http_get(static_cast<std::uint16_t>(server.port()), "/"), HasSubstr("canvas"));
+  const std::string file = directory.file("frame.png");
+  const ProgramResult one =
+      run_program("connect " + server.host() + " -o " + file + " --size 96x64");
+  ASSERT_EQ(one.status, 0) << one.errors;
+  EXPECT_THAT(one.errors, HasSubstr("frame.png"));
+  const auto image = read_image(file);
+  ASSERT_TRUE(image);
+  EXPECT_GT(image->width, 16);
+  const ProgramResult more =
+      run_program("connect http://" + server.host() + "/ --frames 3 -o " +
+                  directory.file("many.png") + " --eye 2.7,2.7,-5 --target 2.7,2.7,0");
+  EXPECT_EQ(more.status, 0) << more.errors;
+  EXPECT_EQ(directory.entries(), 4u);
+  EXPECT_EQ(server.end(SIGTERM), 0);
+  EXPECT_THAT(server.said(), HasSubstr("served 2 clients with"));
+}
+
+TEST(ServeCommand, AnInterruptEndsItAsWell) {
+  RunningServer server;
+  ASSERT_GT(server.port(), 0) << server.said();
+  EXPECT_EQ(server.end(SIGINT), 0);
+}
+
+TEST(ServeCommand, TellsThatThePortIsInUse) {
+  RunningServer server;
+  ASSERT_GT(server.port(), 0) << server.said();
+  const ProgramResult second = run_program("serve cornell-spot --probes 3x3x3 --updates 1 --port " +
+                                           std::to_string(server.port()));
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.errors, HasSubstr("in use"));
+}
+
+TEST(ServeCommand, IsEncryptedAndAsksForTokens) {
+  const test::TemporaryDirectory directory;
+  const std::string certificate = directory.file("c.pem"), key = directory.file("k.pem");
+  ASSERT_TRUE(test::write_certificate(certificate, key));
+  std::ofstream(directory.file("tokens")) << "view looking-looking-looking\n";
+  std::ofstream(directory.file("token")) << "looking-looking-looking\n";
+  std::ofstream(directory.file("wrong")) << "guessing-guessing-guessing\n";
+  RunningServer server({"--certificate", certificate, "--key", key, "--tokens",
+                        directory.file("tokens"), "--host", "0.0.0.0"});
+  ASSERT_GT(server.port(), 0) << server.said();
+  EXPECT_THAT(server.said(), HasSubstr("https://"));
+  const std::string connect = "connect https://localhost:" + std::to_string(server.port()) +
+                              " -o " + directory.file("a.png") + " --authority " + certificate;
+  const ProgramResult wrong = run_program(connect + " --token-file " + directory.file("wrong"));
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.errors, HasSubstr("token"));
+  const ProgramResult right = run_program(connect + " --token-file " + directory.file("token"));
+  EXPECT_EQ(right.status, 0) << right.errors;
+  EXPECT_EQ(server.end(SIGTERM), 0);
+}
+
+TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
+  const auto refused = [](const std::string& arguments, const std::string& why) {
+    const ProgramResult result = run_program("serve cornell-spot " + arguments);
+    EXPECT_EQ(result.status, 2) << arguments;
+    EXPECT_THAT(result.errors, HasSubstr(why)) << arguments;
+  };
+  refused("--host 0.0.0.0", "--tokens");
+  refused("--certificate c.pem", "--key");
+  refused("--size 8x8", "--size");
+  refused("--size 4000x4000", "3840x2160");
+  refused("--rate 0", "--rate");
+  refused("--port 70000", "--port");
+  refused("--quality hihg", "did you mean 'high'?");
+  refused("--play", "no animation");
+  EXPECT_EQ(run_program("serve").status, 2);
+  EXPECT_EQ(run_program("serve /nowhere.glb").status, 2);
+}
+
+TEST(ConnectCommand, TellsWhatIsWrong) {
+  const test::TemporaryDirectory directory;
+  const std::string out = " -o " + directory.file("a.png") + " --timeout 2";
+  const ProgramResult nobody = run_program("connect 127.0.0.1:1" + out);
+  EXPECT_EQ(nobody.status, 1);
+  EXPECT_THAT(nobody.errors, HasSubstr("127.0.0.1:1"));
+  EXPECT_EQ(run_program("connect localhost:99999" + out).status, 2);
+  EXPECT_EQ(run_program("connect localhost -o a.exr").status, 2);
+  EXPECT_EQ(run_program("connect localhost --eye 1,2,3" + out).status, 2);
+  EXPECT_EQ(directory.entries(), 0u);
+}
+
+}  // namespace
+}  // namespace lambent
