@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <stdexcept>
 
 #include "bench/stage.h"
@@ -33,20 +32,6 @@ FieldSettings field_settings() {
   settings.corrections = false;
   return settings;
 }
-
-/// Processor time, of all threads together, since the last lap [ms]: other programs do not count.
-class ProcessorTime {
- public:
-  double lap() {
-    const std::clock_t now = std::clock();
-    const double ms = 1e3 * static_cast<double>(now - start_) / CLOCKS_PER_SEC;
-    start_ = now;
-    return ms;
-  }
-
- private:
-  std::clock_t start_ = std::clock();
-};
 
 int animation_named(const Scene& scene, const std::string& name) {
   for (std::size_t i = 0; i < scene.animations.size(); ++i) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <ctime>
 #include <functional>
 #include <string>
 
@@ -16,6 +17,20 @@ namespace lambent::light_stream {
 
 /// Seconds from one state to the next.
 inline constexpr double kInterval = 0.1;
+
+/// Processor time, of all threads together, since the last lap [ms]: other programs do not count.
+class ProcessorTime {
+ public:
+  double lap() {
+    const std::clock_t now = std::clock();
+    const double ms = 1e3 * static_cast<double>(now - start_) / CLOCKS_PER_SEC;
+    start_ = now;
+    return ms;
+  }
+
+ private:
+  std::clock_t start_ = std::clock();
+};
 
 /// How a scene is at a time.
 struct Motion {

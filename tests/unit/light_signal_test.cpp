@@ -58,6 +58,7 @@ TEST(LightSignal, GivesBackTheLightToWithinItsUnit) {
       std::vector<float> coefficients(kChannels * basis.size());
       signal.coefficients_of(tile, coefficients);
       std::vector<std::int32_t> rounded;
+      rounded.reserve(coefficients.size());
       for (const float number : coefficients) {
         rounded.push_back(static_cast<std::int32_t>(std::lround(number)));
       }

@@ -39,6 +39,7 @@ TEST(RangeCoder, GivesBackDecisionsOfAllProbabilities) {
   for (int run = 0; run < 300; ++run) {
     std::vector<Decision> decisions;
     const int count = static_cast<int>(random() % 400);
+    decisions.reserve(count);
     for (int i = 0; i < count; ++i) {
       decisions.push_back({1 + static_cast<std::uint32_t>(random() % 65535), random() % 2 == 0});
     }
@@ -79,6 +80,7 @@ TEST(RangeCoder, TakesAsManyBitsAsDecisionsAreWorth) {
 TEST(RangeCoder, KnowsBytesThatAreCutShortOrTooMany) {
   std::mt19937 random(3);
   std::vector<Decision> decisions;
+  decisions.reserve(1000);
   for (int i = 0; i < 1000; ++i) decisions.push_back({20000, random() % 2 == 0});
   std::vector<std::byte> bytes = encode(decisions);
   const auto read = [&](std::span<const std::byte> from) {
