@@ -20,8 +20,7 @@ constexpr float kExposureStep = 0.2f;
 PictureMaker::PictureMaker(const World& world, const IrradianceField& field,
                            const PictureSettings& settings, const Camera& camera,
                            const Hello& hello)
-    : world_(world),
-      settings_(settings),
+    : settings_(settings),
       renderer_(world, IndirectSources{&field}),
       pace_(settings.limits, hello.size, hello.rate),
       camera_(camera) {}

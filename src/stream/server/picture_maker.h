@@ -46,7 +46,6 @@ class PictureMaker {
   Expected<void> render();
   Image shown();
 
-  const World& world_;
   PictureSettings settings_;
   Renderer renderer_;
   Pace pace_;
