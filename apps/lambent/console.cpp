@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 bool quiet_asked = false;
 bool muted = false;
-const Clock::time_point program_start = Clock::now();
+const Clock::time_point kProgramStart = Clock::now();
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void tell_written(const std::vector<std::string>& paths, const std::string& what
                                                    paths.front() + " to " + paths.back();
   // Devices and pipes have no size
   const std::string size = bytes > 0.0 ? ", " + bytes_text(bytes) : "";
-  const double seconds = std::chrono::duration<double>(Clock::now() - program_start).count();
+  const double seconds = std::chrono::duration<double>(Clock::now() - kProgramStart).count();
   tell("wrote " + name + ": " + what + size + ", in " + seconds_text(seconds) +
        (more.empty() ? "" : "; " + more));
 }

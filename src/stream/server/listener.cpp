@@ -58,7 +58,8 @@ class BeastListener : public Listener {
   BeastListener(const ListenSettings& settings, Hub& hub, Access access)
       : context_(settings, hub, std::move(access)), acceptor_(context_.io), timer_(context_.io) {}
 
-  ~BeastListener() override {
+  // Where not even memory is left to tell the thread to end, ending the program is all there is
+  ~BeastListener() override {  // NOLINT(bugprone-exception-escape)
     if (thread_.joinable()) drain();
   }
 
