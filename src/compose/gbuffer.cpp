@@ -12,8 +12,7 @@
 namespace lambent {
 
 glm::vec2 sample_position(const FrameSettings& settings, int x, int y, int sample, uint jitter) {
-  return vec2(x, y) + subpixel_position(static_cast<uint>(y * settings.width + x),
-                                        static_cast<uint>(sample),
+  return vec2(x, y) + subpixel_position(static_cast<uint>(sample),
                                         static_cast<uint>(settings.samples), settings.seed, jitter);
 }
 

@@ -15,18 +15,20 @@ LAMBENT_BEGIN
 // Keeps the random numbers of pixels' positions apart from those of other passes.
 const uint kSubpixelSalt = 0x50495845u;
 
-/// Where in the pixel a sample of so many lies, each coordinate 0 to 1.
-LAMBENT_FN vec2 subpixel_position(uint pixel, uint index, uint samples, uint seed) {
+/// Where in its pixel a sample of so many lies, each coordinate 0 to 1. It is the same place in all
+/// pixels: along an edge all of them then see the same share of both sides, where places of their
+/// own would make few samples a row of light and dark beads.
+LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   if (samples == 1u) return vec2(0.5f);
-  RandomStream random = make_random_stream(pixel, kSubpixelSalt, seed);
+  RandomStream random = make_random_stream(0u, kSubpixelSalt, seed);
   vec2 shift = next_uniform2(random);
   return fract(shift + plastic_sequence(index));
 }
 
 /// The same of a frame whose pixels all have theirs at one place (temporal anti-aliasing): `jitter`
 /// is 1 + the frames before it. 0: as above.
-LAMBENT_FN vec2 subpixel_position(uint pixel, uint index, uint samples, uint seed, uint jitter) {
-  if (jitter == 0u) return subpixel_position(pixel, index, samples, seed);
+LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed, uint jitter) {
+  if (jitter == 0u) return subpixel_position(index, samples, seed);
   return jitter_position((jitter - 1u) * samples + index);
 }
 

@@ -15,7 +15,7 @@ void main() {
   if (i >= args.count) return;
   uint pixel = args.first_pixel + i;
   vec2 corner = vec2(float(pixel % args.width), float(pixel / args.width));
-  vec2 offset = subpixel_position(pixel, args.index, args.samples, args.seed, args.jitter);
+  vec2 offset = subpixel_position(args.index, args.samples, args.seed, args.jitter);
   CameraRay ray = camera_ray(args.camera, corner + offset);
   args.rays.at[i] = RayRecord(ray.origin_ws, 0.0f, ray.direction_ws,
                               uintBitsToFloat(kMissedDistanceBits), kRayMeetsAll);

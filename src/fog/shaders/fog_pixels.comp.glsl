@@ -31,7 +31,7 @@ void main() {
   if (i >= args.count) return;
   uint pixel = args.first_pixel + i;
   vec2 corner = vec2(float(pixel % args.width), float(pixel / args.width));
-  vec2 offset = subpixel_position(pixel, args.index, args.samples, args.seed, args.jitter);
+  vec2 offset = subpixel_position(args.index, args.samples, args.seed, args.jitter);
   RayRecord ray = args.rays.at[i];
   args.light.at[i] = fog_along(args.fog.at[0].grid, args.fog, args.fog, corner + offset,
                                ray.origin_ws, ray.direction_ws, args.hits.at[i].distance);
