@@ -25,8 +25,8 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   return fract(shift + plastic_sequence(index));
 }
 
-/// The same of a frame whose pixels all have theirs at one place (temporal anti-aliasing): `jitter`
-/// is 1 + the frames before it. 0: as above.
+/// The same of a frame of a sequence that is anti-aliased over time, whose places go on from frame
+/// to frame: `jitter` is 1 + the frames before it. 0: as above.
 LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed, uint jitter) {
   if (jitter == 0u) return subpixel_position(index, samples, seed);
   return jitter_position((jitter - 1u) * samples + index);

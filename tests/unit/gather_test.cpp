@@ -58,16 +58,25 @@ TEST(Gather, RaysCoverTheHemisphereInSpaceAndInTime) {
   }
 }
 
-TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
-  const test::Stage stage("cornell");
+IrradianceField coarse_field(const test::Stage& stage) {
   FieldSettings settings;
   settings.probe_count = glm::ivec3(4);
-  const IrradianceField field = test::make_field(stage, settings, 2);
-  FrameSettings frame;
-  frame.width = 40;
-  frame.height = 40;
+  return test::make_field(stage, settings, 2);
+}
+
+/// What the scene's first camera sees.
+GBuffer seen_of(const test::Stage& stage, const FrameSettings& frame) {
   GBuffer gbuffer;
   trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
+  return gbuffer;
+}
+
+TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
+  const test::Stage stage("cornell");
+  const IrradianceField field = coarse_field(stage);
+  FrameSettings frame;
+  frame.width = frame.height = 40;
+  const GBuffer gbuffer = seen_of(stage, frame);
   GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 8};
   GatheredLight whole, apart;
   gather_irradiance(stage.world, field, request, whole);
@@ -89,14 +98,10 @@ TEST(Gather, WhatRareBrightRaysBringIsKeptApartAndNotLost) {
 
 TEST(Gather, TellsHowNoisyItsLightIs) {
   const test::Stage stage("cornell");
-  FieldSettings settings;
-  settings.probe_count = glm::ivec3(4);
-  const IrradianceField field = test::make_field(stage, settings, 2);
+  const IrradianceField field = coarse_field(stage);
   FrameSettings frame;
-  frame.width = 24;
-  frame.height = 24;
-  GBuffer gbuffer;
-  trace_gbuffer(stage.world, stage.scene.cameras.at(0), frame, {0, frame.height}, 0, gbuffer);
+  frame.width = frame.height = 24;
+  const GBuffer gbuffer = seen_of(stage, frame);
   GatherRequest request{gbuffer.surfaces, gbuffer.hit, frame.width, 0, 16};
   // Compare what one gather says with how much gathers of other samples differ
   constexpr uint kGathers = 12;

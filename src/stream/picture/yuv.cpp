@@ -8,14 +8,15 @@
 #include <glm/glm.hpp>
 
 #include "core/parallel.h"
+#include "shared/color.h"
 
 namespace lambent::stream {
 namespace {
 
-// ITU-R BT.709-6, item 3.2: brightness is this much of red, green and blue
-constexpr float kRed = 0.2126f, kGreen = 0.7152f, kBlue = 0.0722f;
-// Item 3.3: differences from it are divided by these, which brings them to -0.5 to 0.5
-constexpr float kBlueRange = 2.0f * (1.0f - kBlue), kRedRange = 2.0f * (1.0f - kRed);
+// ITU-R BT.709-6, item 3.3: differences from brightness are divided by these, which brings them to
+// -0.5 to 0.5
+const float kBlueRange = 2.0f * (1.0f - kBlueLuminance);
+const float kRedRange = 2.0f * (1.0f - kRedLuminance);
 // Item 4.6: limited range in 8 bits
 constexpr float kBlack = 16.0f, kBrightnessSteps = 219.0f;
 constexpr float kNoColor = 128.0f, kColorSteps = 224.0f;
@@ -27,8 +28,9 @@ std::uint8_t rounded(float value) {
   return static_cast<std::uint8_t>(std::clamp(value + 0.5f, 0.0f, 255.0f));
 }
 
+/// Item 3.2: of values as displays take them, by the weights of linear luminance.
 float brightness(const float* rgb) {
-  return kRed * rgb[0] + kGreen * rgb[1] + kBlue * rgb[2];
+  return kRedLuminance * rgb[0] + kGreenLuminance * rgb[1] + kBlueLuminance * rgb[2];
 }
 
 void convert_block(const Image& display, int x, int y, YuvPicture& yuv) {
@@ -77,7 +79,7 @@ Image to_display(const YuvPicture& yuv) {
           (yuv.y[static_cast<std::size_t>(y) * yuv.width + x] - kBlack) / kBrightnessSteps;
       const float blue = bright + kBlueRange * (yuv.cb[color] - kNoColor) / kColorSteps;
       const float red = bright + kRedRange * (yuv.cr[color] - kNoColor) / kColorSteps;
-      const float green = (bright - kRed * red - kBlue * blue) / kGreen;
+      const float green = (bright - kRedLuminance * red - kBlueLuminance * blue) / kGreenLuminance;
       const glm::vec3 rgb = glm::clamp(glm::vec3(red, green, blue), 0.0f, 1.0f);
       std::copy_n(&rgb.x, 3, display.at(x, y));
     }
