@@ -272,11 +272,15 @@ Expected<void> check_writable(const std::string& path) {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (exists && S_ISDIR(status.st_mode)) return fail(path, "", "cannot write: is a directory");
-  // What is written in place needs no right to its directory, what is replaced no other
-  const bool in_place = exists && !S_ISREG(status.st_mode);
-  const std::string written = in_place ? end.path : fs::path(end.path).parent_path().string();
-  if (::access(written.c_str(), W_OK) == 0) return {};
-  return fail(path, "", system_cause(errno_or(EIO)), Error::Kind::failed);
+  // What is written in place needs no right to its directory
+  if (exists && !S_ISREG(status.st_mode)) {
+    if (::access(end.path.c_str(), W_OK) == 0) return {};
+    return fail(path, "", system_cause(errno_or(EIO)), Error::Kind::failed);
+  }
+  // Rights do not tell of file systems that take no new files, nor of quotas: only a try does
+  const Expected<AtomicFile> attempt = AtomicFile::open(path);
+  if (!attempt) return tl::unexpected(attempt.error());
+  return {};
 }
 
 }  // namespace lambent
