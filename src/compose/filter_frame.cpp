@@ -126,8 +126,9 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       if (gathered) {
         pixels.receives[pixel] = surface.gi_share > 0.0f ? 1 : 0;
         pixels.looked_up[pixel] *= surface.gi_share;
+        const float n_dot_v = seen ? dot(surface.normal_ws, gbuffer.to_viewer_ws[i]) : 0.0f;
         pixels.indirect_albedo[pixel] =
-            passed * reflected_indirect(surface.reflectance, vec3(1.0f));
+            passed * reflected_indirect(surface.reflectance, n_dot_v, vec3(1.0f));
       }
     }
   });

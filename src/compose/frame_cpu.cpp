@@ -29,7 +29,7 @@ constexpr std::size_t kFloatsPerTask = std::size_t{1} << 18;  // to clear
 /// memory to ask in. Corrections have grain of their own, which must not come back once gathered
 /// light is added to and filtered with a lookup, or a part of its light is taken out of it.
 template <class Normal>
-void look_up(const World& world, const IrradianceField& field, bool corrected,
+void look_up(const World& world, const IrradianceField& field, CorrectionUse use,
              const GBuffer& gbuffer, Normal normal, std::vector<FieldQuery>& queries,
              std::vector<vec3>& irradiance) {
   queries.resize(gbuffer.size());
@@ -43,11 +43,7 @@ void look_up(const World& world, const IrradianceField& field, bool corrected,
     }
   });
   irradiance.resize(gbuffer.size());
-  if (corrected) {
-    field.irradiance(queries, irradiance, &world);
-  } else {
-    uncorrected_irradiance(field, queries, irradiance, world);
-  }
+  look_up_irradiance(field, queries, use, irradiance, world);
 }
 
 /// Takes what another source brings out of the field's light, and adds that source's own.
@@ -95,16 +91,17 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       const Reflectance& reflectance = surface.reflectance;
 
       // Reflect the field's light: the base under the coat, and the coat by its directional albedo
+      const float n_dot_v = dot(surface.normal_ws, gbuffer.to_viewer_ws[i]);
       vec3 indirect(0.0f), glossy = light.direct.specular[i];
       if (light.has_indirect && surface.gi_share > 0.0f) {
         if (!light.is_filtered) {
           const vec3 irradiance =
               indirect_share(surface.gi_share, light.looked_up ? 1u : 0u) * light.irradiance[i];
-          indirect = reflected_indirect(reflectance, irradiance);
+          indirect = reflected_indirect(reflectance, n_dot_v, irradiance);
           add(layers.irradiance, pixel, share * irradiance);
         }
-        glossy += coat_light(reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]),
-                             surface.gi_share, light.coats.empty() ? vec4(0.0f) : light.coats[i],
+        glossy += coat_light(reflectance, n_dot_v, surface.gi_share,
+                             light.coats.empty() ? vec4(0.0f) : light.coats[i],
                              light.mirror_irradiance[i]);
       }
 
@@ -216,9 +213,10 @@ class FramePassesCpu final : public FramePasses {
     const IndirectSources& sources = request().sources;
     const auto normal_at = [&](std::size_t i) { return gbuffer_.surfaces[i].normal_ws; };
     const bool alone = looks_up(request()) && sources.subtracted_field == nullptr;
-    look_up(world, *sources.field, alone, gbuffer_, normal_at, queries_, light_.irradiance);
+    const CorrectionUse use = alone ? CorrectionUse::smooth : CorrectionUse::none;
+    look_up(world, *sources.field, use, gbuffer_, normal_at, queries_, light_.irradiance);
     if (sources.subtracted_field != nullptr) {
-      look_up(world, *sources.subtracted_field, alone, gbuffer_, normal_at, queries_, subtracted_);
+      look_up(world, *sources.subtracted_field, use, gbuffer_, normal_at, queries_, subtracted_);
     }
     finish_pass("indirect");
   }

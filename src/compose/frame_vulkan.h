@@ -16,6 +16,7 @@
 #include "compose/motion_records.h"
 #include "compose/pixel_math.h"
 #include "denoise/denoise_vulkan.h"
+#include "field/correction/correction_use.h"
 #include "fog/fog_records.h"
 #include "gather/gather_math.h"
 #include "gather/gather_records.h"
@@ -46,8 +47,6 @@
 #include "vulkan/recorder.h"
 
 namespace lambent {
-
-enum class CorrectionUse : std::uint8_t;
 
 /// Kernels of frames, kept by the device (Device::kept).
 struct FrameKernels {

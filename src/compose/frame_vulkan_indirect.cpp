@@ -38,11 +38,7 @@ void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
   std::vector<FieldQuery> asked(count);
   std::vector<vec3> answers(count);
   vulkan::read(device_, queries, std::span(asked));
-  if (use == CorrectionUse::corrected) {
-    field.irradiance(asked, answers, &request_->world);
-  } else {
-    uncorrected_irradiance(field, asked, answers, request_->world);
-  }
+  look_up_irradiance(field, asked, use, answers, request_->world);
   vulkan::write(device_, std::span<const vec3>(answers), irradiance);
 }
 
@@ -63,7 +59,7 @@ void FramePassesVulkan::indirect() {
   // As on the processor (frame_cpu.cpp), corrections' grain must not come back with what is added
   // to the lookup and filtered with it, or taken out of it
   const bool alone = looks_up(*request_) && sources.subtracted_field == nullptr;
-  const CorrectionUse use = alone ? CorrectionUse::corrected : CorrectionUse::uncorrected;
+  const CorrectionUse use = alone ? CorrectionUse::smooth : CorrectionUse::none;
   add("indirect", ask(0u));
   look_up("indirect", *sources.field, memory_.queries, pixels_, use, memory_.irradiance);
   if (sources.subtracted_field == nullptr) return;
@@ -128,7 +124,7 @@ void FramePassesVulkan::gather() {
                                          0u};
       to.run(kernels_.ray_queries, asked, rays);
     });
-    look_up("gather", *request_->sources.field, m.queries, rays, CorrectionUse::corrected,
+    look_up("gather", *request_->sources.field, m.queries, rays, CorrectionUse::picked,
             m.gathered_field);
     add("gather", [=, this, &m](Recorder& to) {
       // What is filtered is kept with that of other bands

@@ -81,7 +81,7 @@ void IrradianceField::reset() {
 void IrradianceField::irradiance(std::span<const FieldQuery> queries, std::span<glm::vec3> result,
                                  const World* world) const {
   assert(queries.size() == result.size());
-  state_->backend->irradiance(queries, world, CorrectionUse::corrected, result);
+  state_->backend->irradiance(queries, world, CorrectionUse::smooth, result);
 }
 
 std::span<const FieldGrid> IrradianceField::grids() const {
@@ -113,11 +113,10 @@ const ProbeStore& store_of(const IrradianceField& field) {
   return state.data.store;
 }
 
-void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
-                            std::span<glm::vec3> result, const World& world) {
+void look_up_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
+                        CorrectionUse use, std::span<glm::vec3> result, const World& world) {
   assert(queries.size() == result.size());
-  FieldAccess::state_of(field).backend->irradiance(queries, &world, CorrectionUse::uncorrected,
-                                                   result);
+  FieldAccess::state_of(field).backend->irradiance(queries, &world, use, result);
 }
 
 void share_work(IrradianceField& field, Ranks& ranks) {

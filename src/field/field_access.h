@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "field/correction/correction_use.h"
 #include "lambent/field.h"
 
 namespace lambent {
@@ -25,10 +26,11 @@ struct FieldAccess {
 /// The probes' store, brought to the processor's memory where a device holds a newer one.
 const ProbeStore& store_of(const IrradianceField& field);
 
-/// IrradianceField::irradiance without corrections: as smooth as the probes are, for light that is
-/// combined with what other means find of the same pixels.
-void uncorrected_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
-                            std::span<glm::vec3> result, const World& world);
+/// IrradianceField::irradiance, which is by smooth corrections, by any. Without corrections light
+/// is as smooth as the probes are, and can be combined with what other means find of the same
+/// pixels.
+void look_up_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
+                        CorrectionUse use, std::span<glm::vec3> result, const World& world);
 
 /// Parts the work on a field among processes. Each has a field of the same settings over the same
 /// world on the processor that holds no light yet, and makes the same calls of it. What they have

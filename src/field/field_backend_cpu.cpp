@@ -24,7 +24,7 @@ constexpr std::size_t kQueriesPerTask = 4096;
 /// How surfels see probes.
 VisibilityRays visibility_in(const World& world, const ProbeData& data) {
   return {data.settings.visibility, &tracer_of(world), &data.cell_visibility, &data.correction,
-          CorrectionRead::picked};
+          CorrectionUse::picked};
 }
 
 void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& data) {
@@ -264,8 +264,7 @@ class FieldBackendCpu final : public FieldBackend {
                   std::span<vec3> result) const override {
     const RayTracer* tracer = world != nullptr ? &tracer_of(*world) : nullptr;
     const VisibilityRays by = {data_.settings.visibility, tracer, &data_.cell_visibility,
-                               use == CorrectionUse::corrected ? &data_.correction : nullptr,
-                               CorrectionRead::smooth};
+                               use != CorrectionUse::none ? &data_.correction : nullptr, use};
     parallel_chunks(queries.size(), kQueriesPerTask, [&](std::size_t begin, std::size_t end) {
       lookup_irradiance(data_.store, by, queries.subspan(begin, end - begin),
                         result.subspan(begin, end - begin));

@@ -10,6 +10,7 @@
 
 #include "core/parallel.h"
 #include "denoise/variance.h"
+#include "field/field_access.h"
 #include "gather/gather_math.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/world_access.h"
@@ -62,7 +63,7 @@ class GatherChunk {
     for (std::size_t i = 0; i < rays_.size(); ++i) {
       queries[i] = {shaded_[i].point.position_ws, shaded_[i].point.normal_ws, -rays_[i].direction};
     }
-    field.irradiance(queries, from_field, &world_);
+    look_up_irradiance(field, queries, CorrectionUse::picked, from_field, world_);
     const std::span<const vec3> known = request_.known;
     for (std::size_t p = 0; p < pixels_.size(); ++p) {
       const vec3 geometric_normal_ws = request_.surfaces[pixels_[p]].geometric_normal_ws;

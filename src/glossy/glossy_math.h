@@ -151,8 +151,8 @@ LAMBENT_FN vec3 coat_direction(vec3 normal_ws, vec3 to_viewer_ws, float alpha) {
 }
 
 /// Radiance that a surface's base, under its coat, makes of indirect irradiance.
-LAMBENT_FN vec3 reflected_indirect(Reflectance reflectance, vec3 irradiance) {
-  return reflectance.diffuse * (vec3(1.0f) - reflectance.f0) * irradiance * kInvPi;
+LAMBENT_FN vec3 reflected_indirect(Reflectance reflectance, float n_dot_v, vec3 irradiance) {
+  return base_albedo(reflectance, n_dot_v) * irradiance * kInvPi;
 }
 
 /// Radiance that its coat makes of the irradiance on a surface that faces coat_direction(); 0

@@ -10,6 +10,7 @@
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
 #include "scene/media/media.h"
+#include "shared/albedo_shape.h"
 #include "shared/brdf.h"
 #include "shared/color.h"
 #include "shared/rays.h"
@@ -29,6 +30,8 @@ struct LitPoint {
   glm::vec3 position_ws;
   glm::vec3 normal_ws;
   glm::vec3 geometric_normal_ws;
+  /// encode_albedo_shape() where the light is to be reflected by an albedo towards the viewer.
+  uint albedo_shape = 0;
 };
 
 /// How a surface reflects light to a viewer.

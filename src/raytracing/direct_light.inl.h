@@ -3,7 +3,8 @@
 // one a light that is asked, then one a sample of the light tree, which holds emissive triangles
 // and, where they are many, point and spot lights. The includer provides the types
 //   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws;
-//                these are 0 of points in the air, which light reaches from all around
+//                these are 0 of points in the air, which light reaches from all around; and with
+//                the albedo_shape of who reflects by an albedo towards the viewer, else 0
 //   ReceiverRef  what light is to be drawn for: its member `point` is such a point
 //   DrawsRef     lights to draw from
 // and
@@ -21,12 +22,13 @@
 /// after this file.
 LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
 
-/// Irradiance that a candidate brings to a point unless something is in the way [W/m^2].
+/// Irradiance that a candidate brings to a point unless something is in the way [W/m^2]; of points
+/// with an albedo_shape, what an even reflector had to receive to send as much back.
 LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
   float cosine = dot(point.normal_ws, light.to_light);
   float side = dot(point.geometric_normal_ws, light.to_light);
   if (cosine <= 0.0f || side <= 0.0f) return vec3(0.0f);
-  return light.perpendicular_irradiance * cosine;
+  return light.perpendicular_irradiance * (cosine * albedo_towards(point.albedo_shape, cosine));
 }
 
 /// What a surface makes of that for a viewer [W/(m^2 sr)]. `frame` is that of the point's normal,

@@ -139,18 +139,18 @@ TEST_F(Corrections, AreReadAsOnTheProcessor) {
     const vulkan::Buffer out(device(), count * sizeof(vec3), vulkan::Memory::device, "E");
     std::vector<vec3> expected(count), uncorrected(count);
     lookup_irradiance(store, {}, queries, uncorrected);
-    for (const CorrectionRead read : {CorrectionRead::smooth, CorrectionRead::picked}) {
+    for (const CorrectionUse use : {CorrectionUse::smooth, CorrectionUse::picked}) {
       VisibilityRays by;
       by.correction = &table;
-      by.correction_read = read;
+      by.correction_use = use;
       lookup_irradiance(store, by, queries, expected);
       device().run([&](vulkan::Recorder& to) {
         field.record_lookup(to, {in.address()}, count, {out.address()}, nullptr,
-                            field.corrections().arrays(read));
+                            field.corrections().arrays(use));
       });
       const auto found = vulkan::download<vec3>(device(), out);
       // Points at the border of what shares a pick may pick another cell
-      EXPECT_LE(share_off(found, expected), read == CorrectionRead::smooth ? 0.0 : 0.002);
+      EXPECT_LE(share_off(found, expected), use == CorrectionUse::smooth ? 0.0 : 0.002);
       EXPECT_GT(share_off(found, uncorrected), 0.5);
     }
   }

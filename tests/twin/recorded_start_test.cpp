@@ -107,7 +107,7 @@ TEST_F(RecordedStart, ReadsTheCorrectionsOfTheFile) {
   RecordedField field = started(settings);
   const std::vector<vec3> baked = test::look_up(on_cpu, queries);
   std::vector<vec3> uncorrected(queries.size());
-  uncorrected_irradiance(on_cpu, queries, uncorrected, cornell().world);
+  look_up_irradiance(on_cpu, queries, CorrectionUse::none, uncorrected, cornell().world);
   EXPECT_GT(difference(uncorrected, baked), 0.02);
   EXPECT_LE(difference(look_up(field, queries), baked), kSameWords);
   // Surfels read them, too: no light is lost or added at the next bounces

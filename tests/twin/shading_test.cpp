@@ -256,7 +256,7 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
       }
       const Surface surface = surface_at(twin.scene, batch.rays[i], batch.hits[i]);
       records[i] = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                    static_cast<std::uint32_t>(i)};
+                    static_cast<std::uint32_t>(i), 0u};
     }
     points.push_back(vulkan::upload(device(), records, "points"));
     irradiance.emplace_back(device(), records.size() * sizeof(glm::vec3), vulkan::Memory::device,

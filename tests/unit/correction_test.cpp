@@ -46,7 +46,7 @@ CorrectionTable taught(const std::vector<CorrectionSample>& samples) {
 }
 
 float read(const CorrectionTable& table, const vec3& at, const vec3& normal = kUp,
-           CorrectionRead how = CorrectionRead::smooth) {
+           CorrectionUse how = CorrectionUse::smooth) {
   return table.at(grid(), 0, at, normal, how);
 }
 
@@ -93,7 +93,7 @@ TEST(Corrections, ReadFromSingleCellsHaveTheMeanOfInterpolatedOnes) {
   for (int i = 0; i < 20000; ++i) {
     const vec3 at(place(random), 0.01f, place(random));
     smooth += read(table, at);
-    picked += read(table, at, kUp, CorrectionRead::picked);
+    picked += read(table, at, kUp, CorrectionUse::picked);
   }
   EXPECT_NEAR(picked / smooth, 1.0, 0.005);
 }

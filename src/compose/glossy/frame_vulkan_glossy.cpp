@@ -5,7 +5,7 @@
 
 #include "compose/frame_vulkan.h"
 #include "compose/glossy/glossy_frame.h"
-#include "field/correction/correction_table.h"
+#include "field/correction/correction_use.h"
 #include "glossy/glossy_records.h"
 #include "raytracing/camera_rays.h"
 
@@ -30,7 +30,7 @@ void FramePassesVulkan::glossy() {
                                              1u};
     to.run(kernels_.pixel_queries, arguments, pixels_);
   });
-  look_up("glossy", *request_->sources.field, memory_.queries, pixels_, CorrectionUse::corrected,
+  look_up("glossy", *request_->sources.field, memory_.queries, pixels_, CorrectionUse::smooth,
           memory_.mirror_irradiance);
 }
 
@@ -217,7 +217,7 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
                                      {{m.way_diffuse.address()}, {m.way_specular.address()}});
   });
   if (has_field) {
-    look_up(way_pass_, *request_->sources.field, m.way_queries, 2 * ways, CorrectionUse::corrected,
+    look_up(way_pass_, *request_->sources.field, m.way_queries, 2 * ways, CorrectionUse::smooth,
             m.way_answers);
   }
   add(way_pass_, [=, this, &m](Recorder& to) {

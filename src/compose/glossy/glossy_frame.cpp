@@ -230,10 +230,11 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     const std::size_t i = asked_[k];
     const Surface& surface = met_.surfaces[i];
     const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
-    const vec3 light = k < of_bases
-                           ? reflected_indirect(surface.reflectance, surface.gi_share * answers_[k])
-                           : coat_light(surface.reflectance, n_dot_v, surface.gi_share,
-                                        vec4(0.0f, 0.0f, 0.0f, met_.coat_shares[i]), answers_[k]);
+    const vec3 light =
+        k < of_bases
+            ? reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * answers_[k])
+            : coat_light(surface.reflectance, n_dot_v, surface.gi_share,
+                         vec4(0.0f, 0.0f, 0.0f, met_.coat_shares[i]), answers_[k]);
     rays_[i].radiance += paths_[i].throughput * light;
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);

@@ -32,17 +32,18 @@ void main() {
   LitPointRecord point = args.points.at[i];
   vec3 diffuse = args.diffuse.at[i];
   vec3 glossy = args.specular.at[i];
+  float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   vec3 indirect = vec3(0.0f);
   if ((args.has & kHasIndirect) != 0u && surface.gi_share > 0.0) {
     if ((args.has & kIsFiltered) == 0u) {
       vec3 irradiance =
           indirect_share(surface.gi_share, args.has & kIsLookedUp) * args.irradiance.at[i];
-      indirect = reflected_indirect(surface.reflectance, irradiance);
+      indirect = reflected_indirect(surface.reflectance, n_dot_v, irradiance);
       layers.irradiance += args.share * irradiance;
     }
     vec4 coats = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
-    glossy += coat_light(surface.reflectance, dot(point.normal_ws, surface.to_viewer_ws),
-                         surface.gi_share, coats, args.mirror_irradiance.at[i]);
+    glossy += coat_light(surface.reflectance, n_dot_v, surface.gi_share, coats,
+                         args.mirror_irradiance.at[i]);
   }
   vec3 transmitted = vec3(0.0f);
   if ((args.has & kHasTransmission) != 0u) transmitted = args.transmitted.at[i].radiance;

@@ -49,7 +49,8 @@ void main() {
     float share = seen ? surface.gi_share : 0.0f;
     args.pixels.at[0].looked_up.at[pixel] = seen ? share * args.irradiance.at[i] : vec3(0.0f);
     args.pixels.at[0].receives.at[pixel] = share > 0.0f ? 1u : 0u;
+    float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
     args.pixels.at[0].indirect_albedo.at[pixel] =
-        seen ? passed * reflected_indirect(surface.reflectance, vec3(1.0f)) : vec3(0.0f);
+        seen ? passed * reflected_indirect(surface.reflectance, n_dot_v, vec3(1.0f)) : vec3(0.0f);
   }
 }

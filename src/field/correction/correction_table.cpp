@@ -106,12 +106,13 @@ void CorrectionTable::make_room() {
 
 __attribute__((flatten)) float CorrectionTable::at(const ProbeGrid& grid, int volume,
                                                    const vec3& position_ws, const vec3& normal_ws,
-                                                   CorrectionRead read) const {
+                                                   CorrectionUse use) const {
+  assert(use != CorrectionUse::none);
   if (empty_) return 1.0f;
   const Corrections table = {keys_.data(), refined_.data(),
                              static_cast<uint>(keys_.size() / kCorrectionBucket)};
   const uint of = static_cast<uint>(volume);
-  if (read == CorrectionRead::smooth) return correction_at(table, grid, of, position_ws, normal_ws);
+  if (use == CorrectionUse::smooth) return correction_at(table, grid, of, position_ws, normal_ws);
   return picked_correction(table, grid, of, position_ws, normal_ws);
 }
 

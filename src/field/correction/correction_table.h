@@ -9,6 +9,7 @@
 
 #include "core/ranks.h"
 #include "field/correction/correction_math.h"
+#include "field/correction/correction_use.h"
 
 namespace lambent {
 
@@ -26,15 +27,6 @@ struct CorrectionSample {
 struct CorrectionBlock {
   CorrectionKey key;
   std::array<LearnedCorrection, kCellCorners> cells;
-};
-
-/// Whether a lookup is corrected by what the field has learned of how far it is off.
-enum class CorrectionUse : std::uint8_t { corrected, uncorrected };
-
-/// How lookups read the table.
-enum class CorrectionRead : std::uint8_t {
-  smooth,  ///< Interpolated between cells.
-  picked,  ///< One cell each, picked at random: for many lookups whose mean counts.
 };
 
 /// A hash table of blocks of cells on surfaces.
@@ -58,7 +50,7 @@ class CorrectionTable {
   bool empty() const { return empty_; }
   /// See correction_at() and picked_correction().
   float at(const ProbeGrid& grid, int volume, const vec3& position_ws, const vec3& normal_ws,
-           CorrectionRead read) const;
+           CorrectionUse use) const;
 
   /// Adds the samples of update `number`, each to a cell of every level. Samples of blocks for
   /// which there is no room are lost. The order of samples does not matter.

@@ -45,10 +45,10 @@ DeviceCorrections::DeviceCorrections(const vulkan::Device& device, int probes)
       probes_(probes),
       buckets_(kCorrectionBucketsPerProbe * static_cast<uint>(probes)) {}
 
-CorrectionArrays DeviceCorrections::arrays(CorrectionRead read) const {
-  if (empty()) return {};
+CorrectionArrays DeviceCorrections::arrays(CorrectionUse use) const {
+  if (empty() || use == CorrectionUse::none) return {};
   return {
-      {keys_.address()}, {refined_.address()}, buckets_, read == CorrectionRead::picked ? 1u : 0u};
+      {keys_.address()}, {refined_.address()}, buckets_, use == CorrectionUse::picked ? 1u : 0u};
 }
 
 std::size_t DeviceCorrections::bytes() const {
@@ -124,7 +124,7 @@ void DeviceCorrections::record_refine(vulkan::Recorder& to) const {
     run_in_rows(
         to, kernels_.refine,
         RefineCorrectionsArguments{
-            arrays(CorrectionRead::smooth), {learned_.address()}, static_cast<uint>(level), 0u},
+            arrays(CorrectionUse::smooth), {learned_.address()}, static_cast<uint>(level), 0u},
         slots() * kCellCorners);
   }
 }

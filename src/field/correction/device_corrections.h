@@ -26,7 +26,7 @@ class DeviceCorrections {
   DeviceCorrections(const vulkan::Device& device, int probes);
 
   /// What lookups read; none while the table is empty.
-  CorrectionArrays arrays(CorrectionRead read) const;
+  CorrectionArrays arrays(CorrectionUse use) const;
   bool empty() const { return keys_.empty(); }
   std::size_t bytes() const;
 

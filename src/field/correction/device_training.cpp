@@ -106,7 +106,7 @@ void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::
          rays);
   to.barrier();
   field_.record_lookup(to, {hit_queries_.address()}, rays, {arrives_.address()}, &world.tracer(),
-                       field_.corrections().arrays(CorrectionRead::picked));
+                       field_.corrections().arrays(CorrectionUse::picked));
 }
 
 /// Makes samples of the points at hand, and replaces the points by those that follow.

@@ -164,7 +164,7 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
     const Surfel& surfel = trace.surfels[i];
     if (!surfel.reflects() || retraced_[i] != 0) continue;
     const LitPoint point = {surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                            decode_unit_vector(surfel.geometric_normal_ws)};
+                            decode_unit_vector(surfel.geometric_normal_ws), surfel.albedo_shape};
     if (!may_change_light(world_, edits_, point)) continue;
     queries_.push_back({point, first_ray_index(probe) + i});
     places_.push_back(static_cast<int>(i));

@@ -84,7 +84,7 @@ void correct_weights(const ProbeStore& store, const VisibilityRays& by,
     const FieldQuery& query = queries[weights.query[i]];
     const int volume = static_cast<int>(corners.table) / kCellWraps;
     const float ratio = by.correction->at(store.grid(volume), volume, query.position_ws,
-                                          query.normal_ws, by.correction_read);
+                                          query.normal_ws, by.correction_use);
     for (float& weight : corners.weight) weight *= ratio;
   }
 }

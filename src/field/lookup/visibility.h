@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "field/correction/correction_use.h"
 #include "field/lookup/lookup_cpu.h"
 #include "field/probes/probe_store.h"
 #include "raytracing/raytracer.h"
@@ -13,7 +14,6 @@
 namespace lambent {
 
 class CorrectionTable;
-enum class CorrectionRead : std::uint8_t;
 
 /// Which probes of each cell see each other, found with rays. Where the probes that have a weight
 /// for a point see each other, no wall runs between them, and their stored distances can be
@@ -45,7 +45,7 @@ struct VisibilityRays {
   const RayTracer* tracer = nullptr;                ///< Null: visibility is by distances only.
   const CellVisibility* cell_visibility = nullptr;  ///< Required for hybrid visibility.
   const CorrectionTable* correction = nullptr;      ///< Null: lookups are not corrected.
-  CorrectionRead correction_read{};                 ///< How the table is read.
+  CorrectionUse correction_use{};                   ///< How the table is read.
 };
 
 /// Computes the weights for each query in one volume. Single-threaded. Returns the number of rays

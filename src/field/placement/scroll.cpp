@@ -34,7 +34,7 @@ void interpolate_tiles(const ProbeData& data, const FieldBackend& backend,
         const vec3 direction = tile_direction(texel, edge);
         queries[t] = {places_ws[k], direction, direction};
       }
-      backend.irradiance(queries, nullptr, CorrectionUse::uncorrected, irradiance);
+      backend.irradiance(queries, nullptr, CorrectionUse::none, irradiance);
       for (std::size_t t = 0; t < texels; ++t) at_centres[t] = vec4(irradiance[t], 0.0f);
       data.tile_fit.apply4(&at_centres[0].x, &tiles[k * texels].x);
     }

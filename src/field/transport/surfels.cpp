@@ -41,7 +41,8 @@ Surfel make_surfel(const ShadedHit& hit) {
           surfel.light,
           surfel.geometric_normal_ws,
           static_cast<SurfelKind>(surfel.kind),
-          surfel.gi_share};
+          surfel.gi_share,
+          hit.point.albedo_shape};
 }
 
 Ray probe_ray(const vec3& origin_ws, const vec3& direction) {

@@ -34,6 +34,7 @@ struct Surfel {
   uint geometric_normal_ws;  ///< Packed, towards the probe.
   SurfelKind kind;
   float gi_share;  ///< Share of the field's irradiance that it receives, 0 to 1; as in Surface.
+  uint albedo_shape = 0;  ///< As of LitPoint.
 
   bool operator==(const Surfel&) const = default;
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }

@@ -133,7 +133,7 @@ void FieldResources::record_lookups(vulkan::Recorder& to, const DeviceProbes& li
   };
   const LookupArray lookups{lookup_records_.address()};
   const FindLookupsArguments arguments = {store(), points(0, list.count()), lookups,
-                                          corrections_.arrays(CorrectionRead::picked)};
+                                          corrections_.arrays(CorrectionUse::picked)};
   run_over(to, kernels_.find_lookups, arguments, list, kOverRays);
   to.barrier();
   if (!cell_visibility_ || tracer == nullptr) return;

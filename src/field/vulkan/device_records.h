@@ -56,7 +56,7 @@ struct CorrectionArrays {
   CorrectionKeyArray keys;  ///< By slot.
   UintArray refined;        ///< kCellCorners for each slot.
   uint buckets;             ///< 0: nothing is known, and there are no arrays.
-  uint picked;              ///< 1: lookups read single cells, as CorrectionRead::picked.
+  uint picked;              ///< 1: lookups read single cells, as CorrectionUse::picked.
 };
 
 /// The probes that a pass works on: their indices, and the ray sets that they traced last.

@@ -256,7 +256,7 @@ std::size_t UpdateMemory::bytes() const {
 }
 
 void RecordedField::State::write_record() const {
-  const FieldRecord lookup = {field.store(), field.corrections().arrays(CorrectionRead::smooth),
+  const FieldRecord lookup = {field.store(), field.corrections().arrays(CorrectionUse::smooth),
                               field.volumes(), 0};
   vulkan::write(*device, std::span(&lookup, 1), record);
 }

@@ -69,10 +69,8 @@ void VulkanFieldBackend::record_lookups(Recorder& recorder, const World* world,
     recorder.bind_textures(device_world_of(*world)->scene().textures());
     tracer = &device_world_of(*world)->tracer();
   }
-  const CorrectionArrays corrections = use == CorrectionUse::corrected
-                                           ? field_.corrections().arrays(CorrectionRead::smooth)
-                                           : CorrectionArrays{};
-  field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer, corrections);
+  field_.record_lookup(recorder, {queries}, count, {irradiance}, tracer,
+                       field_.corrections().arrays(use));
 }
 
 std::unique_ptr<FieldBackend> make_field_backend_vulkan(const World& world, ProbeData& data) {

@@ -24,7 +24,7 @@ void main() {
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
-      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
+      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u);
   if (missed(hit)) {
     args.points.at[i] = point;
     ShadedHitRecord sky =
@@ -39,6 +39,7 @@ void main() {
   point.position_ws = surface.position_ws;
   point.normal_ws = surface.normal_ws;
   point.geometric_normal_ws = surface.geometric_normal_ws;
+  point.albedo_shape = encode_albedo_shape(surface.reflectance);
   bool from_inside = args.discounts_solid_sides != 0u && is_solid_side(hit);
   ShadedHitRecord shaded =
       shaded_surface(surface, ray.direction_ws, args.max_albedo, from_inside ? 1u : 0u);

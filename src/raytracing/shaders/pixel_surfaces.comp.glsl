@@ -18,7 +18,7 @@ void main() {
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
-      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight);
+      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
                                                 -ray.direction_ws, no_transmission(),
                                                 kSurfaceMissed, 0.0f, 0.0f);
@@ -27,7 +27,7 @@ void main() {
   } else {
     Surface surface = surface_at(args.scene, ray.direction_ws, hit, 0.0f);
     point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                           args.first_index + i);
+                           args.first_index + i, 0u);
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
     pixel.transmission = surface.transmission;

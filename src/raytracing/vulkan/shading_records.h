@@ -6,6 +6,7 @@
 #include "raytracing/shaded_hit.h"
 #include "raytracing/vulkan/scene_records.h"
 #include "scene/media/medium.h"
+#include "shared/albedo_shape.h"
 
 LAMBENT_BEGIN
 
@@ -19,6 +20,7 @@ struct LitPointRecord {
   vec3 normal_ws;            ///< Unit, on the lit side.
   vec3 geometric_normal_ws;  ///< Unit, likewise.
   uint random_index;         ///< Picks its random numbers; kAsksForNoLight: nothing is asked.
+  uint albedo_shape;         ///< As of LitPoint.
 };
 
 /// What a camera ray met but for its point; as struct Surface of surface.h.
