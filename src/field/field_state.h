@@ -47,6 +47,8 @@ struct IrradianceField::State {
   void move_to(const World& world, UpdateStatistics& statistics);
   std::vector<int> all_probes() const;
   std::uint64_t ray_budget(const UpdateRequest& request) const;
+  void end_warm_up(UpdateStatistics& statistics);
+  void weigh_importance(std::span<const FieldQuery> seen);
   std::uint64_t edit_budget(const UpdateRequest& request) const;
   std::uint64_t budget_after_edits(const UpdateRequest& request, std::uint64_t spent,
                                    double spent_ms) const;

@@ -261,6 +261,23 @@ std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
   return group_by_rays(schedule, settings, update);
 }
 
+/// Computes how much each probe matters to the points that the camera sees.
+void IrradianceField::State::weigh_importance(std::span<const FieldQuery> seen) {
+  backend->fetch_store();
+  scheduling.importance =
+      probe_importance(data.store, seen, [&](std::span<const float> received, float least) {
+        return backend->scatter_importance(received, least);
+      });
+}
+
+/// Solves once more as soon as all probes have been traced.
+void IrradianceField::State::end_warm_up(UpdateStatistics& statistics) {
+  if (!scheduling.warming_up || scheduling.scheduler.never_traced() > 0) return;
+  // Probes that were traced while others held no light yet have received a part of the bounces only
+  if (updates > 0 && settings.max_bounces < 0) solve_warm_up(statistics);
+  scheduling.warming_up = false;
+}
+
 UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest& request) {
   State& s = *state_;
   UpdateStatistics statistics;
@@ -276,11 +293,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
 
   s.scheduling.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
-    s.backend->fetch_store();
-    s.scheduling.importance = probe_importance(
-        s.data.store, request.seen, [&](std::span<const float> received, float least) {
-          return s.backend->scatter_importance(received, least);
-        });
+    s.weigh_importance(request.seen);
     timer.finish(field_pass::kSchedule);
   }
 
@@ -296,9 +309,10 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   }
   s.forget_corrections(progress);
   const double forgotten_ms = whole.lap();
-  const std::uint64_t left =
-      budget == 0 ? 0
-                  : s.budget_after_edits(request, spent, before_edits_ms + edits_ms + forgotten_ms);
+  // Without edits, what comes before the rays is part of their cost
+  const double spent_ms =
+      progress == EditProgress::none ? 0.0 : before_edits_ms + edits_ms + forgotten_ms;
+  const std::uint64_t left = budget == 0 ? 0 : s.budget_after_edits(request, spent, spent_ms);
   // Tracing is put off while stale probes are left: new surfels could no longer be compared with
   // those from before the edits
   const bool trace =
@@ -312,12 +326,7 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   }
 
   s.scheduling.scheduler.refresh(s.data.store, s.statuses);
-  if (s.scheduling.warming_up && s.scheduling.scheduler.never_traced() == 0) {
-    // Probes that were traced while others held no light yet have received a part of the bounces
-    // only
-    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);
-    s.scheduling.warming_up = false;
-  }
+  s.end_warm_up(statistics);
   ++s.updates;
   statistics.states = s.scheduling.scheduler.states();
   // Learn the cost of a probe ray, with its shadow rays and everything else included

@@ -368,7 +368,7 @@ TEST(FieldEdit, IsNotHeldUpByWhatLearningCorrectionsTakes) {
   Edited edited("cornell-spot", settings, 0);
   // Enough for the edit, but not if its rays are thought to cost as much as those that corrections
   // are learned with
-  const UpdateRequest request{.time_budget_ms = 50.0};
+  const UpdateRequest request{.time_budget_ms = 5.0};
   for (int i = 0; i < 8; ++i) edited.field.update(edited.world, request);
   const double before = mean(light_of(edited.field));
   edited.scene.lights[0].intensity *= 0.25f;
