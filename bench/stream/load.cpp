@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -119,7 +120,7 @@ int run(const Options& options) {
 }  // namespace
 }  // namespace lambent::stream_load
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   lambent::stream_load::Options options;
   CLI::App app("Loads a server of light (lambent serve) with clients, and prints a table");
   app.add_option("--host", options.address.host, "Address of the server")->capture_default_str();
@@ -140,4 +141,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   return lambent::stream_load::run(options);
+} catch (const std::exception& failure) {
+  std::fprintf(stderr, "lambent_stream_load: %s\n", failure.what());
+  return 1;
 }
