@@ -38,7 +38,7 @@ constexpr const char* kExamples =
 
 // Frames over which light is averaged, as in sequences: each counts a tenth.
 constexpr int kAveragedFrames = 10;
-constexpr int kMaxClients = 1000;
+constexpr int kMaxClients = 10'000;
 
 struct Options {
   StageOptions stage;
@@ -49,6 +49,7 @@ struct Options {
   std::string exposure = "auto", tone_map = "aces";
   double max_megabits = 20.0;
   double idle_s = 20.0;
+  int picture_clients = -1;  // below 0: as many as clients
   int updates = 8;
   std::uint32_t seed = 1;
   int threads = 0;  // 0: all
@@ -89,16 +90,17 @@ Expected<stream::PictureSettings> picture_settings(const Options& options) {
 }
 
 /// Fails where the renderers of all clients would not fit.
-Expected<void> check_memory(const Options& options, const glm::uvec2& size) {
+Expected<void> check_memory(const Options& options, std::size_t clients, const glm::uvec2& size) {
   RenderOptions picture;
   picture.quality = options.quality;
   const std::uint64_t one = picture_bytes(picture, glm::ivec2(size));
   const std::uint64_t available = available_memory();
-  if (one * options.server.max_clients <= available) return {};
-  return fail("--clients", std::to_string(options.server.max_clients),
+  if (one * clients <= available) return {};
+  return fail(options.picture_clients < 0 ? "--clients" : "--picture-clients",
+              std::to_string(clients),
               "their pictures take " + lambent::bytes_text(one) + " each, and " +
                   lambent::bytes_text(available) +
-                  " are left; take fewer clients or a smaller --size",
+                  " are left; take fewer clients of pictures or a smaller --size",
               Error::Kind::failed);
 }
 
@@ -139,7 +141,12 @@ Expected<void> serve(const Options& options) {
   if (const auto fine = check(options); !fine) return fine;
   const auto pictures = picture_settings(options);
   if (!pictures) return tl::unexpected(pictures.error());
-  if (const auto fits = check_memory(options, pictures->limits.size); !fits) return fits;
+  const std::size_t picture_clients = options.picture_clients < 0
+                                          ? options.server.max_clients
+                                          : static_cast<std::size_t>(options.picture_clients);
+  if (const auto fits = check_memory(options, picture_clients, pictures->limits.size); !fits) {
+    return fits;
+  }
   const ThreadLimit limit(options.threads);
 
   begin_step("reading the scene");
@@ -167,6 +174,7 @@ Expected<void> serve(const Options& options) {
   update_field(world, options.updates, request, *field, terminal_progress(), stats);
 
   stream::ServerSettings settings = options.server;
+  settings.max_picture_clients = picture_clients;
   settings.world.pictures = *pictures;
   constexpr double kMsOfSecond = 1000.0;
   // No picture keeps the light waiting for much longer than an update's interval, in the mean
@@ -208,6 +216,12 @@ void add_listen_options(CLI::App& command, Options& o) {
   command.add_option("--clients", o.server.max_clients, "Clients at a time")
       ->check(whole_number(1, kMaxClients))
       ->capture_default_str()
+      ->type_name("N");
+  command
+      .add_option(
+          "--picture-clients", o.picture_clients,
+          "Of these, clients of pictures, which take memory; 0: none (as many as --clients)")
+      ->check(whole_number(0, kMaxClients))
       ->type_name("N");
   command
       .add_option("--origin", listen.origins,

@@ -47,6 +47,11 @@ struct IrradianceField::State {
   void move_to(const World& world, UpdateStatistics& statistics);
   std::vector<int> all_probes() const;
   std::uint64_t ray_budget(const UpdateRequest& request) const;
+  void end_warm_up(UpdateStatistics& statistics);
+  void weigh_importance(std::span<const FieldQuery> seen);
+  std::uint64_t edit_budget(const UpdateRequest& request) const;
+  std::uint64_t budget_after_edits(const UpdateRequest& request, std::uint64_t spent,
+                                   double spent_ms) const;
   std::vector<TraceGroup> schedule(std::uint64_t budget, const std::optional<vec3>& viewer_ws);
 
   /// Seed of the dither with which this update stores its results.
@@ -97,6 +102,7 @@ struct IrradianceField::State {
                             std::span<const int> probes, std::span<const int> all,
                             UpdateStatistics& statistics);
   /// Lets what averages and corrections learned of light that pending edits changed count less.
+  void forget_corrections(EditProgress progress);
   void reduce_history();
   void solve_edited(UpdateStatistics& statistics);
   /// Stores solved light where it differs visibly from the light before, and restores the old light

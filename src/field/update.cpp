@@ -3,11 +3,13 @@
 // al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields", JCGT 8(2), 2019.
 // The order of an update of the irradiance field, written once for all executors.
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/pass_times.h"
 #include "field/edits/history_ratio.h"
+#include "field/edits/scene_edits.h"
 #include "field/field_state.h"
 #include "field/passes.h"
 #include "field/schedule/importance.h"
@@ -227,6 +229,26 @@ std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) c
   return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
 }
 
+/// Computes how many rays edits may take; 0 means any number. Their rays are cheaper than those
+/// that corrections are learned with, and more so than what a time of both allows.
+std::uint64_t IrradianceField::State::edit_budget(const UpdateRequest& request) const {
+  if (settings.max_bounces >= 0) return 0;
+  if (!(request.time_budget_ms > 0.0)) return request.ray_budget;
+  const std::uint64_t learned = scheduling.edit_cost.rays_within(request.time_budget_ms);
+  return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
+}
+
+/// Computes how many rays are left of a budget once edits have taken so many rays and so long.
+std::uint64_t IrradianceField::State::budget_after_edits(const UpdateRequest& request,
+                                                         std::uint64_t spent,
+                                                         double spent_ms) const {
+  std::uint64_t left = std::numeric_limits<std::uint64_t>::max();
+  if (request.ray_budget != 0) left = request.ray_budget - std::min(request.ray_budget, spent);
+  if (!(request.time_budget_ms > 0.0)) return left;
+  const double left_ms = request.time_budget_ms - spent_ms;
+  return left_ms > 0.0 ? std::min(left, scheduling.ray_cost.rays_within(left_ms)) : 0;
+}
+
 /// Chooses the probes that an update traces and draws their rays.
 std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
                                                          const std::optional<vec3>& viewer_ws) {
@@ -237,6 +259,23 @@ std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
                   : scheduling.scheduler.choose(data.store, budget, update + 1, viewer_ws,
                                                 scheduling.importance);
   return group_by_rays(schedule, settings, update);
+}
+
+/// Computes how much each probe matters to the points that the camera sees.
+void IrradianceField::State::weigh_importance(std::span<const FieldQuery> seen) {
+  backend->fetch_store();
+  scheduling.importance =
+      probe_importance(data.store, seen, [&](std::span<const float> received, float least) {
+        return backend->scatter_importance(received, least);
+      });
+}
+
+/// Solves once more as soon as all probes have been traced.
+void IrradianceField::State::end_warm_up(UpdateStatistics& statistics) {
+  if (!scheduling.warming_up || scheduling.scheduler.never_traced() > 0) return;
+  // Probes that were traced while others held no light yet have received a part of the bounces only
+  if (updates > 0 && settings.max_bounces < 0) solve_warm_up(statistics);
+  scheduling.warming_up = false;
 }
 
 UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest& request) {
@@ -254,41 +293,46 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
 
   s.scheduling.importance.clear();
   if (budget > 0 && !request.seen.empty()) {
-    s.backend->fetch_store();
-    s.scheduling.importance = probe_importance(
-        s.data.store, request.seen, [&](std::span<const float> received, float least) {
-          return s.backend->scatter_importance(received, least);
-        });
+    s.weigh_importance(request.seen);
     timer.finish(field_pass::kSchedule);
   }
 
-  const EditProgress progress = s.apply_scene_edits(world, budget, viewer_ws, statistics);
+  const double before_edits_ms = whole.lap();
+  const EditProgress progress =
+      s.apply_scene_edits(world, s.edit_budget(request), viewer_ws, statistics);
   timer.skip();
+  const double edits_ms = whole.lap();
   const std::uint64_t spent = statistics.probe_rays + statistics.shadow_rays;
+  const std::uint64_t edit_rays = statistics.probe_rays;
+  if (progress != EditProgress::none) {
+    s.scheduling.edit_cost.learn(edit_work(statistics), edits_ms);
+  }
+  s.forget_corrections(progress);
+  const double forgotten_ms = whole.lap();
+  // Without edits, what comes before the rays is part of their cost
+  const double spent_ms =
+      progress == EditProgress::none ? 0.0 : before_edits_ms + edits_ms + forgotten_ms;
+  const std::uint64_t left = budget == 0 ? 0 : s.budget_after_edits(request, spent, spent_ms);
   // Tracing is put off while stale probes are left: new surfels could no longer be compared with
   // those from before the edits
   const bool trace =
       progress != EditProgress::partial &&
-      (budget == 0 ? progress == EditProgress::none || s.edits.applied_last : spent < budget);
+      (budget == 0 ? progress == EditProgress::none || s.edits.applied_last : left > 0);
   s.edits.applied_last = progress != EditProgress::none && !trace;
   if (trace) {
-    std::vector<TraceGroup> groups = s.schedule(budget == 0 ? 0 : budget - spent, viewer_ws);
+    std::vector<TraceGroup> groups = s.schedule(left, viewer_ws);
     timer.finish(field_pass::kSchedule);
     s.trace(world, std::move(groups), statistics);
   }
 
   s.scheduling.scheduler.refresh(s.data.store, s.statuses);
-  if (s.scheduling.warming_up && s.scheduling.scheduler.never_traced() == 0) {
-    // Probes that were traced while others held no light yet have received a part of the bounces
-    // only
-    if (s.updates > 0 && s.settings.max_bounces < 0) s.solve_warm_up(statistics);
-    s.scheduling.warming_up = false;
-  }
+  s.end_warm_up(statistics);
   ++s.updates;
   statistics.states = s.scheduling.scheduler.states();
   // Learn the cost of a probe ray, with its shadow rays and everything else included
-  if (trace && progress == EditProgress::none) {
-    s.scheduling.ray_cost.learn(statistics.probe_rays, whole.lap());
+  if (trace) {
+    const double rays_ms = whole.lap() + (progress == EditProgress::none ? before_edits_ms : 0.0);
+    s.scheduling.ray_cost.learn(statistics.probe_rays - edit_rays, rays_ms);
   }
   return statistics;
 }

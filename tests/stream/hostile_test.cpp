@@ -192,6 +192,20 @@ TEST(Hostile, NoMoreClientsThanMayBe) {
   }
 }
 
+TEST(Hostile, NoMoreClientsOfPicturesThanHaveMemory) {
+  ServerSettings settings = ServedScene::small_settings();
+  settings.max_clients = 3;
+  settings.max_picture_clients = 1;
+  const ServedScene served(settings);
+  const auto first = join(served.address(), small_hello());
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(join(served.address(), small_hello()));
+  Hello light = small_hello();
+  light.wants = kWantsLight;
+  const auto second = join(served.address(), light);
+  EXPECT_TRUE(second) << "light takes no renderer";
+}
+
 TEST(Http, ServesThePageAndHowItFares) {
   const ServedScene served;
   const std::string page = http_get(served.port(), "/");

@@ -129,7 +129,8 @@ TEST(LightStream, EditsOfOthersReachTheCopyWithTheirLight) {
   LightClient client(served.address());
   auto editor = join(served.address(), test::small_hello());
   ASSERT_TRUE(editor);
-  ASSERT_TRUE(client.follow());
+  // Until the light has settled: on a machine under load an update traces few probes
+  for (int i = 0; i < 20; ++i) ASSERT_TRUE(client.follow());
   const double before = mean(client.light());
   ASSERT_TRUE(editor->client->send(lamp(1, 0.25f)));
   const glm::vec3 dimmed = 0.25f * scenes::make("cornell-spot")->lights[0].intensity;
@@ -248,9 +249,9 @@ TEST_F(LightLink, BeginsWithAllAndGoesOnWithChanges) {
   ASSERT_TRUE(link.next({}));
   EXPECT_EQ(link.need_light(), LightNeed::changes);
   put(6, LightNeed::changes);
-  EXPECT_EQ(link.need_light(), LightNeed::nothing) << "one waits to be written";
+  EXPECT_EQ(link.need_light(), LightNeed::changes) << "one waits to be written, and is followed";
   ASSERT_TRUE(link.next({}));
-  EXPECT_EQ(link.need_light(), LightNeed::all) << "it was left out";
+  EXPECT_EQ(link.need_light(), LightNeed::changes);
 }
 
 TEST_F(LightLink, NoMoreUpdatesAreUnderWayThanTheWindow) {

@@ -214,7 +214,7 @@ TEST(ServerTls, EncryptsAndIsKnownByItsCertificate) {
 
 TEST(ServerStart, FailsWithTheCauseWhereItCannotListen) {
   const ServedScene first;
-  Hub hub(1);
+  Hub hub(1, 1);
   ListenSettings settings;
   settings.port = first.port();
   const auto taken = Listener::open(settings, hub);

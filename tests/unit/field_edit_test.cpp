@@ -362,5 +362,22 @@ TEST(FieldEdit, SameBitsOnAnyNumberOfThreads) {
   EXPECT_TRUE(words_on_threads(4) == one);
 }
 
+TEST(FieldEdit, IsNotHeldUpByWhatLearningCorrectionsTakes) {
+  FieldSettings settings = Edited::few();
+  settings.corrections = true;
+  Edited edited("cornell-spot", settings, 0);
+  // Enough for the edit, but not if its rays are thought to cost as much as those that corrections
+  // are learned with
+  const UpdateRequest request{.time_budget_ms = 5.0};
+  for (int i = 0; i < 8; ++i) edited.field.update(edited.world, request);
+  const double before = mean(light_of(edited.field));
+  edited.scene.lights[0].intensity *= 0.25f;
+  ASSERT_TRUE(edited.world.update());
+  const UpdateStatistics first = edited.field.update(edited.world, request);
+  EXPECT_GE(first.probes_invalidated, first.states.vigilant);
+  // Open air follows in the updates to come
+  EXPECT_NEAR(mean(light_of(edited.field)), 0.25 * before, 0.05 * before);
+}
+
 }  // namespace
 }  // namespace lambent

@@ -241,6 +241,8 @@ void CorrectionTable::restore(std::span<const CorrectionBlock> blocks, float wei
 }
 
 void CorrectionTable::forget(std::span<const ProbeGrid> grids, std::span<const float> kept) {
+  // Refining takes long, and most edits of a world that is edited without end change little light
+  if (std::all_of(kept.begin(), kept.end(), [](float share) { return share >= 1.0f; })) return;
   parallel_chunks(learned_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t slot = first_slot_ + begin; slot < first_slot_ + end; ++slot) {
       if (keys_[slot].rest == 0) continue;

@@ -34,10 +34,6 @@
 namespace lambent {
 namespace {
 
-// Testing a probe's surfels against edits costs about as much as tracing this many rays, even where
-// nothing has to be traced.
-constexpr std::uint64_t kRaysPerInvalidation = 8;
-
 // An update brings one in this many of the stale sleeping probes up to date. Open air lags behind
 // an edit by at most as many updates, and a scene that is edited in every update costs little more.
 constexpr std::size_t kSleepingSlices = 8;
@@ -45,6 +41,10 @@ constexpr std::size_t kSleepingSlices = 8;
 // A probe that lags behind the world by more revisions than this is brought up to date before all
 // others.
 constexpr std::uint64_t kOverdueRevisions = 16;
+
+// While every update brings edits, corrections forget in one of so many updates: in a fraction of
+// the time in which they learned.
+constexpr int kForgetInterval = 16;
 
 /// The oldest revision for which the world's log still tells all later changes.
 std::uint64_t oldest_known_revision(const World& world) {
@@ -266,8 +266,25 @@ StaleProbes IrradianceField::State::find_stale_probes(const World& world) {
 /// Lets what averages and corrections have learned of light that the pending edits changed count
 /// less.
 void IrradianceField::State::reduce_history() {
-  backend->forget_corrections(lambent::reduce_history(edits.pending, data.light, data.tile_texels(),
-                                                      statuses, scheduling.scheduler));
+  std::vector<float> counts = lambent::reduce_history(edits.pending, data.light, data.tile_texels(),
+                                                      statuses, scheduling.scheduler);
+  if (edits.to_forget.empty()) {
+    edits.to_forget = std::move(counts);
+    return;
+  }
+  for (std::size_t probe = 0; probe < counts.size(); ++probe) {
+    edits.to_forget[probe] *= counts[probe];
+  }
+}
+
+/// Has corrections forget what edits made untrue: at once after an edit, and now and then in a
+/// world that is edited without end, since they are then all refined again.
+void IrradianceField::State::forget_corrections(EditProgress progress) {
+  const bool often = edits.forgot_at > 0 && updates - edits.forgot_at < kForgetInterval;
+  if (edits.to_forget.empty() || (often && progress != EditProgress::none)) return;
+  backend->forget_corrections(edits.to_forget);
+  edits.to_forget.clear();
+  edits.forgot_at = updates + 1;
 }
 
 /// Keeps the light before the edits, while light and surfels still belong to the same world.
@@ -310,7 +327,7 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
     stale.waiting.erase(stale.waiting.begin(),
                         stale.waiting.begin() + static_cast<std::ptrdiff_t>(slice.probes.size()));
     updated.insert(updated.end(), slice.probes.begin(), slice.probes.end());
-    spent = statistics.probe_rays + statistics.shadow_rays + kRaysPerInvalidation * updated.size();
+    spent = edit_work(statistics);
   }
   std::sort(updated.begin(), updated.end());
   std::vector<int> merged;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "field/transport/anderson.h"
+#include "lambent/field.h"
 
 namespace lambent {
 
@@ -25,6 +26,16 @@ struct PendingEdits {
 /// left, or all stale probes have been brought up to date.
 enum class EditProgress { none, partial, complete };
 
+// Testing a probe's surfels against edits costs about as much as tracing this many rays, even where
+// nothing has to be traced.
+inline constexpr std::uint64_t kRaysPerInvalidation = 8;
+
+/// What the edits of an update took so far, in rays.
+inline std::uint64_t edit_work(const UpdateStatistics& statistics) {
+  return statistics.probe_rays + statistics.shadow_rays +
+         kRaysPerInvalidation * static_cast<std::uint64_t>(statistics.probes_invalidated);
+}
+
 /// The probes that have been traced at all, and those whose surfels belong to an older revision of
 /// the world.
 struct StaleProbes {
@@ -39,7 +50,11 @@ struct SceneEdits {
   std::uint64_t applied_revision = 0;  ///< The revision that all but sleeping probes know.
   std::vector<int> stale_sleeping;     ///< Stale sleeping probes, the oldest first.
   std::size_t sleeping_per_slice = 0;  ///< How many of those an update brings up to date.
-  bool applied_last = false;           ///< The last update applied edits and traced nothing else.
+  /// For each probe, the share that is left of what corrections have learned around it and have not
+  /// yet forgotten; empty: all of it.
+  std::vector<float> to_forget;
+  int forgot_at = 0;          ///< The update in which corrections last forgot anything; 0: none.
+  bool applied_last = false;  ///< The last update applied edits and traced nothing else.
 };
 
 }  // namespace lambent

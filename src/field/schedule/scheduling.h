@@ -15,7 +15,8 @@ namespace lambent {
 struct Scheduling {
   ProbeScheduler scheduler;
   std::vector<float> importance = {};  ///< Per probe; empty where an update has no visible points.
-  RayCost ray_cost = {};
+  RayCost ray_cost = {};               ///< Of updates that trace new rays.
+  RayCost edit_cost = {};   ///< Of edits that are applied. Learning corrections is no part of it.
   bool warming_up = true;   ///< Some live probe has not been traced since the start.
   float mean_light = 0.0f;  ///< Mean luminance of the live probes.
 };

@@ -92,7 +92,10 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
         message);
   }
   if (answer) put_notice(*answer);
-  wake_world_();
+  // Answers to light are looked at with the next update: many clients send them all the time
+  const bool is_answer =
+      std::holds_alternative<LightReceived>(message) || std::holds_alternative<Ping>(message);
+  if (!is_answer) wake_world_();
   return refusal;
 }
 
@@ -107,7 +110,8 @@ void ClientLink::take_light_received(const LightReceived& received) {
 
 LightNeed ClientLink::need_light() {
   const std::lock_guard lock(mutex_);
-  const bool late = !light_.empty() || updates_under_way_.size() >= kUpdatesUnderWay;
+  // Those that wait to be written count, too: a key in their place would be longer than they are
+  const bool late = updates_under_way_.size() >= kUpdatesUnderWay;
   if (late) light_lost_ = true;
   if (gone_ || late) return LightNeed::nothing;
   return light_lost_ ? LightNeed::all : LightNeed::changes;

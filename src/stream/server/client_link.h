@@ -47,7 +47,8 @@ class ClientLink {
   /// Pictures that a client may have been sent without word of their arrival: one that travels and
   /// one that is decoded.
   static constexpr std::size_t kPicturesUnderWay = 2;
-  /// The same of updates of light: most of a second, on long paths.
+  /// The same of updates of light, those that wait to be written among them: most of a second, on
+  /// long paths.
   static constexpr std::size_t kUpdatesUnderWay = 8;
   /// Edits of different targets between two updates of the world.
   static constexpr std::size_t kMaxEdits = 64;
@@ -55,7 +56,7 @@ class ClientLink {
   static constexpr std::size_t kMaxNotices = 32;
 
   /// `wake_connection` is called whenever there is something to write, `wake_world` whenever there
-  /// is something to do; neither may call back.
+  /// is something to do before its next update; neither may call back.
   ClientLink(Hello hello, Role role, std::function<void()> wake_connection,
              std::function<void()> wake_world);
 

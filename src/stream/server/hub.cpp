@@ -24,8 +24,12 @@ std::shared_ptr<ClientLink> Hub::join(const Hello& hello, Role role,
   auto client =
       std::make_shared<ClientLink>(hello, role, std::move(wake_connection), [this] { wake(); });
   const std::lock_guard lock(mutex_);
-  if (clients_.size() >= max_clients_) return nullptr;
+  const auto watching = static_cast<std::size_t>(std::count_if(
+      clients_.begin(), clients_.end(), [](const auto& one) { return one->wants(kWantsPicture); }));
+  const bool no_renderer = client->wants(kWantsPicture) && watching >= max_picture_clients_;
+  if (no_renderer || clients_.size() >= max_clients_) return nullptr;
   clients_.push_back(client);
+  ++membership_;
   ++stats_.joined;
   woken_ = true;
   rings_.notify_all();
@@ -36,11 +40,17 @@ void Hub::leave(const std::shared_ptr<ClientLink>& client) {
   client->leave();
   const std::lock_guard lock(mutex_);
   std::erase(clients_, client);
+  ++membership_;
 }
 
 std::vector<std::shared_ptr<ClientLink>> Hub::clients() const {
   const std::lock_guard lock(mutex_);
   return clients_;
+}
+
+std::uint64_t Hub::membership() const {
+  const std::lock_guard lock(mutex_);
+  return membership_;
 }
 
 void Hub::wake() {

@@ -31,7 +31,9 @@ struct HubStats {
 /// All functions may be called from any thread.
 class Hub {
  public:
-  explicit Hub(std::size_t max_clients) : max_clients_(max_clients) {}
+  /// Of all clients, at most `max_picture_clients` may want pictures.
+  Hub(std::size_t max_clients, std::size_t max_picture_clients)
+      : max_clients_(max_clients), max_picture_clients_(max_picture_clients) {}
 
   /// What each client is told first, but for its role.
   void set_welcome(const Welcome& welcome);
@@ -42,6 +44,8 @@ class Hub {
                                    std::function<void()> wake_connection);
   void leave(const std::shared_ptr<ClientLink>& client);
   std::vector<std::shared_ptr<ClientLink>> clients() const;
+  /// Differs from what it was before wherever `clients` does.
+  std::uint64_t membership() const;
 
   /// Has the world look for work.
   void wake();
@@ -59,12 +63,13 @@ class Hub {
   std::string stats_json() const;
 
  private:
-  const std::size_t max_clients_;
+  const std::size_t max_clients_, max_picture_clients_;
   mutable std::mutex mutex_;
   std::condition_variable rings_;
   bool woken_ = false;
   Welcome welcome_;
   std::vector<std::shared_ptr<ClientLink>> clients_;
+  std::uint64_t membership_ = 0;
   HubStats stats_;
 };
 

@@ -67,10 +67,17 @@ Expected<void> LightSender::send(const IrradianceField& field, float time_s,
   }
   std::vector<Edit> all_edits;
   for (const auto& [target, edit] : edited_) all_edits.push_back(edit);
+  // Many who come at once are sent the same bytes
+  std::map<std::uint64_t, std::vector<SharedBytes>> by_geometry;
   for (ClientLink* client : begin) {
-    const auto all = encoder_.join(client->known_geometry());
-    if (!all) return tl::unexpected(all.error());
-    put(*client, written(all_edits, *all, time_s), LightNeed::all);
+    const std::uint64_t known = client->known_geometry();
+    const auto [messages, is_new] = by_geometry.try_emplace(known);
+    if (is_new) {
+      const auto all = encoder_.join(known);
+      if (!all) return tl::unexpected(all.error());
+      messages->second = written(all_edits, *all, time_s);
+    }
+    put(*client, messages->second, LightNeed::all);
   }
   return {};
 }

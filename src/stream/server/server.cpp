@@ -7,7 +7,8 @@
 namespace lambent::stream {
 
 Server::Server(const ServedWorld& served, const ServerSettings& settings)
-    : hub_(settings.max_clients), loop_(served, settings.world, hub_) {}
+    : hub_(settings.max_clients, settings.max_picture_clients),
+      loop_(served, settings.world, hub_) {}
 
 Expected<std::unique_ptr<Server>> Server::open(const ServedWorld& served,
                                                const ServerSettings& settings) {

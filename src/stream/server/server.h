@@ -13,7 +13,9 @@ namespace lambent::stream {
 struct ServerSettings {
   ListenSettings listen;
   WorldSettings world;
-  std::size_t max_clients = 8;  ///< Each takes a renderer's memory (Renderer).
+  std::size_t max_clients = 8;
+  /// Of these, clients of pictures: each takes a renderer's memory (Renderer).
+  std::size_t max_picture_clients = 8;
 };
 
 class Server {

@@ -44,6 +44,9 @@ void WorldLoop::welcome() {
 
 /// Takes in who has come, and forgets who has gone.
 void WorldLoop::meet_clients() {
+  const std::uint64_t membership = hub_.membership();
+  if (membership == met_) return;
+  met_ = membership;
   std::erase_if(viewers_, [](const Viewer& viewer) { return viewer.link->gone(); });
   for (const auto& link : hub_.clients()) {
     const bool known = std::any_of(viewers_.begin(), viewers_.end(),

@@ -65,6 +65,7 @@ class WorldLoop {
   SceneEditor editor_;
   std::optional<LightSender> light_;  // while it runs
   std::vector<Viewer> viewers_;
+  std::uint64_t met_ = 0;         // Hub::membership of these
   std::size_t first_viewer_ = 0;  // who is made a picture first: one after the other
   WorldState state_;
   Clock::time_point start_;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/stream/light_clients.h"
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/ssl.hpp>
+#include <boost/beast/websocket.hpp>
+#include <boost/beast/websocket/ssl.hpp>
+#include <deque>
+#include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "core/little_endian.h"
+#include "lambent/stream.h"
+#include "stream/protocol/messages.h"
+
+namespace lambent::stream_load {
+namespace {
+
+namespace beast = boost::beast;
+namespace websocket = beast::websocket;
+namespace ssl = boost::asio::ssl;
+using boost::asio::ip::tcp;
+using Clock = std::chrono::steady_clock;
+using PlainStream = beast::tcp_stream;
+using TlsStream = beast::ssl_stream<PlainStream>;
+using stream::LightMessageKind;
+
+// Where a message of light has what clients without a decoder look at: docs/protocol.md and
+// docs/stream-light.md.
+constexpr std::uint32_t kLightType = 67;
+constexpr std::size_t kKindAt = 8, kPayloadAt = 28, kGeometryAt = kPayloadAt + 24;
+
+// Clients that connect at a time: more would wait in the server's backlog, and be timed there.
+constexpr int kConnecting = 32;
+
+struct Shared {
+  boost::asio::io_context io{1};
+  ssl::context tls{ssl::context::tls_client};
+  tcp::endpoint server;
+  std::string host;
+  Seen seen;
+  int connecting = 0;
+};
+
+template <class Stream>
+class OneClient {
+ public:
+  OneClient(Shared& shared, bool decodes)
+      : shared_(shared), socket_([&shared] {
+          if constexpr (std::is_same_v<Stream, TlsStream>) {
+            return websocket::stream<Stream>(shared.io, shared.tls);
+          } else {
+            return websocket::stream<Stream>(shared.io);
+          }
+        }()) {
+    if (decodes) decoder_.emplace();
+  }
+
+  void start() {
+    ++shared_.connecting;
+    started_ = Clock::now();
+    beast::get_lowest_layer(socket_).async_connect(shared_.server, [this](beast::error_code error) {
+      if (error) return fail();
+      beast::get_lowest_layer(socket_).socket().set_option(tcp::no_delay(true), error);
+      if constexpr (std::is_same_v<Stream, TlsStream>) {
+        socket_.next_layer().async_handshake(ssl::stream_base::client,
+                                             [this](beast::error_code done) { upgrade(done); });
+      } else {
+        upgrade({});
+      }
+    });
+  }
+
+ private:
+  void upgrade(beast::error_code error) {
+    if (error) return fail();
+    socket_.read_message_max(stream::kHeaderBytes + stream::kMaxLightBytes);
+    socket_.binary(true);
+    socket_.async_handshake(shared_.host, "/stream", [this](beast::error_code done) {
+      if (done) return fail();
+      stream::Hello hello;
+      hello.wants = stream::kWantsLight;
+      send(hello);
+      read();
+    });
+  }
+
+  void read() {
+    socket_.async_read(buffer_, [this](beast::error_code error, std::size_t) {
+      if (error) return fail();
+      const auto data = buffer_.cdata();
+      take({static_cast<const std::byte*>(data.data()), data.size()});
+      buffer_.consume(buffer_.size());
+      if (!joined_) buffer_.shrink_to_fit();
+      read();
+    });
+  }
+
+  void take(std::span<const std::byte> message) {
+    ByteReader in(message);
+    if (message.size() < kGeometryAt + sizeof(std::uint64_t) || in.u32() != kLightType) return;
+    ByteReader light(message.subspan(kKindAt));
+    const auto kind = static_cast<LightMessageKind>(light.u32());
+    const std::uint64_t update = light.u64();
+    std::uint64_t geometry = ByteReader(message.subspan(kGeometryAt)).u64();
+    bool needs_key = false;
+    if (decoder_) {
+      if (!decoder_->receive(message.subspan(kPayloadAt))) ++shared_.seen.broken;
+      geometry = decoder_->geometry();
+      needs_key = decoder_->needs_key() && kind != LightMessageKind::geometry;
+    }
+    if (kind != LightMessageKind::geometry) count(kind, update);
+    send(stream::LightReceived{update, geometry, needs_key ? 1u : 0u});
+  }
+
+  void count(LightMessageKind kind, std::uint64_t update) {
+    Seen& seen = shared_.seen;
+    ++seen.updates;
+    if (kind == LightMessageKind::key) {
+      ++seen.keys;
+    } else if (update != update_ + 1) {
+      ++seen.missed;
+    }
+    update_ = update;
+    if (joined_) return;
+    joined_ = true;
+    ++seen.joined;
+    --shared_.connecting;
+    seen.join_ms.push_back(
+        std::chrono::duration<double, std::milli>(Clock::now() - started_).count());
+  }
+
+  void send(const stream::Message& message) {
+    outgoing_.push_back(stream::write_message(message));
+    if (outgoing_.size() == 1) write();
+  }
+  void write() {
+    const auto& bytes = outgoing_.front();
+    socket_.async_write(boost::asio::buffer(bytes.data(), bytes.size()),
+                        [this](beast::error_code error, std::size_t) {
+                          if (error) return;  // reading fails, too
+                          outgoing_.pop_front();
+                          if (!outgoing_.empty()) write();
+                        });
+  }
+
+  void fail() {
+    if (failed_) return;
+    failed_ = true;
+    ++shared_.seen.failed;
+    if (!joined_) --shared_.connecting;
+  }
+
+  Shared& shared_;
+  websocket::stream<Stream> socket_;
+  beast::flat_buffer buffer_;
+  std::deque<std::vector<std::byte>> outgoing_;
+  std::optional<stream::LightDecoder> decoder_;
+  Clock::time_point started_;
+  std::uint64_t update_ = 0;
+  bool joined_ = false, failed_ = false;
+};
+
+template <class Stream>
+class Clients : public LightClients {
+ public:
+  Clients(const Address& address, int decode_every) : decode_every_(decode_every) {
+    shared_.server = {boost::asio::ip::make_address(address.host), address.port};
+    shared_.host = address.host + ":" + std::to_string(address.port);
+    shared_.tls.set_verify_mode(ssl::verify_none);
+  }
+
+  void add(int count) override { waiting_ += count; }
+
+  void run_for(std::chrono::milliseconds time) override {
+    constexpr std::chrono::milliseconds kSlice{5};
+    const auto end = Clock::now() + time;
+    while (Clock::now() < end) {
+      for (; waiting_ > 0 && shared_.connecting < kConnecting; --waiting_) {
+        const bool decodes =
+            decode_every_ > 0 && clients_.size() % static_cast<std::size_t>(decode_every_) == 0;
+        clients_.push_back(std::make_unique<OneClient<Stream>>(shared_, decodes));
+        clients_.back()->start();
+      }
+      shared_.io.restart();
+      shared_.io.run_for(kSlice);
+    }
+  }
+
+  const Seen& seen() const override { return shared_.seen; }
+
+ private:
+  Shared shared_;  // outlives the clients, whose handlers it may still hold but never runs again
+  const int decode_every_;
+  int waiting_ = 0;
+  std::vector<std::unique_ptr<OneClient<Stream>>> clients_;
+};
+
+}  // namespace
+
+std::unique_ptr<LightClients> LightClients::make(const Address& address, int decode_every) {
+  if (address.tls) return std::make_unique<Clients<TlsStream>>(address, decode_every);
+  return std::make_unique<Clients<PlainStream>>(address, decode_every);
+}
+
+}  // namespace lambent::stream_load
