@@ -5,16 +5,16 @@ const RATE = 30; // pictures a second, at most
 const TURN = 0.005; // a pixel that is dragged [rad]
 const KEY_TURN = 1.2; // [rad/s]
 const KEYS_TO_CROSS = 4; // seconds to cross the scene
-const FIRST_WAIT_MS = 250, LONGEST_WAIT_MS = 1000; // until it is tried again to connect
+const FIRST_WAIT_MS = 250, LONGEST_WAIT_MS = 800; // until it is tried again to connect
 const CODE_BAD_TOKEN = 3, CODE_REFUSED_INPUT = 5;
 
 const element = (id) => document.getElementById(id);
 const canvas = element('picture');
 const paint = canvas.getContext('2d');
 
-let socket, decoder, welcome, wait = FIRST_WAIT_MS, ended = false;
+let socket, decoder, codec, welcome, wait = FIRST_WAIT_MS, ended = false;
 let token = new URLSearchParams(location.hash.slice(1)).get('token') ?? '';
-let input = 0, shown = 0, pictures = 0, keyNeeded = true;
+let input = 0, shown = 0, received = 0, pictures = 0, keyNeeded = true;
 const view = { position: [0, 0, 0], yaw: 0, pitch: 0, fov: 0.8 };
 const pressed = new Set();
 const decodeStart = new Map();
@@ -52,6 +52,11 @@ function codecOf(bytes) {
   return 'avc1.42e034';
 }
 
+/// What has come and what was decoded: the same, once all has arrived.
+function count() {
+  Object.assign(canvas.dataset, { received, pictures });
+}
+
 function show(frame) {
   const number = frame.timestamp;
   if (canvas.width !== frame.displayWidth || canvas.height !== frame.displayHeight) {
@@ -62,9 +67,11 @@ function show(frame) {
   frame.close();
   ++pictures;
   shown = number;
-  send(protocol.received(number, performance.now() - (decodeStart.get(number) ?? performance.now())));
+  const start = decodeStart.get(number);
+  send(protocol.received(number, performance.now() - (start?.now ?? performance.now())));
+  canvas.dataset.input = start?.input ?? 0;
   for (const known of decodeStart.keys()) if (known <= number) decodeStart.delete(known);
-  canvas.dataset.pictures = pictures;
+  count();
 }
 
 /// A stream that cannot be decoded begins again with a key picture.
@@ -74,15 +81,25 @@ function restart(error) {
   socket?.close();
 }
 
+/// A decoder for a stream that begins here. The one before goes on while it has pictures to show.
+function beginDecoding(wanted) {
+  const before = decoder;
+  if (before?.state === 'configured') before.flush().then(() => before.close(), () => {});
+  const own = new VideoDecoder({ output: show, error: (error) => { if (own === decoder) restart(error); } });
+  own.configure({ codec: wanted, optimizeForLatency: true });
+  [decoder, codec] = [own, wanted];
+}
+
 function decode(picture) {
+  ++received;
+  count();
   if (picture.key) {
-    if (decoder && decoder.state !== 'closed') decoder.close();
-    decoder = new VideoDecoder({ output: show, error: restart });
-    decoder.configure({ codec: codecOf(picture.bytes), optimizeForLatency: true });
+    const wanted = codecOf(picture.bytes);
+    if (keyNeeded || decoder.state !== 'configured' || wanted !== codec) beginDecoding(wanted);
     keyNeeded = false;
   }
   if (keyNeeded || decoder.state !== 'configured') return;
-  decodeStart.set(picture.number, performance.now());
+  decodeStart.set(picture.number, { now: performance.now(), input: picture.input });
   decoder.decode(new EncodedVideoChunk({
     type: picture.key ? 'key' : 'delta', timestamp: picture.number, data: picture.bytes,
   }));
