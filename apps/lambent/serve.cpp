@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/memory.h"
@@ -25,6 +26,7 @@
 #include "lambent/threads.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
+#include "scenes/glb_writer.h"
 #include "stream/server/access.h"
 #include "stream/server/server.h"
 
@@ -50,6 +52,7 @@ struct Options {
   double max_megabits = 20.0;
   double idle_s = 20.0;
   int updates = 8;
+  bool share_scene = false;
   std::uint32_t seed = 1;
   int threads = 0;  // 0: all
 };
@@ -119,6 +122,15 @@ Expected<void> check(const Options& options) {
   return {};
 }
 
+/// The scene as a file that clients may be given.
+Expected<std::shared_ptr<const std::string>> shared_scene(const Scene& scene) {
+  begin_step("writing the scene for clients");
+  Expected<std::string> bytes = scenes::encode_glb(scene);
+  if (!bytes) return tl::unexpected(bytes.error());
+  tell("sharing the scene, " + lambent::bytes_text(bytes->size()));
+  return std::make_shared<const std::string>(std::move(*bytes));
+}
+
 /// Serves until somebody ends it.
 Expected<void> serve_world(const Options& options, const stream::ServedWorld& served,
                            const stream::ServerSettings& settings) {
@@ -167,6 +179,11 @@ Expected<void> serve(const Options& options) {
   update_field(world, options.updates, request, *field, terminal_progress(), stats);
 
   stream::ServerSettings settings = options.server;
+  if (options.share_scene) {
+    auto shared = shared_scene(*scene);
+    if (!shared) return tl::unexpected(shared.error());
+    settings.listen.scene = std::move(*shared);
+  }
   settings.world.pictures = *pictures;
   constexpr double kMsOfSecond = 1000.0;
   // No picture keeps the light waiting for much longer than an update's interval, in the mean
@@ -199,6 +216,8 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->type_name("FILE");
   command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
   command.option_defaults()->group("Clients");
+  command.add_flag("--share-scene", o.share_scene,
+                   "Give the scene to who may look, so that browsers can render it (/light)");
   command
       .add_option("--light-error", o.server.world.light.target_error,
                   "Error that the light stream may have, of the mean irradiance")

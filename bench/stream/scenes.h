@@ -86,5 +86,7 @@ StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& sett
 void measure_rates();     ///< What streams take, and how exact and how fast they are.
 void measure_quality();   ///< What they take at other errors.
 void measure_geometry();  ///< Geometry, and keys.
+/// Writes atrium.stream into the working directory: a Recording of the fast sun.
+void record_stream();
 
 }  // namespace lambent::light_stream

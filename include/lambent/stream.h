@@ -120,6 +120,7 @@ class LightDecoder {
 
  private:
   friend class StreamedField;
+  friend class LightTextures;
   struct State;
   std::unique_ptr<State> state_;
 };

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The server's scene in three.js: a copy, which follows the edits that the server tells of.
+import * as THREE from 'three';
+import { GLTFLoader } from 'three/addons/loaders/GLTFLoader.js';
+import { EDITS, TYPE } from '../../src/stream/page/protocol.js';
+
+const MOST_SHADOWS = 4; // each takes a texture, of which WebGL has 16 for all purposes
+const SHADOW_TEXELS = 2048;
+
+export class LitScene {
+  /// From the bytes of /scene.glb: nodes are the instances, then the lights, each in the scene's order.
+  static async make(bytes, { instances, lights, min, max }, field) {
+    const gltf = await new GLTFLoader().parseAsync(bytes, '');
+    const nodes = await Promise.all(Array.from({ length: instances + lights.length },
+      (_, i) => gltf.parser.getDependency('node', i)));
+    return new LitScene(gltf, nodes.slice(0, instances), nodes.slice(instances), { min, max }, field);
+  }
+
+  constructor(gltf, objects, lightNodes, bounds, field) {
+    this.scene = gltf.scene;
+    this.objects = objects;
+    const [min, max] = [new THREE.Vector3(...bounds.min), new THREE.Vector3(...bounds.max)];
+    this.centre = min.clone().add(max).multiplyScalar(0.5);
+    this.size = min.distanceTo(max);
+    const sky = gltf.scene.userData.lambent_sky_radiance;
+    if (sky) this.scene.background = new THREE.Color(...sky);
+    this.scene.traverse((object) => {
+      if (object.isMesh) this.#prepare(object, field);
+    });
+    this.lights = [];
+    lightNodes.forEach((node) => node.traverse((object) => { if (object.isLight) this.lights.push(object); }));
+    this.lights.slice(0, MOST_SHADOWS).forEach((light) => this.#castShadows(light));
+    this.lights.filter((light) => light.isDirectionalLight).forEach((light) => this.#aim(light));
+    this.sun = this.lights.find((light) => light.isDirectionalLight);
+    this.sunIntensity = this.sun?.intensity;
+  }
+
+  /// Light falls on both sides of surfaces, whatever their winding.
+  #prepare(mesh, field) {
+    mesh.castShadow = mesh.receiveShadow = true;
+    for (const material of [mesh.material].flat()) {
+      material.side = THREE.DoubleSide;
+      if (material.isMeshStandardMaterial) field.light(material);
+    }
+  }
+
+  #castShadows(light) {
+    light.castShadow = true;
+    light.shadow.mapSize.setScalar(SHADOW_TEXELS);
+    light.shadow.normalBias = 2e-3 * this.size;
+    const { camera } = light.shadow;
+    [camera.near, camera.far] = [1e-3 * this.size, 2 * this.size];
+    if (!camera.isOrthographicCamera) return;
+    [camera.left, camera.right, camera.bottom, camera.top] = [-0.5, 0.5, -0.5, 0.5].map((share) => share * this.size);
+  }
+
+  /// A directional light's shadows are seen from outside of the scene, the way that it shines.
+  #aim(light, direction = new THREE.Vector3(0, 0, -1).applyQuaternion(light.quaternion)) {
+    light.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, -1), direction);
+    if (light.isDirectionalLight) light.position.copy(this.centre).addScaledVector(direction, -this.size);
+  }
+
+  /// Follows a message of the server's that is an edit; returns whether it was one. `sunAt` is the decoder's.
+  follow(message, sunAt) {
+    if (message.type === TYPE.object) this.#place(message);
+    else if (message.type === TYPE.light) this.#editLight(message);
+    else if (message.type === TYPE.sun) this.#aim(this.sun, new THREE.Vector3(...message.direction));
+    else if (message.type === TYPE.timeOfDay) {
+      const { direction, share } = sunAt(message.hours);
+      this.#aim(this.sun, new THREE.Vector3(...direction));
+      this.sun.intensity = this.sunIntensity * share;
+    } else return false;
+    return true;
+  }
+
+  #place({ instance, axes: [a, b, c, d, e, f, g, h, i], position: [x, y, z] }) {
+    const object = this.objects[instance];
+    object.matrixAutoUpdate = false;
+    object.matrix.set(a, d, g, x, b, e, h, y, c, f, i, z, 0, 0, 0, 1);
+    object.matrixWorldNeedsUpdate = true;
+  }
+
+  #editLight({ light: index, edits, position, direction, intensity }) {
+    const light = this.lights[index];
+    if (edits & EDITS.direction) this.#aim(light, new THREE.Vector3(...direction));
+    if (edits & EDITS.position && !light.isDirectionalLight) light.position.set(...position);
+    if (!(edits & EDITS.intensity)) return;
+    light.intensity = 1;
+    light.color.setRGB(...intensity);
+    if (light === this.sun) this.sunIntensity = 1;
+  }
+
+  /// Whether light comes straight from the scene's lights, too.
+  set direct(shown) { for (const light of this.lights) light.visible = shown; }
+}
