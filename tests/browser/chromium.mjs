@@ -55,3 +55,37 @@ export async function until(what, description, seconds = 20) {
     await new Promise((resolve) => setTimeout(resolve, 20));
   }
 }
+
+/// Collects what a page complains of in its console.
+export function listen(page) {
+  const complaints = [];
+  page.on('console', (message) => { if (message.type() === 'error') complaints.push(message.text()); });
+  page.on('pageerror', (error) => complaints.push(error.message));
+  page.on('requestfailed', (request) => complaints.push(`${request.url()} failed`));
+  return complaints;
+}
+
+/// A page's landmarks, names and keyboard.
+export async function accessible(checks, page) {
+  const snapshot = await page.locator('body').ariaSnapshot();
+  checks.that(/main/.test(snapshot) && /heading "Lambent.*" \[level=1\]/.test(snapshot) && /status/.test(snapshot),
+    'there is a landmark, a heading and a status');
+  checks.that(await page.evaluate(() => document.documentElement.lang === 'en' && document.title !== ''),
+    'the page has a language and a title');
+  const unnamed = await page.evaluate(() => [...document.querySelectorAll('input, select, button, output')]
+    .filter((one) => one.checkVisibility() && ![...(one.labels ?? [])].some((label) => label.innerText.trim()))
+    .map((one) => one.id));
+  checks.that(unnamed.length === 0, `every control has a label${unnamed.map((id) => ` but ${id}`)}`);
+  const focusable = await page.evaluate(() => [...document.querySelectorAll('#picture, input, select, button, a')]
+    .filter((one) => one.checkVisibility()).map((one) => one.id || one.pathname));
+  const reached = [];
+  await page.evaluate(() => document.activeElement.blur());
+  for (let i = 0; i < focusable.length + 2; ++i) {
+    await page.keyboard.press('Tab');
+    reached.push(await page.evaluate(() => document.activeElement.id || document.activeElement.pathname));
+  }
+  checks.that(focusable.every((id) => reached.includes(id)), `the keyboard reaches ${focusable.join(', ')}`);
+  await page.locator('#picture').focus();
+  checks.that(await page.locator('#picture').evaluate((canvas) => getComputedStyle(canvas).outlineStyle !== 'none'),
+    'the focus is visible');
+}

@@ -2,7 +2,7 @@
 // usage: page.test.mjs PROGRAM [SCREENSHOT.png]
 // The page of lambent serve in Chromium: its pictures are the server's, all that are sent are decoded, and what is
 // done by its controls is seen. Exits with 77 where there is no Chromium.
-import { Checks, launch, until } from './chromium.mjs';
+import { accessible, Checks, launch, listen, until } from './chromium.mjs';
 import { DISPLAY, FIELD, pngOf, SCENE, Server } from './server.mjs';
 import { difference, mean, meansOfElement, meansOfPng } from './pictures.mjs';
 
@@ -23,19 +23,17 @@ const server = new Server(program, ['--size', `${SIZE.width}x${SIZE.height}`, '-
 const url = await server.url();
 
 const page = await browser.newPage({ viewport: { width: SIZE.width + 2 * MARGIN, height: 900 }, deviceScaleFactor: 1 });
-const complaints = [];
-page.on('console', (message) => { if (message.type() === 'error') complaints.push(message.text()); });
-page.on('pageerror', (error) => complaints.push(error.message));
-page.on('requestfailed', (request) => complaints.push(`${request.url()} failed`));
+const complaints = listen(page);
 
 // What goes over the wire, seen from outside of the page
 let sent = 0, lastInput = 0, camera;
-const sizes = new Set();
+const sizes = []; // of pictures, each that is another than that of the one before
 page.on('websocket', (socket) => {
   socket.on('framereceived', ({ payload }) => {
     if (payload.readUInt32LE(0) !== PICTURE) return;
     ++sent;
-    sizes.add(`${payload.readUInt32LE(16)}x${payload.readUInt32LE(20)}`);
+    const size = `${payload.readUInt32LE(16)}x${payload.readUInt32LE(20)}`;
+    if (size !== sizes.at(-1)) sizes.push(size);
   });
   socket.on('framesent', ({ payload }) => {
     const type = payload.readUInt32LE(0);
@@ -104,29 +102,10 @@ checks.that(mean(first) > 10, `the picture is lit: ${mean(first).toFixed(1)} of 
 same(first, await rendered(), 'the first view, against lambent render');
 await countsAreEqual('at rest');
 
-// Accessible: landmarks, names, the keyboard
-const snapshot = await page.locator('body').ariaSnapshot();
-checks.that(/main/.test(snapshot) && /heading "Lambent" \[level=1\]/.test(snapshot) && /status/.test(snapshot),
-  'there is a landmark, a heading and a status');
-checks.that(await page.evaluate(() => document.documentElement.lang === 'en' && document.title !== ''),
-  'the page has a language and a title');
-const unnamed = await page.evaluate(() => [...document.querySelectorAll('input, select, button, output')]
-  .filter((one) => one.checkVisibility() && ![...(one.labels ?? [])].some((label) => label.innerText.trim()))
-  .map((one) => one.id));
-checks.that(unnamed.length === 0, `every control has a label (without: ${unnamed})`);
-const reached = [];
-for (let i = 0; i < 12; ++i) {
-  await page.keyboard.press('Tab');
-  reached.push(await page.evaluate(() => document.activeElement.id));
-}
-const focusable = await page.evaluate(() => [...document.querySelectorAll('#picture, input, select, button, a')]
-  .filter((one) => one.checkVisibility()).map((one) => one.id));
-checks.that(focusable.every((id) => reached.includes(id)), `the keyboard reaches ${focusable.join(', ')}`);
+await accessible(checks, page);
 
 // The camera, by keys, is where the page says that it is
 await page.locator('#picture').focus();
-checks.that(await page.locator('#picture').evaluate((canvas) => getComputedStyle(canvas).outlineStyle !== 'none'),
-  'the focus is visible');
 await page.keyboard.down('ArrowLeft');
 await page.waitForTimeout(250);
 await page.keyboard.up('ArrowLeft');
@@ -159,12 +138,12 @@ await rest();
 await countsAreEqual('after all that');
 
 // Another size in the middle of the stream
-const seen = sizes.size;
+const seen = sizes.length;
 await page.setViewportSize({ width: 2 * MARGIN + SIZE.width / 2, height: 900 });
-await until(() => sizes.size > seen, 'pictures of another size');
+await until(() => sizes.length > seen, 'pictures of another size');
 await rest();
 const canvas = await page.locator('#picture').evaluate(({ width, height }) => `${width}x${height}`);
-checks.that([...sizes].at(-1) === canvas, `the picture has another size: ${[...sizes].join(', ')}`);
+checks.that(sizes.at(-1) === canvas, `the picture has another size: ${sizes.join(', ')}`);
 await countsAreEqual('after another size');
 
 checks.that(complaints.length === 0, `the console is silent ${complaints.join('; ')}`);

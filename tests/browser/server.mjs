@@ -12,9 +12,9 @@ export const FIELD = ['--probes', '5x5x5', '--rays', '64', '--updates', '48', '-
 export const DISPLAY = ['--exposure', '0', '--tone-map', 'linear'];
 
 export class Server {
-  constructor(program, more = [], port = 0) {
+  constructor(program, more = [], port = 0, scene = SCENE) {
     this.said = '';
-    this.process = spawn(program, ['serve', SCENE, '--port', String(port), ...FIELD, ...DISPLAY, ...more],
+    this.process = spawn(program, ['serve', scene, '--port', String(port), ...FIELD, ...DISPLAY, ...more],
       { stdio: ['ignore', 'ignore', 'pipe'] });
     process.on('exit', () => this.process.kill('SIGKILL'));
     this.ended = new Promise((resolve) => this.process.on('exit', (code, signal) => resolve(code ?? signal)));
@@ -39,14 +39,27 @@ export class Server {
   }
 }
 
-/// The bytes of the .png file that a run of the program writes.
-export function pngOf(program, args) {
+/// What `work` makes of a folder that is there while it works.
+function inFolder(work) {
   const folder = mkdtempSync(join(tmpdir(), 'lambent-browser-'));
   try {
-    const file = join(folder, 'picture.png');
-    execFileSync(program, [...args, '-o', file], { stdio: ['ignore', 'ignore', 'pipe'] });
-    return readFileSync(file);
+    return work(folder);
   } finally {
     rmSync(folder, { recursive: true });
   }
 }
+const run = (program, args) => execFileSync(program, args, { stdio: ['ignore', 'ignore', 'pipe'] });
+
+/// The bytes of the .png file that a run of the program writes.
+export const pngOf = (program, args) => inFolder((folder) => {
+  const file = join(folder, 'picture.png');
+  run(program, [...args, '-o', file]);
+  return readFileSync(file);
+});
+
+/// The same of a layer of what the program renders.
+export const layerOf = (program, render, layer, display) => inFolder((folder) => {
+  const file = join(folder, 'layers.exr');
+  run(program, [...render, '--layers', '-o', file]);
+  return pngOf(program, ['picture', file, '--layer', layer, ...display]);
+});
