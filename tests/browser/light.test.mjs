@@ -19,7 +19,9 @@ const LEAST_CHANGE = 6;
 
 const checks = new Checks();
 const browser = await launch();
-const server = new Server(program, ['--share-scene', '--rate', '10', '--size', `${SIZE.width}x${SIZE.height}`]);
+// A finer volume, turned, in a corner of the box, which fades into the other
+const VOLUME = ['--volume', '2,0.3,2,5,3,5:probes=4x4x4:turn=20:priority=1'];
+const server = new Server(program, [...VOLUME, '--share-scene', '--rate', '10', '--size', `${SIZE.width}x${SIZE.height}`]);
 const url = await server.url();
 const page = await browser.newPage({ viewport: { width: SIZE.width + 2 * MARGIN, height: 900 }, deviceScaleFactor: 1 });
 const complaints = listen(page);
@@ -49,7 +51,7 @@ function same(found, expected, most, what) {
 }
 
 const render = ['render', SCENE, '--method', 'field', '--without', 'gather,glossy', '--size',
-  `${SIZE.width}x${SIZE.height}`, '--samples', '4', ...FIELD];
+  `${SIZE.width}x${SIZE.height}`, '--samples', '4', ...FIELD, ...VOLUME];
 
 await page.goto(`${url}light`);
 await until(async () => (await data()).rendered, 'the first picture');

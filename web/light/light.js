@@ -15,9 +15,11 @@ const NEAR = 1e-4, FAR = 10; // of the camera, in sizes of the scene
 const element = (id) => document.getElementById(id);
 const canvas = element('picture');
 
-let decoder, field, scene, welcome;
+let decoder, field, welcome;
+let scene; // undefined: on its way; null: cannot be had
 let input = 0, bytes = 0, decodeMs = 0, stale = true, lost = false;
-const waiting = []; // messages that came before the scene
+const EDITS = [protocol.TYPE.timeOfDay, protocol.TYPE.sun, protocol.TYPE.light, protocol.TYPE.object];
+let waiting = []; // edits that came before the scene, while that is on its way
 const eye = new THREE.PerspectiveCamera();
 const camera = new CameraControls(canvas);
 const connection = new Connection({
@@ -32,7 +34,7 @@ function take(message) {
   if (message.type === protocol.TYPE.welcome) greet(message);
   if (message.type === protocol.TYPE.lightUpdate) takeLight(message);
   if (message.type === protocol.TYPE.stats) tellNumbers(message);
-  follow(message);
+  if (EDITS.includes(message.type)) follow(message);
 }
 
 function greet(message) {
@@ -43,8 +45,11 @@ function greet(message) {
   if (!welcome) camera.take(message);
   welcome = message;
   scene = undefined;
-  waiting.length = 0;
-  load(message).catch((error) => tell(error.message, true));
+  waiting = [];
+  load(message).catch((error) => {
+    if (message === welcome) scene = null;
+    tell(error.message, true);
+  });
 }
 
 async function load(of) {
@@ -61,14 +66,15 @@ async function load(of) {
 }
 
 function follow(message) {
-  if (!scene) waiting.push(message);
-  else if (scene.follow(message, (hours) => decoder.sunAt(hours))) stale = true;
+  if (scene === undefined) waiting.push(message);
+  if (!scene) return;
+  scene.follow(message, (hours) => decoder.sunAt(hours));
+  stale = true;
 }
 
 function takeLight(message) {
   const start = performance.now();
-  const taken = decoder.receive(message.bytes);
-  if (taken) {
+  if (decoder.receive(message.bytes)) {
     decoder.follow();
     decodeMs = performance.now() - start;
     if (decoder.probes) field.follow(decoder);

@@ -32,7 +32,7 @@ export class LitScene {
     this.lights.slice(0, MOST_SHADOWS).forEach((light) => this.#castShadows(light));
     this.lights.filter((light) => light.isDirectionalLight).forEach((light) => this.#aim(light));
     this.sun = this.lights.find((light) => light.isDirectionalLight);
-    this.sunIntensity = this.sun?.intensity;
+    this.fullSun = this.sun && { color: this.sun.color.clone(), intensity: this.sun.intensity };
   }
 
   /// Light falls on both sides of surfaces, whatever their winding.
@@ -60,17 +60,16 @@ export class LitScene {
     if (light.isDirectionalLight) light.position.copy(this.centre).addScaledVector(direction, -this.size);
   }
 
-  /// Follows a message of the server's that is an edit; returns whether it was one. `sunAt` is the decoder's.
-  follow(message, sunAt) {
-    if (message.type === TYPE.object) this.#place(message);
-    else if (message.type === TYPE.light) this.#editLight(message);
-    else if (message.type === TYPE.sun) this.#aim(this.sun, new THREE.Vector3(...message.direction));
-    else if (message.type === TYPE.timeOfDay) {
-      const { direction, share } = sunAt(message.hours);
-      this.#aim(this.sun, new THREE.Vector3(...direction));
-      this.sun.intensity = this.sunIntensity * share;
-    } else return false;
-    return true;
+  /// Follows an edit that the server tells of. `sunAt` is the decoder's.
+  follow(edit, sunAt) {
+    if (edit.type === TYPE.object) this.#place(edit);
+    if (edit.type === TYPE.light) this.#editLight(edit);
+    if (edit.type === TYPE.sun) this.#aim(this.sun, new THREE.Vector3(...edit.direction));
+    if (edit.type !== TYPE.timeOfDay) return;
+    const { direction, share } = sunAt(edit.hours);
+    this.#aim(this.sun, new THREE.Vector3(...direction));
+    this.sun.color.copy(this.fullSun.color);
+    this.sun.intensity = this.fullSun.intensity * share;
   }
 
   #place({ instance, axes: [a, b, c, d, e, f, g, h, i], position: [x, y, z] }) {
@@ -87,7 +86,6 @@ export class LitScene {
     if (!(edits & EDITS.intensity)) return;
     light.intensity = 1;
     light.color.setRGB(...intensity);
-    if (light === this.sun) this.sunIntensity = 1;
   }
 
   /// Whether light comes straight from the scene's lights, too.
