@@ -143,6 +143,30 @@ TEST(ServeCommand, IsEncryptedAndAsksForTokens) {
   EXPECT_EQ(server.end(SIGTERM), 0);
 }
 
+TEST(ServeCommand, GivesItsSceneToWhoMayLookWhereThatIsAllowed) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory.file("tokens")) << "view looking-looking-looking\n";
+  const RunningServer open({"--share-scene", "--tokens", directory.file("tokens")});
+  ASSERT_GT(open.port(), 0) << open.said();
+  const auto asked = [](const RunningServer& server, const std::string& header) {
+    return test::http_get(static_cast<std::uint16_t>(server.port()), "",
+                          "GET /scene.glb HTTP/1.1\r\nHost: localhost\r\n" + header + "\r\n");
+  };
+  EXPECT_THAT(asked(open, ""), HasSubstr("401"));
+  EXPECT_THAT(asked(open, "Authorization: Bearer guessing-guessing\r\n"), HasSubstr("401"));
+  const std::string answer = asked(open, "Authorization: Bearer looking-looking-looking\r\n");
+  EXPECT_THAT(answer, HasSubstr("model/gltf-binary"));
+  const std::string file = directory.file("scene.glb");
+  std::ofstream(file, std::ios::binary) << answer.substr(answer.find("\r\n\r\n") + 4);
+  const ProgramResult info = run_program("info " + file);
+  EXPECT_EQ(info.status, 0) << info.errors;
+  EXPECT_THAT(info.output, HasSubstr("38 triangles"));
+
+  const RunningServer closed;
+  ASSERT_GT(closed.port(), 0) << closed.said();
+  EXPECT_THAT(asked(closed, ""), HasSubstr("404"));
+}
+
 TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
   const auto refused = [](const std::string& arguments, const std::string& why) {
     const ProgramResult result = run_program("serve cornell-spot " + arguments);

@@ -6,6 +6,7 @@ import { EDITS, TYPE } from '../../src/stream/page/protocol.js';
 
 const MOST_SHADOWS = 4; // each takes a texture, of which WebGL has 16 for all purposes
 const SHADOW_TEXELS = 2048;
+const SKY_SIZES = 4; // how far the sky is, in sizes of the scene: in front of the farthest that cameras see
 
 export class LitScene {
   /// From the bytes of /scene.glb: nodes are the instances, then the lights, each in the scene's order.
@@ -17,16 +18,16 @@ export class LitScene {
   }
 
   constructor(gltf, objects, lightNodes, bounds, field) {
-    this.scene = gltf.scene;
+    this.scene = new THREE.Scene().add(gltf.scene);
     this.objects = objects;
     const [min, max] = [new THREE.Vector3(...bounds.min), new THREE.Vector3(...bounds.max)];
     this.centre = min.clone().add(max).multiplyScalar(0.5);
     this.size = min.distanceTo(max);
     const sky = gltf.scene.userData.lambent_sky_radiance;
-    if (sky) this.scene.background = new THREE.Color(...sky);
-    this.scene.traverse((object) => {
+    gltf.scene.traverse((object) => {
       if (object.isMesh) this.#prepare(object, field);
     });
+    if (sky) this.#addSky(new THREE.Color(...sky));
     this.lights = [];
     lightNodes.forEach((node) => node.traverse((object) => { if (object.isLight) this.lights.push(object); }));
     this.lights.slice(0, MOST_SHADOWS).forEach((light) => this.#castShadows(light));
@@ -42,6 +43,18 @@ export class LitScene {
       material.side = THREE.DoubleSide;
       if (material.isMeshStandardMaterial) field.light(material);
     }
+  }
+
+  /// A background would not be tone mapped; this is, and is around whatever camera there is.
+  #addSky(color) {
+    const material = new THREE.MeshBasicMaterial({ color, side: THREE.BackSide, depthWrite: false });
+    const sphere = new THREE.Mesh(new THREE.SphereGeometry(SKY_SIZES * this.size), material);
+    sphere.onBeforeRender = (renderer, scene, camera) => {
+      sphere.matrixWorld.copyPosition(camera.matrixWorld);
+    };
+    sphere.frustumCulled = false;
+    sphere.renderOrder = -1;
+    this.scene.add(sphere);
   }
 
   #castShadows(light) {
