@@ -10,8 +10,11 @@ export function skip(why) {
   process.exit(SKIPPED);
 }
 
+/// WebGL by the processor, for launch().
+export const WEBGL = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
+
 /// A headless Chromium, without a GPU. Ends the process with 77 where there is none.
-export async function launch(more = []) {
+export async function launch(options = ['--disable-gpu']) {
   let playwright;
   try {
     playwright = await import('playwright-core');
@@ -24,9 +27,7 @@ export async function launch(more = []) {
   if (!executablePath) skip('there is no Chromium (LAMBENT_CHROMIUM names one that is not in PATH)');
   // Root, which tests are in containers, has no sandbox
   const sandbox = process.getuid() === 0 ? ['--no-sandbox'] : [];
-  return playwright.chromium.launch({
-    executablePath, args: [...sandbox, '--use-angle=swiftshader', '--enable-unsafe-swiftshader', ...more],
-  });
+  return playwright.chromium.launch({ executablePath, args: [...sandbox, ...options] });
 }
 
 /// Asserts, each with what is asserted.

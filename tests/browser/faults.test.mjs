@@ -2,7 +2,7 @@
 // usage: faults.test.mjs PROGRAM
 // The page of lambent serve in Chromium, where a picture is broken, the page sleeps, and the server is killed and starts
 // again: each time pictures go on. Exits with 77 where there is no Chromium.
-import { Checks, launch, listen, until } from './chromium.mjs';
+import { Checks, launch, listen, until, WEBGL } from './chromium.mjs';
 import { Server } from './server.mjs';
 
 const [program] = process.argv.slice(2);
@@ -11,7 +11,7 @@ const AGAIN_MS = 1000; // until a page is connected again with a server that has
 const SETTINGS = ['--size', '160x90', '--rate', '10'];
 
 const checks = new Checks();
-const browser = await launch();
+const browser = await launch(WEBGL);
 let server = new Server(program, SETTINGS);
 const port = await server.started;
 const url = await server.url();

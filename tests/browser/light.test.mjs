@@ -2,7 +2,7 @@
 // usage: light.test.mjs PROGRAM [SCREENSHOT.png]
 // The page /light of lambent serve in Chromium, with WebGL by its processor: what it renders in the streamed light is what
 // lambent render makes of the same view, and follows edits. Exits with 77 where there is no Chromium.
-import { accessible, Checks, launch, listen, until } from './chromium.mjs';
+import { accessible, Checks, launch, listen, until, WEBGL } from './chromium.mjs';
 import { difference, mean, meansOfElement, meansOfPng } from './pictures.mjs';
 import { DISPLAY, FIELD, layerOf, pngOf, SCENE, Server } from './server.mjs';
 
@@ -18,7 +18,7 @@ const MOST_AGAIN = { mean: 1, worst: 14 }; // while the last of the change still
 const LEAST_CHANGE = 6;
 
 const checks = new Checks();
-const browser = await launch();
+const browser = await launch(WEBGL);
 // A finer volume, turned, in a corner of the box, which fades into the other
 const VOLUME = ['--volume', '2,0.3,2,5,3,5:probes=4x4x4:turn=20:priority=1'];
 const server = new Server(program, [...VOLUME, '--share-scene', '--rate', '10', '--size', `${SIZE.width}x${SIZE.height}`]);

@@ -3,7 +3,7 @@
 // Runs the WebGL port of the lookup in Chromium on the queries of a file (tests/ports/cases.h, irradiance in RGB9E5) and
 // holds it to the processor's answers. Exits with 77 where there is no Chromium.
 import { readFileSync } from 'node:fs';
-import { Checks, launch } from './chromium.mjs';
+import { Checks, launch, WEBGL } from './chromium.mjs';
 
 const [shader, cases, ...texels] = process.argv.slice(2);
 const WIDTH = 2048; // of textures
@@ -131,7 +131,7 @@ new Float32Array(queryWords.buffer).forEach((value, i) => { asTexels[4 * Math.fl
 const edges = texels.map(Number);
 
 const checks = new Checks();
-const browser = await launch();
+const browser = await launch(WEBGL);
 const page = await browser.newPage();
 const found = await page.evaluate(answer, {
   lookup: readFileSync(shader, 'utf8'), width: WIDTH, edges, uniforms: grids, count: queries,
