@@ -132,8 +132,9 @@ async function begin() {
   connection.open();
   let last = performance.now();
   renderer.setAnimationLoop((now) => {
-    if (camera.step(Math.min(0.1, (now - last) / 1000))) stale = true;
+    camera.step(Math.min(0.1, (now - last) / 1000));
     last = now;
+    if (camera.takeMoved()) stale = true;
     // Nothing is drawn that would look like what is there
     if (!stale || !scene || !decoder.probes) return;
     stale = false;

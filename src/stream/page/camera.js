@@ -11,6 +11,7 @@ export class CameraControls {
   position = [0, 0, 0];
   fov = 0.8;
   size = 0; // of the scene [m]; 0: nothing moves yet
+  onmove = () => {}; // called where mouse or touch have moved it
   #yaw = 0;
   #pitch = 0;
   #pressed = new Set();
@@ -28,10 +29,13 @@ export class CameraControls {
     element.addEventListener('blur', () => this.#pressed.clear());
     element.addEventListener('pointerdown', (event) => element.setPointerCapture(event.pointerId));
     element.addEventListener('pointermove', (event) => {
-      if (event.buttons) this.#turn(event.movementX * TURN, event.movementY * TURN);
+      if (!event.buttons) return;
+      this.#turn(event.movementX * TURN, event.movementY * TURN);
+      this.onmove();
     });
     element.addEventListener('wheel', (event) => {
       this.#move(-Math.sign(event.deltaY) * WHEEL_STEP, 0, 0);
+      this.onmove();
       event.preventDefault();
     }, { passive: false });
   }
@@ -55,7 +59,7 @@ export class CameraControls {
     return [cy * sp, sy * cp, -sy * sp, cy * cp];
   }
 
-  /// Goes on for so long, as pressed keys say. Returns whether the camera has moved since the last call.
+  /// Goes on for so long, as pressed keys say.
   step(seconds) {
     const key = (name) => (this.#pressed.has(name) ? 1 : 0);
     const step = seconds / KEYS_TO_CROSS;
@@ -63,6 +67,10 @@ export class CameraControls {
     const [yaw, pitch] = [key('arrowleft') - key('arrowright'), key('arrowup') - key('arrowdown')];
     if (ahead || right || up) this.#move(ahead * step, right * step, up * step);
     if (yaw || pitch) this.#turn(yaw * KEY_TURN * seconds, pitch * KEY_TURN * seconds);
+  }
+
+  /// Whether it has moved since the last call.
+  takeMoved() {
     const moved = this.#moved;
     this.#moved = false;
     return moved;

@@ -5,6 +5,7 @@ import { Edits } from './edits.js';
 import * as protocol from './protocol.js';
 
 const RATE = 30; // pictures a second, at most
+const SEND_MS = 15; // from one camera to the next, at least; servers take 200 messages a second
 
 const element = (id) => document.getElementById(id);
 const canvas = element('picture');
@@ -130,7 +131,9 @@ function tellNumbers(stats) {
     + `light ${stats.rate.toFixed(1)} times a second, clients ${stats.clients}`;
 }
 
+let lastSent = -SEND_MS;
 function sendCamera() {
+  lastSent = performance.now();
   connection.send(protocol.camera(++input, camera.position, camera.rotation, camera.fov));
 }
 
@@ -138,9 +141,15 @@ let lastFrame = performance.now();
 function everyFrame(now) {
   const seconds = Math.min(0.1, (now - lastFrame) / 1000);
   lastFrame = now;
-  if (camera.step(seconds)) sendCamera();
+  camera.step(seconds);
+  if (camera.takeMoved()) sendCamera();
   requestAnimationFrame(everyFrame);
 }
+
+// What is done by hand is not kept until the next frame of the screen
+camera.onmove = () => {
+  if (performance.now() - lastSent >= SEND_MS && camera.takeMoved()) sendCamera();
+};
 
 let resizing;
 new ResizeObserver(() => {
