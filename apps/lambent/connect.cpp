@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +22,7 @@
 #include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/render_output.h"
+#include "lambent/server_address.h"
 #include "lambent/step.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
@@ -38,32 +38,10 @@ constexpr const char* kExamples =
     "  lambent connect localhost --scene scene.glb -o picture.png   render it here\n"
     "  lambent connect https://light.example.org:8443 --token-file token -o p.png --frames 30\n";
 
-/// "HOST", "HOST:PORT" or either after http:// or https://.
 Expected<stream::ConnectSettings> parse_server(const ConnectOptions& options) {
   stream::ConnectSettings to = options.connect;
-  std::string text = options.server;
-  const std::string https = "https://", http = "http://";
-  if (text.starts_with(https)) {
-    to.tls = true;
-    text = text.substr(https.size());
-  } else if (text.starts_with(http)) {
-    text = text.substr(http.size());
-  }
-  if (text.ends_with("/")) text.pop_back();
-  const std::size_t colon = text.rfind(':');
-  // Colons within brackets are of an IPv6 address
-  if (colon != std::string::npos && text.find(']', colon) == std::string::npos) {
-    const auto port = finite_number(text.substr(colon + 1));
-    const auto number = static_cast<std::uint16_t>(port.value_or(0.0));
-    if (!port || static_cast<double>(number) != *port || number == 0) {
-      return fail("HOST", options.server, "has no port that can be: 1 to 65535");
-    }
-    to.port = number;
-    text = text.substr(0, colon);
-  }
-  if (text.starts_with("[") && text.ends_with("]")) text = text.substr(1, text.size() - 2);
-  if (text.empty()) return fail("HOST", options.server, "names no host");
-  to.host = text;
+  const auto parsed = parse_server_address("HOST", options.server, to);
+  if (!parsed) return tl::unexpected(parsed.error());
   constexpr double kMsOfSecond = 1000.0;
   to.timeout = std::chrono::milliseconds(static_cast<int>(options.timeout_s * kMsOfSecond));
   return to;
@@ -80,11 +58,9 @@ Expected<stream::Hello> make_hello(const ConnectOptions& options) {
   hello.size = *size;
   hello.rate = options.rate;
   hello.wants = options.stage.scene.empty() ? stream::kWantsPicture : stream::kWantsLight;
-  if (options.token_file.empty()) return hello;
-  std::ifstream file(options.token_file);
-  if (!(file >> hello.token) || hello.token.size() > stream::kMaxTokenBytes) {
-    return fail(options.token_file, "", "holds no token");
-  }
+  auto token = read_token(options.token_file);
+  if (!token) return tl::unexpected(token.error());
+  hello.token = std::move(*token);
   return hello;
 }
 

@@ -102,6 +102,9 @@ class LightDecoder {
   std::uint64_t update() const;
   /// The number of the last geometry received, for LightEncoder::join; 0: none.
   std::uint64_t geometry() const;
+  /// As LightEncoder::join, so that whoever hands the stream's messages on can take in who comes
+  /// late: the same bytes, as both sides hold the same state. Fails where `needs_key` says so.
+  Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
 
   // All below are empty or 0 before the first key.
 

@@ -37,6 +37,7 @@ inline std::vector<std::pair<stream::Message, stream::Sender>> one_of_each_messa
           {welcome, Sender::server},
           {picture, Sender::server},
           {LightPayload{1, 2, 0.5f, bytes}, Sender::server},
+          {InputsApplied{1, 2}, Sender::server},
           {ServerStats{}, Sender::server},
           {refusal, Sender::server}};
 }

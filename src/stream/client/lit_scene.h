@@ -30,6 +30,10 @@ class LitScene {
 
   /// The server's light, for a Renderer; null before the first update. Stays where it is.
   const IrradianceField* field() const { return streamed_.field(); }
+  /// The light as it came.
+  const LightDecoder& decoder() const { return streamed_.decoder(); }
+  /// SceneEditor::original
+  Edit original(const EditTarget& target) const { return editor_.original(target); }
   /// The update of the light that it is.
   std::uint64_t update() const { return streamed_.decoder().update(); }
 

@@ -49,13 +49,16 @@ struct LightDecoder::State {
   std::vector<int> changed;
   bool corrected = false;  ///< The last message changed corrections.
   std::vector<std::int32_t> levels;
+  /// The last message of all of the geometry for others, without its header, and its number.
+  std::vector<std::byte> whole_body;
+  std::uint64_t whole_version = 0;
 
   Expected<void> receive(std::span<const std::byte> bytes);
 
  private:
-  Expected<void> receive_geometry(const Message& message);
-  Expected<void> receive_key(const Message& message);
-  Expected<void> receive_delta(const Message& message);
+  Expected<void> receive_geometry(const OpenedMessage& message);
+  Expected<void> receive_key(const OpenedMessage& message);
+  Expected<void> receive_delta(const OpenedMessage& message);
   /// Whether a change leads on from this state, with this version of the geometry.
   Expected<void> check_follows(const MessageHeader& header, std::uint64_t base_geometry);
 };

@@ -20,7 +20,7 @@ std::string of_update(std::uint64_t update) {
 }  // namespace
 
 Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
-  const Expected<Message> message = open_message(bytes);
+  const Expected<OpenedMessage> message = open_message(bytes);
   if (!message) return tl::unexpected(message.error());
   switch (message->header.kind) {
     case LightMessageKind::geometry:
@@ -49,7 +49,7 @@ Expected<void> LightDecoder::State::check_follows(const MessageHeader& header,
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_geometry(const Message& message) {
+Expected<void> LightDecoder::State::receive_geometry(const OpenedMessage& message) {
   if (message.body.size() < sizeof(std::uint64_t)) return bad_stream("geometry", "is cut short");
   const std::uint64_t base = ByteReader(message.body).u64();
   const std::span<const std::byte> body = message.body.subspan(sizeof(base));
@@ -77,7 +77,7 @@ Expected<void> LightDecoder::State::receive_geometry(const Message& message) {
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_key(const Message& message) {
+Expected<void> LightDecoder::State::receive_key(const OpenedMessage& message) {
   const MessageHeader& header = message.header;
   if (current && header.stream == current->stream && !lost && header.update < light.update) {
     return bad_stream(of_update(header.update), "comes too late");
@@ -104,7 +104,7 @@ Expected<void> LightDecoder::State::receive_key(const Message& message) {
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_delta(const Message& message) {
+Expected<void> LightDecoder::State::receive_delta(const OpenedMessage& message) {
   if (current && message.header.stream == current->stream &&
       message.header.geometry != current->version && message.header.update > light.update) {
     lost = true;
@@ -148,6 +148,25 @@ std::uint64_t LightDecoder::update() const {
 std::uint64_t LightDecoder::geometry() const {
   if (state_->next) return state_->next->version;
   return state_->current ? state_->current->version : 0;
+}
+
+Expected<std::vector<LightMessage>> LightDecoder::join(std::uint64_t known_geometry) const {
+  State& s = *state_;
+  if (needs_key()) return bad_stream("", "is incomplete here: nobody can go on from it");
+  MessageHeader header{LightMessageKind::geometry, s.current->stream, s.light.update,
+                       s.current->version};
+  std::vector<LightMessage> messages;
+  if (known_geometry != s.current->version) {
+    // It is coded once, when the first needs it
+    if (s.whole_version != s.current->version) {
+      s.whole_body = geometry_body(0, write_geometry(s.current->geometry));
+      s.whole_version = s.current->version;
+    }
+    messages.push_back(make_message(header, s.whole_body));
+  }
+  header.kind = LightMessageKind::key;
+  messages.push_back(make_message(header, write_key(s.current->layout, s.light)));
+  return messages;
 }
 
 int LightDecoder::probes() const {

@@ -4,7 +4,6 @@
 #include <mutex>
 #include <optional>
 
-#include "core/little_endian.h"
 #include "field/field_access.h"
 #include "field/field_state.h"
 #include "lambent/stream.h"
@@ -50,13 +49,6 @@ double largest(const LightErrors& errors) {
   return std::max(errors.relative, errors.dark);
 }
 
-std::vector<std::byte> with_base(std::uint64_t base, std::span<const std::byte> body) {
-  ByteWriter out;
-  out.u64(base);
-  out.raw(body);
-  return out.take();
-}
-
 }  // namespace
 
 struct LightEncoder::State {
@@ -94,7 +86,7 @@ struct LightEncoder::State {
   LightMessage whole_geometry(std::uint64_t update) const {
     const std::scoped_lock lock(whole_mutex);
     if (whole_version != geometry_version) {
-      whole_body = with_base(0, write_geometry(geometry));
+      whole_body = geometry_body(0, write_geometry(geometry));
       whole_version = geometry_version;
     }
     return make_message(header(LightMessageKind::geometry, update), whole_body);
@@ -135,7 +127,7 @@ std::optional<LightMessage> LightEncoder::State::follow_geometry(const Irradianc
   layout = layout_of(geometry);
   clear_unlit(layout, light);
   return make_message(header(LightMessageKind::geometry, update),
-                      with_base(base, write_changes(before, geometry, probes, corrects)));
+                      geometry_body(base, write_changes(before, geometry, probes, corrects)));
 }
 
 LightMessage LightEncoder::State::encode_key(const FieldLight& field, std::uint64_t update,

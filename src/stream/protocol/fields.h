@@ -149,6 +149,12 @@ void fields(Archive& a, LightPayload& m) {
 }
 
 template <class Archive>
+void fields(Archive& a, InputsApplied& m) {
+  a.word("input", m.input, 1, kAnyWord);
+  a.long_word("update", m.update);
+}
+
+template <class Archive>
 void fields(Archive& a, ServerStats& m) {
   a.long_word("state", m.state);
   a.real("update_ms", m.update_ms, 0.0f, kMaxMs);

@@ -79,6 +79,10 @@ template <>
 struct Type<Refusal> {
   static constexpr std::uint8_t kNumber = 69;
 };
+template <>
+struct Type<InputsApplied> {
+  static constexpr std::uint8_t kNumber = 70;
+};
 
 constexpr std::uint8_t kFirstOfBoth = 32, kFirstOfServer = 64;
 

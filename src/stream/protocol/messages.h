@@ -164,6 +164,12 @@ struct LightPayload {
   std::vector<std::byte> bytes;
 };
 
+/// Told to a client of light that has sent edits: which of them the light shows.
+struct InputsApplied {
+  std::uint32_t input = 0;   ///< The client's last input that was applied or refused, from 1.
+  std::uint64_t update = 0;  ///< Light of this update and later ones is of the scene after it.
+};
+
 /// How the server fares, once a second.
 struct ServerStats {
   std::uint64_t state = 0;
@@ -192,7 +198,7 @@ struct Refusal {
 
 using Message = std::variant<Hello, PictureRequest, CameraInput, TimeOfDay, SunInput, LightInput,
                              ObjectInput, Received, LightReceived, Ping, Welcome, Picture,
-                             LightPayload, ServerStats, Refusal>;
+                             LightPayload, InputsApplied, ServerStats, Refusal>;
 
 /// Who sends a message. Each refuses what only the other one may say.
 enum class Sender : std::uint8_t { client, server };

@@ -133,6 +133,14 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
   wake_connection_();
 }
 
+void ClientLink::begin_light_anew() {
+  const std::lock_guard lock(mutex_);
+  light_.clear();
+  updates_under_way_.clear();
+  all_sent_at_ = 0;
+  light_lost_ = true;
+}
+
 SharedBytes ClientLink::next(Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   if (!notices_.empty()) {

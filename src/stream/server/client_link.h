@@ -42,7 +42,7 @@ enum class LightNeed : std::uint8_t {
 };
 
 /// All functions may be called from any thread.
-class ClientLink {
+class ClientLink : public std::enable_shared_from_this<ClientLink> {
  public:
   /// Pictures that a client may have been sent without word of their arrival: one that travels and
   /// one that is decoded.
@@ -88,6 +88,8 @@ class ClientLink {
   std::uint64_t known_geometry() const;
   /// All messages that lead to an update: changes, or all.
   void put_light(std::span<const SharedBytes> messages, std::uint64_t update, LightNeed what);
+  /// Updates are counted anew, from another stream: what waits is forgotten, and all is needed.
+  void begin_light_anew();
   /// Something to tell, soon.
   void put_notice(const Message& message);
   /// Bytes that wait to be written.

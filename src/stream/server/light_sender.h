@@ -26,6 +26,8 @@ class LightSender {
   Expected<void> send(const IrradianceField& field, float time_s,
                       std::span<ClientLink* const> clients);
 
+  /// The number of the next update that is sent: the first that shows edits added now.
+  std::uint64_t next_update() const { return encoder_.update() + 1; }
   /// To all clients so far.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
