@@ -184,8 +184,9 @@ class LightClient {
 
   /// Follows until the light is of an update, or a later one.
   bool follow(std::uint64_t update) {
+    const auto end = Clock::now() + test::kPatience;
     while (light().needs_key() || light().update() < update) {
-      if (!step()) return false;
+      if (Clock::now() > end || !step()) return false;
     }
     return true;
   }
@@ -197,8 +198,10 @@ class LightClient {
     const auto followed = lit_.follow(**message);
     EXPECT_TRUE(followed);
     if (!followed) return false;
-    return !followed->answer || client_->send(*followed->answer);
+    return !followed->answer || !answers_ || client_->send(*followed->answer);
   }
+  /// Whether light is answered.
+  void answer(bool answers) { answers_ = answers; }
   std::optional<InputsApplied> applied() const { return applied_; }
 
  private:
@@ -207,6 +210,7 @@ class LightClient {
   LitScene lit_;
   std::unique_ptr<Client> client_;
   std::optional<InputsApplied> applied_;
+  bool answers_ = true;
 };
 
 TEST(Relay, HandsLightOnToClientsAndServersOfItsOwnToTheBit) {
@@ -255,6 +259,9 @@ TEST(Relay, LightOfAServerThatStartsAnewReachesClientsOfLight) {
   while (client.scene().lights[0].intensity != lamp(0, 0.5f).intensity) {
     ASSERT_TRUE(client.follow(client.light().update() + 1));
   }
+  // Some of it stays without an answer
+  client.answer(false);
+  ASSERT_TRUE(client.follow(client.light().update() + 3));
   served.reset();
   served = serve_at(port);
   // Updates are counted from 1 again
@@ -263,6 +270,7 @@ TEST(Relay, LightOfAServerThatStartsAnewReachesClientsOfLight) {
   EXPECT_LT(client.light().update(), last);
   EXPECT_EQ(client.scene().lights[0].intensity, lamp(0, 1.0f).intensity);
   // More than may be under way without an answer
+  client.answer(true);
   last = client.light().update();
   EXPECT_TRUE(client.follow(last + 3 * ClientLink::kUpdatesUnderWay));
 }
