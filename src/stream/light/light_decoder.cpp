@@ -9,6 +9,7 @@
 #include "stream/light/decoder_state.h"
 #include "stream/light/light_coding.h"
 #include "stream/light/message.h"
+#include "stream/light/texture_coding.h"
 
 namespace lambent::stream {
 namespace {
@@ -29,6 +30,9 @@ Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
       return receive_key(*message);
     case LightMessageKind::delta:
       return receive_delta(*message);
+    case LightMessageKind::texture_key:
+    case LightMessageKind::texture:
+      return receive_texture(*message);
   }
   return bad_stream("", "holds a message of an unknown kind");
 }
@@ -77,30 +81,77 @@ Expected<void> LightDecoder::State::receive_geometry(const OpenedMessage& messag
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_key(const OpenedMessage& message) {
-  const MessageHeader& header = message.header;
+Expected<void> LightDecoder::State::check_key(const MessageHeader& header) {
   if (current && header.stream == current->stream && !lost && header.update < light.update) {
     return bad_stream(of_update(header.update), "comes too late");
   }
-  const bool is_of_next = next && next->stream == header.stream && next->version == header.geometry;
   const bool is_of_current =
       current && current->stream == header.stream && current->version == header.geometry;
-  if (!is_of_next && !is_of_current) {
-    lost = true;
-    return bad_stream(of_update(header.update), "is of geometry that is not here");
-  }
-  Expected<LightState> key = read_key(is_of_next ? next->layout : current->layout, message.body);
-  if (!key) return tl::unexpected(key.error());
-  if (is_of_next) {
+  if (is_of_next(header) || is_of_current) return {};
+  lost = true;
+  return bad_stream(of_update(header.update), "is of geometry that is not here");
+}
+
+void LightDecoder::State::take_key(const MessageHeader& header, LightState key) {
+  corrected = is_of_next(header);
+  if (corrected) {
     current = std::move(next);
     next.reset();
   }
-  light = std::move(*key);
+  light = std::move(key);
   light.update = header.update;
   lost = false;
-  corrected = is_of_next;
   changed.resize(current->layout.probes());
   std::iota(changed.begin(), changed.end(), 0);
+}
+
+Expected<void> LightDecoder::State::receive_key(const OpenedMessage& message) {
+  const MessageHeader& header = message.header;
+  if (const auto fine = check_key(header); !fine) return fine;
+  const LightLayout& layout = is_of_next(header) ? next->layout : current->layout;
+  Expected<LightState> key = read_key(layout, message.body);
+  if (!key) return tl::unexpected(key.error());
+  take_key(header, std::move(*key));
+  of_textures = false;
+  return {};
+}
+
+Expected<void> LightDecoder::State::receive_texture(const OpenedMessage& message) {
+  const MessageHeader& header = message.header;
+  const bool key = header.kind == LightMessageKind::texture_key;
+  if (!reader) return bad_stream("", "comes as textures of a video codec, which is not here");
+  const Expected<void> fine = key ? check_key(header) : check_follows(header, header.geometry);
+  if (!fine) return fine;
+  if (!key && !of_textures) {
+    lost = true;
+    return bad_stream(of_update(header.update), "is a texture that follows on none");
+  }
+  const ReceivedGeometry& of = is_of_next(header) ? *next : *current;
+  const auto atlas = TextureAtlas::of(of.geometry);
+  const auto body = read_texture(message.body);
+  Expected<void> read;
+  if (!atlas) read = tl::unexpected(atlas.error());
+  if (!body) read = tl::unexpected(body.error());
+  for (std::size_t i = 0; read && i < body->pictures.size(); ++i) {
+    picture.width = atlas->width();
+    picture.height = atlas->height();
+    read = reader->read(body->pictures[i], key && i == 0, picture);
+  }
+  if (!read) {
+    // Pictures that come next follow on this
+    lost = true;
+    return read;
+  }
+  const std::vector<std::int32_t> before = key ? std::vector<std::int32_t>() : light.coefficients;
+  take_key(header, state_of(*atlas, of.layout, of.basis, picture, body->scale));
+  of_textures = true;
+  if (key) return {};
+  const std::size_t numbers = current->layout.numbers();
+  std::erase_if(changed, [&](int probe) {
+    const auto own = light.coefficients.begin() + static_cast<std::ptrdiff_t>(probe * numbers);
+    return std::equal(own, own + static_cast<std::ptrdiff_t>(numbers),
+                      before.begin() + static_cast<std::ptrdiff_t>(probe * numbers));
+  });
   return {};
 }
 
@@ -111,6 +162,10 @@ Expected<void> LightDecoder::State::receive_delta(const OpenedMessage& message) 
     return bad_stream(of_update(message.header.update), "is of geometry that is not here");
   }
   if (const auto fine = check_follows(message.header, message.header.geometry); !fine) return fine;
+  if (of_textures) {
+    lost = true;
+    return bad_stream(of_update(message.header.update), "follows on light that is no texture");
+  }
   if (const auto fine = read_delta(current->layout, message.body, light, levels); !fine) {
     lost = true;
     return fine;
@@ -137,6 +192,10 @@ Expected<void> LightDecoder::receive(std::span<const std::byte> message) {
   return state_->receive(message);
 }
 
+void LightDecoder::read_textures(std::unique_ptr<TextureReader> reader) {
+  state_->reader = std::move(reader);
+}
+
 bool LightDecoder::needs_key() const {
   return state_->lost || !state_->current;
 }
@@ -152,7 +211,9 @@ std::uint64_t LightDecoder::geometry() const {
 
 Expected<std::vector<LightMessage>> LightDecoder::join(std::uint64_t known_geometry) const {
   State& s = *state_;
-  if (needs_key()) return bad_stream("", "is incomplete here: nobody can go on from it");
+  if (needs_key() || s.of_textures) {
+    return bad_stream("", "is incomplete here: nobody can go on from it");
+  }
   MessageHeader header{LightMessageKind::geometry, s.current->stream, s.light.update,
                        s.current->version};
   std::vector<LightMessage> messages;
