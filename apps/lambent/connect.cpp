@@ -29,6 +29,7 @@
 #include "stream/client/client.h"
 #include "stream/edits/edits.h"
 #include "stream/picture/h264.h"
+#include "stream/textures/h265.h"
 
 namespace lambent::cli {
 namespace {
@@ -57,7 +58,9 @@ Expected<stream::Hello> make_hello(const ConnectOptions& options) {
   }
   hello.size = *size;
   hello.rate = options.rate;
-  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture : stream::kWantsLight;
+  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture
+                : options.codec == "h265"   ? stream::kWantsTextures
+                                            : stream::kWantsLight;
   auto token = read_token(options.token_file);
   if (!token) return tl::unexpected(token.error());
   hello.token = std::move(*token);
@@ -166,6 +169,9 @@ Expected<void> connect(const ConnectOptions& options) {
   if (!options.stage.scene.empty()) {
     if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
   }
+  if (options.codec == "h265" && !stream::has_h265()) {
+    return fail("--codec", options.codec, "is not in this build (LAMBENT_STREAM_H265)");
+  }
   const auto settings = parse_server(options);
   if (!settings) return tl::unexpected(settings.error());
   const auto hello = make_hello(options);
@@ -246,6 +252,11 @@ void add_connect(CLI::App& app, Run& run) {
       ->check(one_of({"draft", "interactive", "high"}))
       ->capture_default_str()
       ->type_name("Q");
+  command
+      ->add_option("--codec", o->codec, "Of the light: lambent, or h265 where both sides have it")
+      ->check(one_of({"lambent", "h265"}))
+      ->needs("--scene")
+      ->type_name("C");
   add_light_options(*command, o->stage.light);
   set_examples(*command, kExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });

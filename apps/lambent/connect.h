@@ -25,6 +25,7 @@ struct ConnectOptions {
   int frames = 1;
   StageOptions stage;  // its scene is empty: pictures of the server's
   std::string quality = "interactive";
+  std::string codec = "lambent";  // of light
 };
 
 /// The number of the one input that is sent.

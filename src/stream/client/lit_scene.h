@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "lambent/stream.h"
 #include "lambent/world.h"
@@ -17,6 +19,11 @@ class LitScene {
  public:
   /// Refers to the scene, a copy of the server's as it was opened, and its world.
   LitScene(Scene& scene, World& world) : scene_(scene), world_(world), editor_(scene, world) {}
+
+  /// LightDecoder::read_textures
+  void read_textures(std::unique_ptr<TextureReader> reader) {
+    streamed_.read_textures(std::move(reader));
+  }
 
   /// What came of a message.
   struct Followed {

@@ -27,7 +27,7 @@ void fields(Archive& a, Hello& m) {
   std::uint32_t magic = kMagic;
   a.word("magic", magic, kMagic, kMagic);
   a.word("version", m.version, 0, kAnyWord);
-  a.word("wants", m.wants, 1, kWantsPicture | kWantsLight);
+  a.word("wants", m.wants, 1, kWantsAll);
   a.word("width", m.size.x, kMinPictureSide, kMaxPictureSide);
   a.word("height", m.size.y, kMinPictureSide, kMaxPictureSide);
   a.real("rate", m.rate, kMinPictureRate, kMaxPictureRate);
@@ -116,7 +116,7 @@ void fields(Archive& a, Welcome& m) {
   auto role = static_cast<std::uint32_t>(m.role);
   a.word("role", role, 1, static_cast<std::uint32_t>(Role::change));
   m.role = static_cast<Role>(role);
-  a.word("offers", m.offers, 0, kWantsPicture | kWantsLight);
+  a.word("offers", m.offers, 0, kWantsAll);
   a.word("max_width", m.max_size.x, kMinPictureSide, kMaxPictureSide);
   a.word("max_height", m.max_size.y, kMinPictureSide, kMaxPictureSide);
   a.real("rate", m.rate, 0.0f, 1e6f);

@@ -40,7 +40,9 @@ inline constexpr float kMinPictureRate = 0.1f, kMaxPictureRate = 120.0f;
 enum class Role : std::uint32_t { view = 1, change = 2 };
 
 /// What a client asks for, and a server offers: any of these, added.
-inline constexpr std::uint32_t kWantsPicture = 1, kWantsLight = 2;
+/// Textures are light through H.265, in place of our own codec.
+inline constexpr std::uint32_t kWantsPicture = 1, kWantsLight = 2, kWantsTextures = 4;
+inline constexpr std::uint32_t kWantsAll = kWantsPicture | kWantsLight | kWantsTextures;
 
 // Messages of clients
 

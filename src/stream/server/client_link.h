@@ -62,6 +62,8 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   const Hello& hello() const { return hello_; }
   Role role() const { return role_; }
   bool wants(std::uint32_t what) const { return (hello_.wants & what) != 0; }
+  /// In whichever codec.
+  bool wants_light() const { return wants(kWantsLight | kWantsTextures); }
 
   // The connection's side
 

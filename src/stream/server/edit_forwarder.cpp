@@ -63,7 +63,7 @@ void EditForwarder::applied(const InputsApplied& told) {
     one.update = told.update;
     for (const Sender& sender : one.senders) {
       const auto client = sender.client.lock();
-      if (!client || !client->wants(kWantsLight)) continue;
+      if (!client || !client->wants_light()) continue;
       if (std::find(clients.begin(), clients.end(), client) == clients.end()) {
         clients.push_back(client);
       }

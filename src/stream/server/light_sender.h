@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,17 +27,32 @@ class LightSender {
   Expected<void> send(const IrradianceField& field, float time_s,
                       std::span<ClientLink* const> clients);
 
-  /// The number of the next update that is sent: the first that shows edits added now.
-  std::uint64_t next_update() const { return encoder_.update() + 1; }
+  /// The number of the next update that a client is sent: the first that shows edits added now.
+  std::uint64_t next_update(const ClientLink& client) const;
   /// To all clients so far.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
  private:
   explicit LightSender(LightEncoder encoder) : encoder_(std::move(encoder)) {}
 
+  struct Receivers {
+    std::vector<ClientLink*> follow, begin;
+    bool any() const { return !follow.empty() || !begin.empty(); }
+  };
+  static Receivers receivers_of(std::span<ClientLink* const> clients, std::uint32_t codec);
+  void put(ClientLink& client, std::span<const SharedBytes> messages, std::uint64_t update,
+           LightNeed what);
+  std::vector<Edit> all_edits() const;
+  Expected<void> send_coded(const IrradianceField& field, float time_s, std::span<const Edit> edits,
+                            const Receivers& to);
+  Expected<void> send_textures(const IrradianceField& field, float time_s,
+                               std::span<const Edit> edits, Receivers to);
+
   LightEncoder encoder_;
-  std::map<EditTarget, Edit> edited_;  // since the scene was opened
-  std::vector<Edit> new_edits_;        // since light was sent last
+  std::optional<LightEncoder> textures_;  // where there is a video codec
+  Clock::time_point next_texture_key_;    // not before
+  std::map<EditTarget, Edit> edited_;     // since the scene was opened
+  std::vector<Edit> new_edits_;           // since light was sent last
   std::uint64_t bytes_sent_ = 0;
 };
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/stopwatch.h"
+#include "stream/textures/h265.h"
 
 namespace lambent::stream {
 namespace {
@@ -44,7 +45,7 @@ const IrradianceField* WorldLoop::field() const {
 std::vector<ClientLink*> WorldLoop::light_clients() const {
   std::vector<ClientLink*> clients;
   for (const Viewer& viewer : viewers_) {
-    if (viewer.link->wants(kWantsLight)) clients.push_back(viewer.link.get());
+    if (viewer.link->wants_light()) clients.push_back(viewer.link.get());
   }
   return clients;
 }
@@ -52,6 +53,7 @@ std::vector<ClientLink*> WorldLoop::light_clients() const {
 void WorldLoop::welcome() {
   Welcome told;
   told.offers = kWantsPicture | kWantsLight;
+  if (!upstream_ && has_h265()) told.offers |= kWantsTextures;
   told.max_size = settings_.pictures.limits.size;
   told.rate = settings_.rate;
   told.camera = input_of(served_.camera);
@@ -97,8 +99,8 @@ void WorldLoop::forward(ClientLink& link, ClientInputs& inputs) {
 
 /// Tells a client of light that its edits have been applied or refused.
 void WorldLoop::tell_applied(ClientLink& link, const ClientInputs& inputs) {
-  if (inputs.edits.empty() || inputs.last_input == 0 || !link.wants(kWantsLight)) return;
-  const std::uint64_t next = relayed_ ? relayed_->update() : light_->next_update();
+  if (inputs.edits.empty() || inputs.last_input == 0 || !link.wants_light()) return;
+  const std::uint64_t next = relayed_ ? relayed_->update() : light_->next_update(link);
   link.put_notice(InputsApplied{inputs.last_input, next});
 }
 

@@ -90,6 +90,8 @@ class X265Writer : public TextureWriter {
     param_->psyRdoq = 0.0;
     param_->rdoqLevel = 2;
     param_->rdLevel = 4;
+    param_->bEnableEarlySkip = 0;
+    param_->recursionSkipMode = 0;
     param_->bEnableLoopFilter = 0;
     param_->bEnableSAO = 0;
     param_->bEnableWeightedPred = 0;
