@@ -51,6 +51,7 @@ struct Options {
   std::string quality = "interactive";
   std::string size = "720p";
   std::string exposure = "auto", tone_map = "aces";
+  std::string encoder = std::string(stream::kDefaultEncoder);
   double max_megabits = 20.0;
   double idle_s = 20.0;
   int updates = 8;
@@ -89,6 +90,10 @@ Expected<stream::PictureSettings> picture_settings(const Options& options) {
   if (!stops) return tl::unexpected(stops.error());
   settings.exposure_stops = *stops;
   settings.tone_map = *tone_map_from_name(options.tone_map);
+  settings.encoder = options.encoder;
+  if (const auto works = stream::check_encoder(options.encoder); !works) {
+    return fail("--encoder", options.encoder, works.error().cause, works.error().kind);
+  }
   return settings;
 }
 
@@ -278,6 +283,11 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->check(number(0.1, 1000.0))
       ->capture_default_str()
       ->type_name("M");
+  command
+      .add_option("--encoder", o.encoder, "Of pictures: " + list_text(stream::picture_encoders()))
+      ->check(one_of(stream::picture_encoders()))
+      ->capture_default_str()
+      ->type_name("E");
   command.add_option("--idle", o.idle_s, "End connections without a sign of life after [s]")
       ->check(number(1.0, 3600.0))
       ->capture_default_str()
