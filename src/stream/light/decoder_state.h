@@ -14,7 +14,7 @@
 #include "stream/light/geometry_coding.h"
 #include "stream/light/light_signal.h"
 #include "stream/light/message.h"
-#include "stream/light/texture_atlas.h"
+#include "stream/textures/texture_atlas.h"
 
 namespace lambent::stream {
 

@@ -9,7 +9,7 @@
 #include "stream/light/decoder_state.h"
 #include "stream/light/light_coding.h"
 #include "stream/light/message.h"
-#include "stream/light/texture_coding.h"
+#include "stream/textures/texture_coding.h"
 
 namespace lambent::stream {
 namespace {

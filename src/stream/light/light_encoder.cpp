@@ -12,7 +12,7 @@
 #include "stream/light/light_coding.h"
 #include "stream/light/message.h"
 #include "stream/light/quantise.h"
-#include "stream/light/texture_encoding.h"
+#include "stream/textures/texture_encoding.h"
 
 namespace lambent::stream {
 namespace {

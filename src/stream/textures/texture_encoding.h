@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stream/light/quantise.h"
-#include "stream/light/texture_coding.h"
+#include "stream/textures/texture_coding.h"
 
 namespace lambent::stream {
 

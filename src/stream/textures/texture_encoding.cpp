@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/light/texture_encoding.h"
+#include "stream/textures/texture_encoding.h"
 
 #include <algorithm>
 #include <cmath>

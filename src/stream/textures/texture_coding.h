@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "stream/light/light_state.h"
-#include "stream/light/texture_atlas.h"
 #include "stream/light/tile_basis.h"
+#include "stream/textures/texture_atlas.h"
 
 namespace lambent::stream {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/light/texture_atlas.h"
+#include "stream/textures/texture_atlas.h"
 
 #include <algorithm>
 #include <array>
