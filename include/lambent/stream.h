@@ -23,6 +23,7 @@ enum class LightMessageKind : std::uint8_t {
   delta = 3,        ///< The change of light from one update to the next.
   texture_key = 4,  ///< The whole state of light, as a picture that decoding can begin with.
   texture = 5,      ///< The state of light, as pictures that follow on those before.
+  regions = 6,      ///< Keys and changes of parts of a field, as one client needs them.
 };
 
 /// One self-contained piece of a light stream; `bytes` is opaque to whoever carries it.
@@ -141,7 +142,7 @@ class LightDecoder {
   std::uint64_t geometry() const;
   /// As LightEncoder::join, so that whoever hands the stream's messages on can take in who comes
   /// late: the same bytes, as both sides hold the same state. Fails where `needs_key` says so, and
-  /// where light comes as textures.
+  /// where light comes as textures or by regions.
   Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
 
   // All below are empty or 0 before the first key.
@@ -161,6 +162,7 @@ class LightDecoder {
 
  private:
   friend class StreamedField;
+  friend class RegionEncoder;
   struct State;
   std::unique_ptr<State> state_;
 };

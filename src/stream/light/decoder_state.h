@@ -14,6 +14,7 @@
 #include "stream/light/geometry_coding.h"
 #include "stream/light/light_signal.h"
 #include "stream/light/message.h"
+#include "stream/regions/region_states.h"
 #include "stream/textures/texture_atlas.h"
 
 namespace lambent::stream {
@@ -50,7 +51,11 @@ struct LightDecoder::State {
   bool lost = false;                      ///< A change is missing.
   std::unique_ptr<TextureReader> reader;  ///< Null: textures are refused.
   TexturePicture picture;                 ///< The last texture's.
-  bool of_textures = false;               ///< The light came as textures.
+  /// How the light came; what follows must come in the same way.
+  enum class Way : std::uint8_t { coded, textures, regions };
+  Way way = Way::coded;
+  std::optional<RegionStates> regions;  ///< Where it came by regions.
+  std::uint64_t geometries = 0;         ///< Keys so far that were of another geometry.
   std::vector<int> changed;
   bool corrected = false;  ///< The last message changed corrections.
   std::vector<std::int32_t> levels;
@@ -64,6 +69,10 @@ struct LightDecoder::State {
   Expected<void> receive_geometry(const OpenedMessage& message);
   Expected<void> receive_key(const OpenedMessage& message);
   Expected<void> receive_texture(const OpenedMessage& message);
+  Expected<void> receive_regions(const OpenedMessage& message);
+  Expected<void> receive_whole_regions(const MessageHeader& header, const RegionBody& body);
+  /// Whether a change goes on in the way in which the light came.
+  Expected<void> check_way(const MessageHeader& header, Way now);
   /// Whether a key can be taken: its geometry is here, and it does not come too late.
   Expected<void> check_key(const MessageHeader& header);
   bool is_of_next(const MessageHeader& header) const {

@@ -33,6 +33,8 @@ Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
     case LightMessageKind::texture_key:
     case LightMessageKind::texture:
       return receive_texture(*message);
+    case LightMessageKind::regions:
+      return receive_regions(*message);
   }
   return bad_stream("", "holds a message of an unknown kind");
 }
@@ -78,7 +80,14 @@ Expected<void> LightDecoder::State::receive_geometry(const OpenedMessage& messag
   current->version = message.header.geometry;
   current->lay_out();
   clear_unlit(current->layout, light);
+  if (way == Way::regions) regions->follow(current->layout);
   return {};
+}
+
+Expected<void> LightDecoder::State::check_way(const MessageHeader& header, Way now) {
+  if (way == now) return {};
+  lost = true;
+  return bad_stream(of_update(header.update), "goes on in another way than its key came");
 }
 
 Expected<void> LightDecoder::State::check_key(const MessageHeader& header) {
@@ -97,6 +106,7 @@ void LightDecoder::State::take_key(const MessageHeader& header, LightState key) 
   if (corrected) {
     current = std::move(next);
     next.reset();
+    ++geometries;
   }
   light = std::move(key);
   light.update = header.update;
@@ -112,7 +122,7 @@ Expected<void> LightDecoder::State::receive_key(const OpenedMessage& message) {
   Expected<LightState> key = read_key(layout, message.body);
   if (!key) return tl::unexpected(key.error());
   take_key(header, std::move(*key));
-  of_textures = false;
+  way = Way::coded;
   return {};
 }
 
@@ -122,9 +132,8 @@ Expected<void> LightDecoder::State::receive_texture(const OpenedMessage& message
   if (!reader) return bad_stream("", "comes as textures of a video codec, which is not here");
   const Expected<void> fine = key ? check_key(header) : check_follows(header, header.geometry);
   if (!fine) return fine;
-  if (!key && !of_textures) {
-    lost = true;
-    return bad_stream(of_update(header.update), "is a texture that follows on none");
+  if (!key) {
+    if (const auto same = check_way(header, Way::textures); !same) return same;
   }
   const ReceivedGeometry& of = is_of_next(header) ? *next : *current;
   const auto atlas = TextureAtlas::of(of.geometry);
@@ -144,7 +153,7 @@ Expected<void> LightDecoder::State::receive_texture(const OpenedMessage& message
   }
   const std::vector<std::int32_t> before = key ? std::vector<std::int32_t>() : light.coefficients;
   take_key(header, state_of(*atlas, of.layout, of.basis, picture, body->scale));
-  of_textures = true;
+  way = Way::textures;
   if (key) return {};
   const std::size_t numbers = current->layout.numbers();
   std::erase_if(changed, [&](int probe) {
@@ -162,10 +171,7 @@ Expected<void> LightDecoder::State::receive_delta(const OpenedMessage& message) 
     return bad_stream(of_update(message.header.update), "is of geometry that is not here");
   }
   if (const auto fine = check_follows(message.header, message.header.geometry); !fine) return fine;
-  if (of_textures) {
-    lost = true;
-    return bad_stream(of_update(message.header.update), "follows on light that is no texture");
-  }
+  if (const auto same = check_way(message.header, Way::coded); !same) return same;
   if (const auto fine = read_delta(current->layout, message.body, light, levels); !fine) {
     lost = true;
     return fine;
@@ -211,7 +217,7 @@ std::uint64_t LightDecoder::geometry() const {
 
 Expected<std::vector<LightMessage>> LightDecoder::join(std::uint64_t known_geometry) const {
   State& s = *state_;
-  if (needs_key() || s.of_textures) {
+  if (needs_key() || s.way != State::Way::coded) {
     return bad_stream("", "is incomplete here: nobody can go on from it");
   }
   MessageHeader header{LightMessageKind::geometry, s.current->stream, s.light.update,
