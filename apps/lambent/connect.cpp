@@ -169,6 +169,9 @@ Expected<void> connect(const ConnectOptions& options) {
   if (!options.stage.scene.empty()) {
     if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
   }
+  if (options.interest > 0.0f && options.codec != "lambent") {
+    return fail("--interest", "", "is not for light through H.265, which comes as a whole");
+  }
   if (options.codec == "h265" && !stream::has_h265()) {
     return fail("--codec", options.codec, "is not in this build (LAMBENT_STREAM_H265)");
   }
@@ -257,6 +260,14 @@ void add_connect(CLI::App& app, Run& run) {
       ->check(one_of({"lambent", "h265"}))
       ->needs("--scene")
       ->type_name("C");
+  command
+      ->add_option(
+          "--interest", o->interest,
+          "Get light within this, and what is seen within twice, with each update, and the "
+          "rest with every eighth [m]")
+      ->check(number(0.0, kMaxTime))
+      ->needs("--scene")
+      ->type_name("M");
   add_light_options(*command, o->stage.light);
   set_examples(*command, kExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });

@@ -26,6 +26,7 @@ struct ConnectOptions {
   StageOptions stage;  // its scene is empty: pictures of the server's
   std::string quality = "interactive";
   std::string codec = "lambent";  // of light
+  float interest = 0.0f;          // light within so far comes with each update [m]; 0: all does
 };
 
 /// The number of the one input that is sent.

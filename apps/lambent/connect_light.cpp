@@ -74,6 +74,13 @@ Expected<void> render_by_stream(const ConnectOptions& options,
     if (!reader) return tl::unexpected(reader.error());
     lit.read_textures(std::move(*reader));
   }
+  if (options.interest > 0.0f) {
+    if (camera) {
+      if (const auto sent = joined.client->send(*camera); !sent) return sent;
+    }
+    const auto sent = joined.client->send(stream::Interest{options.interest});
+    if (!sent) return sent;
+  }
   std::optional<Renderer> renderer;
   std::optional<float> stops;
   std::vector<std::string> written;

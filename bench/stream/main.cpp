@@ -8,6 +8,7 @@ int main(int argc, char** argv) {
                                   {{"rates", measure_rates},
                                    {"quality", measure_quality},
                                    {"textures", measure_textures},
+                                   {"regions", measure_regions},
                                    {"geometry", measure_geometry}},
                                   argc, argv);
 }

@@ -86,6 +86,7 @@ StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& sett
 /// The rows, each a function that prints a table.
 void measure_rates();     ///< What streams take, and how exact and how fast they are.
 void measure_quality();   ///< What they take at other errors.
+void measure_regions();   ///< What a client gets of a large field, all of it or what is near.
 void measure_textures();  ///< What they take through H.265.
 void measure_geometry();  ///< Geometry, and keys.
 

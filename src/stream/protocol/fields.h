@@ -95,6 +95,11 @@ void fields(Archive& a, LightReceived& m) {
 }
 
 template <class Archive>
+void fields(Archive& a, Interest& m) {
+  a.real("radius", m.radius, 0.0f, kMaxPlace);
+}
+
+template <class Archive>
 void fields(Archive& a, Ping& m) {
   a.long_word("token", m.token);
   a.word("answer", m.answer, 0, 1);

@@ -56,6 +56,10 @@ struct Type<LightReceived> {
   static constexpr std::uint8_t kNumber = 5;
 };
 template <>
+struct Type<Interest> {
+  static constexpr std::uint8_t kNumber = 6;
+};
+template <>
 struct Type<Ping> {
   static constexpr std::uint8_t kNumber = 32;
 };

@@ -117,6 +117,11 @@ struct LightReceived {
   std::uint32_t needs_key = 0;  ///< 1: LightDecoder::needs_key.
 };
 
+/// From now on light near the client's camera comes with each update, and the rest every eighth.
+struct Interest {
+  float radius = 0.0f;  ///< Within this all is near, and what is seen within twice [m]; 0: all is.
+};
+
 // Messages of both
 
 /// To be sent back as it is, marked as an answer.
@@ -199,7 +204,7 @@ struct Refusal {
 };
 
 using Message = std::variant<Hello, PictureRequest, CameraInput, TimeOfDay, SunInput, LightInput,
-                             ObjectInput, Received, LightReceived, Ping, Welcome, Picture,
+                             ObjectInput, Received, LightReceived, Interest, Ping, Welcome, Picture,
                              LightPayload, InputsApplied, ServerStats, Refusal>;
 
 /// Who sends a message. Each refuses what only the other one may say.

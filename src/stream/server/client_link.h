@@ -24,6 +24,7 @@ namespace lambent::stream {
 struct ClientInputs {
   std::optional<CameraInput> camera;
   std::optional<PictureRequest> request;
+  std::optional<Interest> interest;
   std::vector<Edit> edits;             ///< In their order; one a target.
   std::vector<double> round_trips_ms;  ///< Of pictures that the client has decoded since.
   /// The number of its last input; where edits wait, of the last one before these.

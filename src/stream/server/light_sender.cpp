@@ -86,21 +86,42 @@ std::vector<Edit> LightSender::all_edits() const {
   return all;
 }
 
+/// Takes changes in where anybody gets regions of them.
+void LightSender::follow_by_regions(std::span<const LightMessage> changes) {
+  if (!regions_.any()) return;
+  const auto take = [this](std::span<const LightMessage> messages) {
+    for (const LightMessage& message : messages) static_cast<void>(whole_.receive(message.bytes));
+  };
+  if (whole_.update() + 1 == encoder_.update()) take(changes);
+  if (whole_.needs_key() || whole_.update() != encoder_.update()) {
+    if (const auto all = encoder_.join(whole_.geometry())) take(*all);
+  }
+  regions_.follow(whole_);
+}
+
 Expected<void> LightSender::send_coded(const IrradianceField& field, float time_s,
                                        std::span<const Edit> edits, const Receivers& to) {
   // Nobody pays for light that nobody gets
   if (!to.any()) return {};
   const auto changes = encoder_.encode(field);
   if (!changes) return tl::unexpected(changes.error());
+  follow_by_regions(*changes);
   if (!to.follow.empty()) {
     const auto messages = written(edits, *changes, time_s);
     for (ClientLink* client : to.follow) {
-      put(*client, messages, encoder_.update(), LightNeed::changes);
+      if (regions_.serves(*client)) {
+        std::vector<LightMessage> own(changes->begin(), changes->end() - 1);
+        own.push_back(regions_.update_for(whole_, *client, false));
+        put(*client, written(edits, own, time_s), encoder_.update(), LightNeed::changes);
+      } else {
+        put(*client, messages, encoder_.update(), LightNeed::changes);
+      }
     }
   }
   for (ClientLink* client : to.begin) {
-    const auto all = encoder_.join(client->known_geometry());
+    auto all = encoder_.join(client->known_geometry());
     if (!all) return tl::unexpected(all.error());
+    if (regions_.serves(*client)) all->back() = regions_.update_for(whole_, *client, true);
     put(*client, written(all_edits(), *all, time_s), encoder_.update(), LightNeed::all);
   }
   return {};
@@ -136,6 +157,7 @@ Expected<void> LightSender::send_textures(const IrradianceField& field, float ti
 Expected<void> LightSender::send(const IrradianceField& field, float time_s,
                                  std::span<ClientLink* const> clients) {
   const std::vector<Edit> edits = std::exchange(new_edits_, {});
+  regions_.keep(clients);
   const auto coded = send_coded(field, time_s, edits, receivers_of(clients, kWantsLight));
   if (!coded || !textures_) return coded;
   return send_textures(field, time_s, edits, receivers_of(clients, kWantsTextures));

@@ -11,6 +11,7 @@
 
 #include "lambent/stream.h"
 #include "stream/server/client_link.h"
+#include "stream/server/region_sender.h"
 
 namespace lambent::stream {
 
@@ -22,6 +23,8 @@ class LightSender {
   /// Remembers edits that the world has accepted, for who comes later, and sends them with the next
   /// light.
   void add_edit(const Edit& edit);
+  /// Who gets light by regions.
+  RegionSender& regions() { return regions_; }
   /// Sends the light after an update of the field to those clients that want any. Fails on light
   /// that is not finite.
   Expected<void> send(const IrradianceField& field, float time_s,
@@ -48,7 +51,11 @@ class LightSender {
   Expected<void> send_textures(const IrradianceField& field, float time_s,
                                std::span<const Edit> edits, Receivers to);
 
+  void follow_by_regions(std::span<const LightMessage> changes);
+
   LightEncoder encoder_;
+  RegionSender regions_;
+  LightDecoder whole_;                    // follows the encoder while somebody gets regions
   std::optional<LightEncoder> textures_;  // where there is a video codec
   Clock::time_point next_texture_key_;    // not before
   std::map<EditTarget, Edit> edited_;     // since the scene was opened

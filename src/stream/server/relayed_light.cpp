@@ -141,25 +141,37 @@ Expected<void> RelayedLight::take_light(const LightPayload& light,
 
 /// Sends the light as it came to those that follow it, and all of it to those that begin.
 void RelayedLight::hand_on(std::span<ClientLink* const> clients) {
-  std::vector<SharedBytes> changes = std::exchange(edits_since_, {});
+  const std::vector<SharedBytes> edits = std::exchange(edits_since_, {});
   const std::vector<SharedBytes> light = std::exchange(light_since_, {});
+  std::vector<SharedBytes> changes = edits;
   changes.insert(changes.end(), light.begin(), light.end());
+  regions_.keep(clients);
+  if (regions_.any()) regions_.follow(lit_.decoder());
+  const auto payload = [this](const LightMessage& message) {
+    return shared(LightPayload{static_cast<std::uint32_t>(message.kind), message.update, time_s_,
+                               message.bytes});
+  };
   const auto put = [&](ClientLink& client, std::span<const SharedBytes> messages, LightNeed what) {
     client.put_light(messages, lit_.update(), what);
     for (const SharedBytes& message : messages) bytes_sent_ += message->size();
   };
   for (ClientLink* client : clients) {
     const LightNeed need = client->need_light();
-    if (need == LightNeed::changes) put(*client, changes, need);
+    if (need == LightNeed::changes && !regions_.serves(*client)) put(*client, changes, need);
+    if (need == LightNeed::changes && regions_.serves(*client)) {
+      std::vector<SharedBytes> own(changes.begin(), changes.end() - 1);
+      own.push_back(payload(regions_.update_for(lit_.decoder(), *client, false)));
+      put(*client, own, need);
+    }
     if (need != LightNeed::all) continue;
-    const auto all = lit_.decoder().join(client->known_geometry());
+    auto all = lit_.decoder().join(client->known_geometry());
     if (!all) continue;  // light that is incomplete here comes again
+    if (regions_.serves(*client)) {
+      all->back() = regions_.update_for(lit_.decoder(), *client, true);
+    }
     std::vector<SharedBytes> messages;
     for (const auto& [target, edit] : edited_) messages.push_back(shared(edit));
-    for (const LightMessage& message : *all) {
-      messages.push_back(shared(LightPayload{static_cast<std::uint32_t>(message.kind),
-                                             message.update, time_s_, message.bytes}));
-    }
+    for (const LightMessage& message : *all) messages.push_back(payload(message));
     put(*client, messages, LightNeed::all);
   }
 }

@@ -16,6 +16,7 @@
 #include "stream/client/upstream.h"
 #include "stream/server/client_link.h"
 #include "stream/server/edit_forwarder.h"
+#include "stream/server/region_sender.h"
 
 namespace lambent::stream {
 
@@ -59,6 +60,8 @@ class RelayedLight {
   /// what the server's is.
   Expected<Followed> follow(std::span<ClientLink* const> clients);
 
+  /// Who gets light by regions.
+  RegionSender& regions() { return regions_; }
   /// Bytes of light to all clients so far.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
@@ -76,6 +79,7 @@ class RelayedLight {
   std::function<void(const std::string&)> log_;
   EditForwarder edits_;
   LightChangeMeter meter_;
+  RegionSender regions_;
   bool connected_ = true, can_change_ = false;
   bool is_new_ = true;  // no light of this connection has come yet
   std::uint32_t stream_ = 0;

@@ -76,6 +76,8 @@ void WorldLoop::meet_clients() {
                                    [&](const Viewer& viewer) { return viewer.link == link; });
     if (known || link->gone()) continue;
     viewers_.push_back({link, nullptr, link->wants(kWantsPicture)});
+    // Nothing of one that had the same place in memory
+    (relayed_ ? relayed_->regions() : light_->regions()).set_surroundings(*link, std::nullopt);
   }
   if (field() == nullptr) return;
   for (Viewer& viewer : viewers_) {
@@ -84,6 +86,24 @@ void WorldLoop::meet_clients() {
                                                      served_.camera, viewer.link->hello());
     viewer.pictures->follow(viewer.first_inputs);
   }
+}
+
+/// Follows where a client of light is that wants less of it far away.
+void WorldLoop::follow_interest(Viewer& viewer, const ClientInputs& inputs) {
+  if (inputs.camera) viewer.camera = inputs.camera;
+  if (inputs.interest) viewer.radius = inputs.interest->radius;
+  if (!viewer.link->wants(kWantsLight) || (!inputs.camera && !inputs.interest)) return;
+  RegionSender& regions = relayed_ ? relayed_->regions() : light_->regions();
+  if (viewer.radius <= 0.0f) return regions.set_surroundings(*viewer.link, std::nullopt);
+  const Camera camera = viewer.camera ? camera_of(*viewer.camera) : served_.camera;
+  // Pictures are less than twice as wide as high, so that this cone holds their corners
+  constexpr float kOfHeight = 2.3f;
+  Surroundings where;
+  where.position_ws = glm::vec3(camera.world_from_view[3]);
+  where.forward_ws = -glm::normalize(glm::vec3(camera.world_from_view[2]));
+  where.half_view = std::atan(kOfHeight * std::tan(0.5f * camera.vertical_fov));
+  where.radius = viewer.radius;
+  regions.set_surroundings(*viewer.link, where);
 }
 
 /// Hands a client's edits to the server that computes the light, and tells which of its inputs
@@ -111,6 +131,7 @@ Expected<void> WorldLoop::follow_clients(bool with_edits) {
   std::vector<std::pair<ClientLink*, ClientInputs>> edited;
   for (Viewer& viewer : viewers_) {
     ClientInputs inputs = viewer.link->take_inputs(with_edits || relayed_.has_value());
+    follow_interest(viewer, inputs);
     if (relayed_) forward(*viewer.link, inputs);
     if (viewer.pictures) viewer.pictures->follow(inputs);
     if (viewer.waits_for_light) {

@@ -62,6 +62,8 @@ class WorldLoop {
     std::shared_ptr<ClientLink> link;
     std::unique_ptr<PictureMaker> pictures;  // null: asked for none, or waits
     bool waits_for_light = false;            // pictures are made as soon as there is any
+    std::optional<CameraInput> camera{};     // of who gets light by regions
+    float radius = 0.0f;                     // that it cares about [m]; 0: all
     ClientInputs first_inputs{};             // that came until then
   };
   struct Served {
@@ -74,6 +76,7 @@ class WorldLoop {
   const IrradianceField* field() const;
   std::vector<ClientLink*> light_clients() const;
   void tell_applied(ClientLink& link, const ClientInputs& inputs);
+  void follow_interest(Viewer& viewer, const ClientInputs& inputs);
   void forward(ClientLink& link, ClientInputs& inputs);
   Expected<void> follow_relayed();
   void welcome();
