@@ -7,6 +7,8 @@ int main(int argc, char** argv) {
   return lambent::bench::run_rows("lambent_light_stream",
                                   {{"rates", measure_rates},
                                    {"quality", measure_quality},
+                                   {"textures", measure_textures},
+                                   {"regions", measure_regions},
                                    {"geometry", measure_geometry},
                                    {"record", record_stream}},
                                   argc, argv);

@@ -52,12 +52,31 @@ struct SceneEditor::Undo {
   std::optional<glm::mat4> place_before;
 };
 
-SceneEditor::SceneEditor(Scene& scene, World& world) : scene_(scene), world_(world) {
+SceneEditor::SceneEditor(Scene& scene, World& world)
+    : scene_(scene), world_(world), first_lights_(scene.lights) {
+  for (const Instance& instance : scene.instances) {
+    first_places_.push_back(instance.world_from_object);
+  }
   for (std::size_t i = 0; i < scene.lights.size() && sun_ < 0; ++i) {
     if (scene.lights[i].type != Light::Type::directional) continue;
     sun_ = static_cast<int>(i);
     sun_irradiance_ = scene.lights[i].intensity;
   }
+}
+
+Edit SceneEditor::original(const EditTarget& target) const {
+  const auto& [kind, index] = target;
+  if (kind == target_of(ObjectInput{}).first) {
+    return ObjectInput{0, index, glm::mat4x3(first_places_[index])};
+  }
+  LightInput edit;
+  edit.light = kind == target_of(SunInput{}).first ? static_cast<std::uint32_t>(sun_) : index;
+  edit.edits = kEditsPosition | kEditsDirection | kEditsIntensity;
+  const Light& light = first_lights_[edit.light];
+  edit.position_ws = light.position_ws;
+  edit.direction_ws = light.direction_ws;
+  edit.intensity = light.intensity;
+  return edit;
 }
 
 Expected<SceneEditor::Undo> SceneEditor::apply_one(const Edit& edit) {

@@ -48,6 +48,9 @@ class SceneEditor {
   /// was refused. Fails, as our bug would, where the world refuses what it accepted before.
   Expected<std::vector<Refused>> apply(std::span<const Edit> edits);
 
+  /// The edit that makes a target that was edited as it was when the editor was made.
+  Edit original(const EditTarget& target) const;
+
  private:
   struct Undo;
   Expected<Undo> apply_one(const Edit& edit);
@@ -57,6 +60,8 @@ class SceneEditor {
   World& world_;
   int sun_ = -1;  // the scene's first directional light; -1: none
   glm::vec3 sun_irradiance_{0.0f};
+  std::vector<Light> first_lights_;
+  std::vector<glm::mat4> first_places_;
 };
 
 }  // namespace lambent::stream
