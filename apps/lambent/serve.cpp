@@ -133,7 +133,12 @@ Expected<std::shared_ptr<const std::string>> shared_scene(const Scene& scene) {
 
 /// Serves until somebody ends it.
 Expected<void> serve_world(const Options& options, const stream::ServedWorld& served,
-                           const stream::ServerSettings& settings) {
+                           stream::ServerSettings settings) {
+  if (options.share_scene) {
+    auto shared = shared_scene(served.scene);
+    if (!shared) return tl::unexpected(shared.error());
+    settings.listen.scene = std::move(*shared);
+  }
   begin_step("serving");
   const InterruptGuard guard;
   const auto server = stream::Server::open(served, settings);
@@ -179,11 +184,6 @@ Expected<void> serve(const Options& options) {
   update_field(world, options.updates, request, *field, terminal_progress(), stats);
 
   stream::ServerSettings settings = options.server;
-  if (options.share_scene) {
-    auto shared = shared_scene(*scene);
-    if (!shared) return tl::unexpected(shared.error());
-    settings.listen.scene = std::move(*shared);
-  }
   settings.world.pictures = *pictures;
   constexpr double kMsOfSecond = 1000.0;
   // No picture keeps the light waiting for much longer than an update's interval, in the mean
