@@ -107,11 +107,9 @@ await accessible(checks, page);
 // The camera, by keys, is where the page says that it is
 await page.locator('#picture').focus();
 await page.keyboard.down('ArrowLeft');
-await page.waitForTimeout(250);
+await until(async () => difference(first, await meansOfElement(page, '#picture')).mean > LEAST_CHANGE, 'another view');
 await page.keyboard.up('ArrowLeft');
-await page.keyboard.down('w');
-await page.waitForTimeout(200);
-await page.keyboard.up('w');
+await page.keyboard.press('w', { delay: 200 });
 const turned = await steady();
 checks.that(difference(first, turned).mean > LEAST_CHANGE, 'keys turn and move the camera');
 const [x, y, z, w] = camera.rotation;

@@ -46,7 +46,11 @@ lambent_position_ws = (modelMatrix * vec4(transformed, 1.0)).xyz;
 export class FieldLight {
   #geometryChanges = 0;
 
-  constructor(width) {
+  #mostRows;
+
+  /// `width` is LightDecoder's, `mostRows` what the device's textures may have (capabilities.maxTextureSize).
+  constructor(width, mostRows) {
+    this.#mostRows = mostRows;
     this.irradiance = texture(width, THREE.RGBFormat, THREE.UnsignedInt5999Type, THREE.LinearFilter);
     this.distances = texture(width, THREE.RGFormat, THREE.HalfFloatType, THREE.LinearFilter);
     this.places = texture(width, THREE.RGBAFormat, THREE.FloatType, THREE.NearestFilter);
@@ -57,9 +61,12 @@ export class FieldLight {
     };
   }
 
-  /// Takes over what a LightDecoder has decoded, before the next message.
+  /// Takes over what a LightDecoder has decoded, before the next message. Throws where textures cannot hold it.
   follow(decoder) {
     const { width, texels, irradiance, distances, places, geometryChanges } = decoder.textures;
+    if (distances.length / width > this.#mostRows) {
+      throw new Error(`textures of this device are too small for ${decoder.probes} probes`);
+    }
     put(this.irradiance, irradiance.slice(), width, irradiance.length / width);
     if (geometryChanges === this.#geometryChanges) return;
     this.#geometryChanges = geometryChanges;

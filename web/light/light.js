@@ -74,11 +74,17 @@ function follow(message) {
 
 function takeLight(message) {
   const start = performance.now();
-  if (decoder.receive(message.bytes)) {
-    decoder.follow();
-    decodeMs = performance.now() - start;
-    if (decoder.probes) field.follow(decoder);
-    stale = true;
+  try {
+    if (decoder.receive(message.bytes)) {
+      decoder.follow();
+      decodeMs = performance.now() - start;
+      if (decoder.probes) field.follow(decoder);
+      stale = true;
+    }
+  } catch (error) {
+    // Memory or textures that are too small do not become larger
+    connection.end(`Light of this scene cannot be shown here: ${error.message}.`);
+    return;
   }
   bytes += message.bytes.length;
   connection.send(protocol.lightReceived(message.update, decoder.geometry, decoder.needsKey));
@@ -119,7 +125,7 @@ async function begin() {
   const renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
   renderer.shadowMap.enabled = true;
   decoder = await LightDecoder.make(await fetch('light_decoder.wasm'));
-  field = new FieldLight(decoder.textures.width);
+  field = new FieldLight(decoder.textures.width, renderer.capabilities.maxTextureSize);
   new ResizeObserver(() => resize(renderer)).observe(document.querySelector('main'));
   resize(renderer);
   for (const id of ['show', 'tones', 'stops']) {

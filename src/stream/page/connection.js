@@ -52,6 +52,13 @@ export class Connection {
   /// Begins again with another connection.
   again() { this.#socket?.close(); }
 
+  /// Ends it for good, and tells why.
+  end(why) {
+    this.#ended = true;
+    this.#socket?.close();
+    tell(why, true);
+  }
+
   #receive(message) {
     if (message.type === TYPE.welcome) {
       this.#wait = FIRST_WAIT_MS;
