@@ -14,7 +14,7 @@ namespace {
 
 // The house is 20 m wide, of rooms of 5 m.
 const glm::ivec3 kProbes(64, 10, 64);
-constexpr int kStates = 40, kFirstUpdates = 6;
+constexpr int kStates = 32, kFirstUpdates = 4;
 constexpr std::uint64_t kRays = 400'000;  // what four times as many cores trace
 
 struct Cost {

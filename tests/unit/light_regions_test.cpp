@@ -21,7 +21,7 @@ using test::state_of;
 /// A field of some regions in the box, which is 5.5 m wide.
 FieldSettings many_probes() {
   FieldSettings settings = test::exact_field();
-  settings.probe_count = {20, 9, 9};
+  settings.probe_count = {34, 4, 4};
   return settings;
 }
 
@@ -67,7 +67,7 @@ TEST(LightRegions, WhoIsNearAllHasTheWholeStreamToTheBit) {
   Regional server;
   LightDecoder client;
   FollowedRegions has;
-  for (int update = 0; update < 20; ++update) {
+  for (int update = 0; update < 12; ++update) {
     server.advance();
     receive_all(client, server.update_for(everything(), update == 0, has));
     ASSERT_EQ(state_of(client), state_of(server.whole)) << update;
@@ -83,7 +83,7 @@ TEST(LightRegions, FarOnesAreExactAsOfTheirTurn) {
   std::vector<std::vector<glm::vec3>> truth;
   std::size_t stale = 0, fresh = 0;
   const int texels = 4 * 4;
-  for (int update = 1; update <= 18; ++update) {
+  for (int update = 1; update <= 12; ++update) {
     server.advance();
     truth.push_back(light_of(server.whole));
     receive_all(client, server.update_for(at_the_end(), update == 1, has));
@@ -133,7 +133,7 @@ TEST(LightRegions, TakeFewerBytesWhereLessIsNear) {
   LightDecoder near, far;
   FollowedRegions of_near, of_far;
   std::size_t all_bytes = 0, few_bytes = 0, whole_bytes = 0;
-  for (int update = 0; update < 24; ++update) {
+  for (int update = 0; update < 12; ++update) {
     server.advance();
     const Messages all = server.update_for(everything(), update == 0, of_near);
     const Messages few = server.update_for(at_the_end(), update == 0, of_far);
@@ -168,7 +168,7 @@ TEST(LightRegions, WhatIsLostOrBrokenIsAskedForAgain) {
   EXPECT_TRUE(client.needs_key());
 
   std::mt19937 random(3);
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < 10; ++i) {
     receive_all(client, server.update_for(at_the_end(), true, has));
     server.advance();
     const std::vector<glm::vec3> before = light_of(client);

@@ -31,7 +31,7 @@ struct Known {
 };
 
 const std::vector<Known>& known_encoders() {
-  static const std::vector<Known> kKnown = {
+  static const std::vector<Known> all = {
       {"libx264",
        false,
        {{"preset", "veryfast"},
@@ -50,7 +50,7 @@ const std::vector<Known>& known_encoders() {
       {"h264_vaapi",
        true,
        {{"profile", "constrained_baseline"}, {"rc_mode", "CBR"}, {"async_depth", "1"}}}};
-  return kKnown;
+  return all;
 }
 
 struct Free {

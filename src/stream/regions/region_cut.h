@@ -17,7 +17,7 @@
 namespace lambent::stream {
 
 // Probes along an edge of a region: of fewer, models learn too little; of more, too much is sent.
-inline constexpr int kRegionEdge = 8;
+inline constexpr int kRegionEdge = 16;
 // Regions that are not near are brought up to date every so many updates, each in its turn.
 inline constexpr std::uint64_t kFarUpdates = 8;
 
