@@ -15,7 +15,7 @@ install(EXPORT lambent NAMESPACE lambent:: FILE lambent-targets.cmake
   DESTINATION ${LAMBENT_INSTALL_CMAKE_DIR} COMPONENT library)
 
 # For shaders of engines: -I to LAMBENT_SHADER_DIR, then #include "field_lookup.glsl" and "ray_results.h" (GLSL), or
-# "lookup.hlsl"; lookup.wgsl is put before a shader's own text. Beside them lies what they include of src/.
+# "lookup.hlsl"; lookup.wgsl and lookup_webgl.glsl are put before a shader's own text. Beside them lies what they include of src/.
 set(LAMBENT_SHADER_DIR ${CMAKE_INSTALL_INCLUDEDIR}/lambent/shaders)
 file(GLOB open_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/include/lambent/shaders/*)
 set(shader_files)
@@ -38,8 +38,8 @@ foreach(file IN LISTS shader_files)
     COMPONENT library)
 endforeach()
 
-install(FILES ${LAMBENT_PORTS_DIR}/lookup.hlsl ${LAMBENT_PORTS_DIR}/lookup.wgsl DESTINATION ${LAMBENT_SHADER_DIR}
-  COMPONENT library)
+install(FILES ${LAMBENT_PORTS_DIR}/lookup.hlsl ${LAMBENT_PORTS_DIR}/lookup.wgsl
+  ${LAMBENT_PORTS_DIR}/lookup_webgl.glsl DESTINATION ${LAMBENT_SHADER_DIR} COMPONENT library)
 
 # Who links a static library links what it is made of, and must find that; a shared one brings it
 # along.

@@ -24,6 +24,10 @@ lambent_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev
 )
 
+# What LAMBENT_STREAM_H265 and LAMBENT_STREAM_FFMPEG need, which are off by default: the GPL comes with them.
+# shellcheck disable=SC2034
+lambent_gpl_packages=(pkg-config libx265-dev libavcodec-dev libavutil-dev)
+
 # The server's HTTP and WebSocket. Debian 12 has a newer Boost beside the one that it calls libboost-dev.
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then
   lambent_packages+=(libboost1.81-dev)

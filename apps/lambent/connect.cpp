@@ -5,7 +5,6 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,12 +22,14 @@
 #include "lambent/output.h"
 #include "lambent/parse.h"
 #include "lambent/render_output.h"
+#include "lambent/server_address.h"
 #include "lambent/step.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
 #include "stream/client/client.h"
 #include "stream/edits/edits.h"
 #include "stream/picture/h264.h"
+#include "stream/textures/h265.h"
 
 namespace lambent::cli {
 namespace {
@@ -38,32 +39,10 @@ constexpr const char* kExamples =
     "  lambent connect localhost --scene scene.glb -o picture.png   render it here\n"
     "  lambent connect https://light.example.org:8443 --token-file token -o p.png --frames 30\n";
 
-/// "HOST", "HOST:PORT" or either after http:// or https://.
 Expected<stream::ConnectSettings> parse_server(const ConnectOptions& options) {
   stream::ConnectSettings to = options.connect;
-  std::string text = options.server;
-  const std::string https = "https://", http = "http://";
-  if (text.starts_with(https)) {
-    to.tls = true;
-    text = text.substr(https.size());
-  } else if (text.starts_with(http)) {
-    text = text.substr(http.size());
-  }
-  if (text.ends_with("/")) text.pop_back();
-  const std::size_t colon = text.rfind(':');
-  // Colons within brackets are of an IPv6 address
-  if (colon != std::string::npos && text.find(']', colon) == std::string::npos) {
-    const auto port = finite_number(text.substr(colon + 1));
-    const auto number = static_cast<std::uint16_t>(port.value_or(0.0));
-    if (!port || static_cast<double>(number) != *port || number == 0) {
-      return fail("HOST", options.server, "has no port that can be: 1 to 65535");
-    }
-    to.port = number;
-    text = text.substr(0, colon);
-  }
-  if (text.starts_with("[") && text.ends_with("]")) text = text.substr(1, text.size() - 2);
-  if (text.empty()) return fail("HOST", options.server, "names no host");
-  to.host = text;
+  const auto parsed = parse_server_address("HOST", options.server, to);
+  if (!parsed) return tl::unexpected(parsed.error());
   constexpr double kMsOfSecond = 1000.0;
   to.timeout = std::chrono::milliseconds(static_cast<int>(options.timeout_s * kMsOfSecond));
   return to;
@@ -79,12 +58,12 @@ Expected<stream::Hello> make_hello(const ConnectOptions& options) {
   }
   hello.size = *size;
   hello.rate = options.rate;
-  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture : stream::kWantsLight;
-  if (options.token_file.empty()) return hello;
-  std::ifstream file(options.token_file);
-  if (!(file >> hello.token) || hello.token.size() > stream::kMaxTokenBytes) {
-    return fail(options.token_file, "", "holds no token");
-  }
+  hello.wants = options.stage.scene.empty() ? stream::kWantsPicture
+                : options.codec == "h265"   ? stream::kWantsTextures
+                                            : stream::kWantsLight;
+  auto token = read_token(options.token_file);
+  if (!token) return tl::unexpected(token.error());
+  hello.token = std::move(*token);
   return hello;
 }
 
@@ -190,6 +169,12 @@ Expected<void> connect(const ConnectOptions& options) {
   if (!options.stage.scene.empty()) {
     if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
   }
+  if (options.interest > 0.0f && options.codec != "lambent") {
+    return fail("--interest", "", "is not for light through H.265, which comes as a whole");
+  }
+  if (options.codec == "h265" && !stream::has_h265()) {
+    return fail("--codec", options.codec, "is not in this build (LAMBENT_STREAM_H265)");
+  }
   const auto settings = parse_server(options);
   if (!settings) return tl::unexpected(settings.error());
   const auto hello = make_hello(options);
@@ -270,6 +255,19 @@ void add_connect(CLI::App& app, Run& run) {
       ->check(one_of({"draft", "interactive", "high"}))
       ->capture_default_str()
       ->type_name("Q");
+  command
+      ->add_option("--codec", o->codec, "Of the light: lambent, or h265 where both sides have it")
+      ->check(one_of({"lambent", "h265"}))
+      ->needs("--scene")
+      ->type_name("C");
+  command
+      ->add_option(
+          "--interest", o->interest,
+          "Get light within this, and what is seen within twice, with each update, and the "
+          "rest with every eighth [m]")
+      ->check(number(0.0, kMaxTime))
+      ->needs("--scene")
+      ->type_name("M");
   add_light_options(*command, o->stage.light);
   set_examples(*command, kExamples);
   command->callback([o, &run] { run = [o] { return connect(*o); }; });

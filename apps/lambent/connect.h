@@ -25,6 +25,8 @@ struct ConnectOptions {
   int frames = 1;
   StageOptions stage;  // its scene is empty: pictures of the server's
   std::string quality = "interactive";
+  std::string codec = "lambent";  // of light
+  float interest = 0.0f;          // light within so far comes with each update [m]; 0: all does
 };
 
 /// The number of the one input that is sent.

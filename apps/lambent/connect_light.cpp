@@ -16,6 +16,7 @@
 #include "lambent/step.h"
 #include "lambent/words.h"
 #include "stream/client/lit_scene.h"
+#include "stream/textures/h265.h"
 
 namespace lambent::cli {
 namespace {
@@ -68,6 +69,18 @@ Expected<void> render_by_stream(const ConnectOptions& options,
   if (!frame) return tl::unexpected(frame.error());
 
   stream::LitScene lit(*scene, world);
+  if (options.codec == "h265") {
+    auto reader = stream::make_h265_reader();
+    if (!reader) return tl::unexpected(reader.error());
+    lit.read_textures(std::move(*reader));
+  }
+  if (options.interest > 0.0f) {
+    if (camera) {
+      if (const auto sent = joined.client->send(*camera); !sent) return sent;
+    }
+    const auto sent = joined.client->send(stream::Interest{options.interest});
+    if (!sent) return sent;
+  }
   std::optional<Renderer> renderer;
   std::optional<float> stops;
   std::vector<std::string> written;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/memory.h"
@@ -17,6 +18,7 @@
 #include "lambent/help.h"
 #include "lambent/input.h"
 #include "lambent/interrupts.h"
+#include "lambent/light_from.h"
 #include "lambent/memory_check.h"
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
@@ -25,6 +27,8 @@
 #include "lambent/threads.h"
 #include "lambent/validators.h"
 #include "lambent/words.h"
+#include "scenes/glb_writer.h"
+#include "stream/edits/edits.h"
 #include "stream/server/access.h"
 #include "stream/server/server.h"
 
@@ -34,6 +38,7 @@ namespace {
 constexpr const char* kExamples =
     "  lambent serve scene.glb                      then open http://localhost:8080/\n"
     "  lambent serve scene.glb --rate 20 --size 480p\n"
+    "  lambent serve scene.glb --light-from light.example.org --port 8081\n"
     "  lambent serve scene.glb --host 0.0.0.0 --tokens tokens --certificate c.pem --key k.pem\n";
 
 // Frames over which light is averaged, as in sequences: each counts a tenth.
@@ -43,14 +48,17 @@ constexpr int kMaxClients = 10'000;
 struct Options {
   StageOptions stage;
   FieldOptions field;
+  LightFromOptions light_from;
   stream::ServerSettings server;
   std::string quality = "interactive";
   std::string size = "720p";
   std::string exposure = "auto", tone_map = "aces";
+  std::string encoder = std::string(stream::kDefaultEncoder);
   double max_megabits = 20.0;
   double idle_s = 20.0;
   int picture_clients = -1;  // below 0: as many as clients
   int updates = 8;
+  bool share_scene = false;
   std::uint32_t seed = 1;
   int threads = 0;  // 0: all
 };
@@ -86,6 +94,10 @@ Expected<stream::PictureSettings> picture_settings(const Options& options) {
   if (!stops) return tl::unexpected(stops.error());
   settings.exposure_stops = *stops;
   settings.tone_map = *tone_map_from_name(options.tone_map);
+  settings.encoder = options.encoder;
+  if (const auto works = stream::check_encoder(options.encoder); !works) {
+    return fail("--encoder", options.encoder, works.error().cause, works.error().kind);
+  }
   return settings;
 }
 
@@ -121,9 +133,24 @@ Expected<void> check(const Options& options) {
   return {};
 }
 
+/// The scene as a file that clients may be given.
+Expected<std::shared_ptr<const std::string>> shared_scene(const Scene& scene) {
+  begin_step("writing the scene for clients");
+  Expected<std::string> bytes = scenes::encode_glb(scene);
+  if (!bytes) return tl::unexpected(bytes.error());
+  tell("sharing the scene, " + lambent::bytes_text(bytes->size()));
+  return std::make_shared<const std::string>(std::move(*bytes));
+}
+
 /// Serves until somebody ends it.
-Expected<void> serve_world(const Options& options, const stream::ServedWorld& served,
-                           const stream::ServerSettings& settings) {
+template <class Served>
+Expected<void> serve_world(const Options& options, const Served& served,
+                           stream::ServerSettings settings) {
+  if (options.share_scene) {
+    auto shared = shared_scene(served.scene);
+    if (!shared) return tl::unexpected(shared.error());
+    settings.listen.scene = std::move(*shared);
+  }
   begin_step("serving");
   const InterruptGuard guard;
   const auto server = stream::Server::open(served, settings);
@@ -137,18 +164,69 @@ Expected<void> serve_world(const Options& options, const stream::ServedWorld& se
   return {};
 }
 
-Expected<void> serve(const Options& options) {
-  if (const auto fine = check(options); !fine) return fine;
-  const auto pictures = picture_settings(options);
-  if (!pictures) return tl::unexpected(pictures.error());
-  const std::size_t picture_clients = options.picture_clients < 0
-                                          ? options.server.max_clients
-                                          : static_cast<std::size_t>(options.picture_clients);
-  if (const auto fits = check_memory(options, picture_clients, pictures->limits.size); !fits) {
-    return fits;
-  }
-  const ThreadLimit limit(options.threads);
+/// Clients of pictures at a time, at most.
+std::size_t picture_clients(const Options& options) {
+  return options.picture_clients < 0 ? options.server.max_clients
+                                     : static_cast<std::size_t>(options.picture_clients);
+}
 
+/// What the server is told of the options, where the light is updated so often a second.
+stream::ServerSettings server_settings(const Options& options,
+                                       const stream::PictureSettings& pictures, float rate) {
+  stream::ServerSettings settings = options.server;
+  settings.max_picture_clients = picture_clients(options);
+  settings.world.rate = rate;
+  settings.world.pictures = pictures;
+  constexpr double kMsOfSecond = 1000.0;
+  // No picture keeps the light waiting for much longer than an update's interval, in the mean
+  stream::PaceLimits& limits = settings.world.pictures.limits;
+  if (rate > 0.0f) {
+    limits.picture_ms = std::min(limits.picture_ms, 2.0 * kMsOfSecond / static_cast<double>(rate));
+  }
+  settings.listen.idle_timeout =
+      std::chrono::milliseconds(static_cast<int>(options.idle_s * kMsOfSecond));
+  settings.listen.log = [](const std::string& text) { warn(printable(text)); };
+  return settings;
+}
+
+/// The view that the options ask for, with a picture's proportions.
+Expected<View> served_view(const Options& options, const World& world, const glm::uvec2& size) {
+  const glm::vec2 pixels(size);
+  return choose_view(options.stage, world, pixels.x / pixels.y);
+}
+
+/// Serves the scene in the light that another server computes.
+Expected<void> serve_relayed(const Options& options, const stream::PictureSettings& pictures) {
+  begin_step("connecting to the light");
+  const auto upstream = open_upstream(options.light_from);
+  if (!upstream) return tl::unexpected(upstream.error());
+  const stream::Welcome& welcome = (*upstream)->welcome();
+  begin_step("reading the scene");
+  Expected<Scene> scene = open_stage(options.stage);
+  if (!scene) return tl::unexpected(scene.error());
+  begin_step("preparing the scene for rays");
+  World world(*scene);
+  // The other server chose its first light by its own view
+  const Camera theirs = stream::camera_of(welcome.camera);
+  const auto light = add_first_light(options.stage.light, theirs, *scene, world);
+  if (!light) return tl::unexpected(light.error());
+  if (const auto same = check_same_scene(options.light_from, welcome, *scene); !same) return same;
+  Camera camera = theirs;
+  const StageOptions& stage = options.stage;
+  if (!stage.camera.empty() || !stage.eye.empty() || !stage.target.empty() || stage.fov_degrees) {
+    const Expected<View> view = served_view(options, world, pictures.limits.size);
+    if (!view) return tl::unexpected(view.error());
+    tell("camera: " + describe(*view));
+    camera = view->camera;
+  }
+  tell("light: that of " + options.light_from.server +
+       (welcome.role == stream::Role::change ? "" : ", which lets nobody change it from here"));
+  return serve_world(options, stream::RelayedWorld{*scene, world, **upstream, camera},
+                     server_settings(options, pictures, welcome.rate));
+}
+
+/// Serves the scene in light that is computed here.
+Expected<void> serve_own(const Options& options, const stream::PictureSettings& pictures) {
   begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
@@ -157,8 +235,7 @@ Expected<void> serve(const Options& options) {
   }
   begin_step("preparing the scene for rays");
   World world(*scene);
-  const glm::vec2 size(pictures->limits.size);
-  const Expected<View> view = choose_view(options.stage, world, size.x / size.y);
+  const Expected<View> view = served_view(options, world, pictures.limits.size);
   if (!view) return tl::unexpected(view.error());
   const auto light = add_first_light(options.stage.light, view->camera, *scene, world);
   if (!light) return tl::unexpected(light.error());
@@ -172,19 +249,19 @@ Expected<void> serve(const Options& options) {
   nlohmann::ordered_json stats;
   const UpdateRequest request{0, 0.0, glm::vec3(view->camera.world_from_view[3])};
   update_field(world, options.updates, request, *field, terminal_progress(), stats);
+  return serve_world(options, stream::ServedWorld{*scene, world, *field, view->camera},
+                     server_settings(options, pictures, options.server.world.rate));
+}
 
-  stream::ServerSettings settings = options.server;
-  settings.max_picture_clients = picture_clients;
-  settings.world.pictures = *pictures;
-  constexpr double kMsOfSecond = 1000.0;
-  // No picture keeps the light waiting for much longer than an update's interval, in the mean
-  stream::PaceLimits& limits = settings.world.pictures.limits;
-  limits.picture_ms =
-      std::min(limits.picture_ms, 2.0 * kMsOfSecond / static_cast<double>(settings.world.rate));
-  settings.listen.idle_timeout =
-      std::chrono::milliseconds(static_cast<int>(options.idle_s * kMsOfSecond));
-  settings.listen.log = [](const std::string& text) { warn(printable(text)); };
-  return serve_world(options, {*scene, world, *field, view->camera}, settings);
+Expected<void> serve(const Options& options) {
+  if (const auto fine = check(options); !fine) return fine;
+  const auto pictures = picture_settings(options);
+  if (!pictures) return tl::unexpected(pictures.error());
+  const glm::uvec2& size = pictures->limits.size;
+  if (const auto fits = check_memory(options, picture_clients(options), size); !fits) return fits;
+  const ThreadLimit limit(options.threads);
+  return options.light_from.server.empty() ? serve_own(options, *pictures)
+                                           : serve_relayed(options, *pictures);
 }
 
 void add_listen_options(CLI::App& command, Options& o) {
@@ -207,6 +284,8 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->type_name("FILE");
   command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
   command.option_defaults()->group("Clients");
+  command.add_flag("--share-scene", o.share_scene,
+                   "Give the scene to who may look, so that browsers can render it (/light)");
   command
       .add_option("--light-error", o.server.world.light.target_error,
                   "Error that the light stream may have, of the mean irradiance")
@@ -239,6 +318,11 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->check(number(0.1, 1000.0))
       ->capture_default_str()
       ->type_name("M");
+  command
+      .add_option("--encoder", o.encoder, "Of pictures: " + list_text(stream::picture_encoders()))
+      ->check(one_of(stream::picture_encoders()))
+      ->capture_default_str()
+      ->type_name("E");
   command.add_option("--idle", o.idle_s, "End connections without a sign of life after [s]")
       ->check(number(1.0, 3600.0))
       ->capture_default_str()
@@ -264,6 +348,19 @@ void add_world_options(CLI::App& command, Options& o) {
       ->type_name("WxH");
 }
 
+/// Where the light comes from elsewhere, nothing says how to compute it: no option of the field,
+/// which are those from `first_of_field` on.
+void add_light_from(CLI::App& command, Options& o, std::size_t first_of_field) {
+  std::vector<CLI::Option*> of_own_light = command.get_options();
+  of_own_light.erase(of_own_light.begin(),
+                     of_own_light.begin() + static_cast<std::ptrdiff_t>(first_of_field));
+  for (const char* name : {"--rate", "--play", "--light-error"}) {
+    of_own_light.push_back(command.get_option(name));
+  }
+  add_light_from_options(command, o.light_from, of_own_light);
+  command.option_defaults()->group(kMainGroup);
+}
+
 }  // namespace
 
 void add_serve(CLI::App& app, Run& run) {
@@ -275,11 +372,13 @@ void add_serve(CLI::App& app, Run& run) {
   add_world_options(*command, *o);
   add_listen_options(*command, *o);
   add_stage_options(*command, o->stage);
+  const std::size_t before_field = command->get_options().size();
   add_field_options(*command, o->field);
   command->add_option("--updates", o->updates, "Updates of the field before it is served")
       ->check(whole_number(1, kMaxUpdates))
       ->capture_default_str()
       ->type_name("N");
+  add_light_from(*command, *o, before_field);
   command->add_option("--seed", o->seed, "Of all random numbers")
       ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str()

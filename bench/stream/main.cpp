@@ -4,8 +4,12 @@
 
 int main(int argc, char** argv) {
   using namespace lambent::light_stream;
-  return lambent::bench::run_rows(
-      "lambent_light_stream",
-      {{"rates", measure_rates}, {"quality", measure_quality}, {"geometry", measure_geometry}},
-      argc, argv);
+  return lambent::bench::run_rows("lambent_light_stream",
+                                  {{"rates", measure_rates},
+                                   {"quality", measure_quality},
+                                   {"textures", measure_textures},
+                                   {"regions", measure_regions},
+                                   {"geometry", measure_geometry},
+                                   {"record", record_stream}},
+                                  argc, argv);
 }

@@ -18,9 +18,9 @@ double raw_mbit_s(const IrradianceField& field) {
 }
 
 void print_row(const Motion& motion, std::uint64_t ray_budget,
-               const stream::LightEncoderSettings& settings) {
+               const stream::LightEncoderSettings& settings, bool h265 = false) {
   MovingAtrium atrium(motion, ray_budget);
-  const StreamCost cost = stream(atrium, settings, kStates);
+  const StreamCost cost = stream(atrium, settings, kStates, h265);
   const double all = cost.light_mbit_s() + cost.geometry_mbit_s();
   std::printf("| %s | %s | %.3f | %.3f | %.2f, %.2f | %.2f | %d | %.0f | %.1f, %.1f | %.3f |\n",
               motion.label.c_str(), ray_budget == 0 ? "no" : "100,000 rays", cost.light_mbit_s(),
@@ -57,6 +57,19 @@ void measure_quality() {
     settings.target_error = target;
     print_row(fast_sun(), kRealTimeRays, settings);
   }
+}
+
+void measure_textures() {
+  print_head("Light through H.265, target errors 1.2 % and 1 %");
+  for (const float target : {0.012f, 0.01f}) {
+    stream::LightEncoderSettings settings;
+    settings.target_error = target;
+    print_row(fast_sun(), kRealTimeRays, settings, true);
+  }
+  stream::LightEncoderSettings settings;
+  settings.target_error = 0.012f;
+  print_row(fast_sun(), 0, settings, true);
+  print_row(slow_sun(), kRealTimeRays, settings, true);
 }
 
 }  // namespace lambent::light_stream

@@ -7,6 +7,7 @@
 
 #include "bench/stage.h"
 #include "lambent/animation.h"
+#include "stream/textures/h265.h"
 
 namespace lambent::light_stream {
 namespace {
@@ -107,14 +108,22 @@ double StreamCost::geometry_mbit_s() const {
   return 8e-6 * static_cast<double>(geometry_bytes) / (states * kInterval);
 }
 
-StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& settings, int states) {
+stream::LightEncoder make_encoder(const stream::LightEncoderSettings& settings, bool h265) {
+  if (!h265) return bench::value_or_throw(stream::LightEncoder::create(settings));
+  return bench::value_or_throw(
+      stream::LightEncoder::create(settings, bench::value_or_throw(stream::make_h265_writer())));
+}
+
+StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& settings, int states,
+                  bool h265) {
   using stream::LightMessageKind;
-  stream::LightEncoder encoder = bench::value_or_throw(stream::LightEncoder::create(settings));
+  stream::LightEncoder encoder = make_encoder(settings, h265);
   stream::LightDecoder decoder;
+  if (h265) decoder.read_textures(bench::value_or_throw(stream::make_h265_reader()));
   StreamCost cost;
   for (const stream::LightMessage& message :
        bench::value_or_throw(encoder.encode(atrium.field()))) {
-    (message.kind == LightMessageKind::key ? cost.first_key : cost.first_geometry) =
+    (message.kind == LightMessageKind::geometry ? cost.first_geometry : cost.first_key) =
         message.bytes.size();
     bench::value_or_throw(decoder.receive(message.bytes));
   }
@@ -126,11 +135,13 @@ StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& sett
     for (const stream::LightMessage& message : messages) {
       (message.kind == LightMessageKind::geometry ? cost.geometry_bytes : cost.light_bytes) +=
           message.bytes.size();
-      cost.keys += message.kind == LightMessageKind::key ? 1 : 0;
-      cost.deltas += message.kind == LightMessageKind::delta ? 1 : 0;
+      const bool is_delta =
+          message.kind == LightMessageKind::delta || message.kind == LightMessageKind::texture;
+      cost.keys += is_delta || message.kind == LightMessageKind::geometry ? 0 : 1;
+      cost.deltas += is_delta ? 1 : 0;
       watch.lap();
       bench::value_or_throw(decoder.receive(message.bytes));
-      if (message.kind == LightMessageKind::delta) cost.decode_ms.add(watch.lap());
+      if (is_delta) cost.decode_ms.add(watch.lap());
     }
     const stream::LightErrors errors = encoder.errors();
     cost.relative += errors.relative / states;
@@ -138,7 +149,12 @@ StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& sett
     cost.most = std::max({cost.most, errors.relative, errors.dark});
   }
   cost.states = states;
-  cost.last_key = bench::value_or_throw(encoder.join(decoder.geometry())).back().bytes.size();
+  if (h265) {
+    encoder.refresh();
+    cost.last_key = bench::value_or_throw(encoder.encode(atrium.field())).back().bytes.size();
+  } else {
+    cost.last_key = bench::value_or_throw(encoder.join(decoder.geometry())).back().bytes.size();
+  }
   return cost;
 }
 

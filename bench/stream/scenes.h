@@ -79,12 +79,17 @@ struct StreamCost {
   double geometry_mbit_s() const;
 };
 
-/// Streams the atrium for some states, after the first.
-StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& settings, int states);
+/// Streams the atrium for some states, after the first; through H.265 where that is wanted.
+StreamCost stream(MovingAtrium& atrium, const stream::LightEncoderSettings& settings, int states,
+                  bool h265 = false);
 
 /// The rows, each a function that prints a table.
 void measure_rates();     ///< What streams take, and how exact and how fast they are.
 void measure_quality();   ///< What they take at other errors.
+void measure_regions();   ///< What a client gets of a large field, all of it or what is near.
+void measure_textures();  ///< What they take through H.265.
 void measure_geometry();  ///< Geometry, and keys.
+/// Writes atrium.stream into the working directory: a Recording of the fast sun.
+void record_stream();
 
 }  // namespace lambent::light_stream

@@ -4,6 +4,7 @@
 // order, or are lost whole.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -17,9 +18,12 @@
 namespace lambent::stream {
 
 enum class LightMessageKind : std::uint8_t {
-  geometry = 1,  ///< Places, states and distances of probes: all of them, or those that changed.
-  key = 2,       ///< The whole state of light.
-  delta = 3,     ///< The change of light from one update to the next.
+  geometry = 1,     ///< Places, states and distances of probes: all of them, or those that changed.
+  key = 2,          ///< The whole state of light.
+  delta = 3,        ///< The change of light from one update to the next.
+  texture_key = 4,  ///< The whole state of light, as a picture that decoding can begin with.
+  texture = 5,      ///< The state of light, as pictures that follow on those before.
+  regions = 6,      ///< Keys and changes of parts of a field, as one client needs them.
 };
 
 /// One self-contained piece of a light stream; `bytes` is opaque to whoever carries it.
@@ -27,6 +31,30 @@ struct LightMessage {
   LightMessageKind kind = LightMessageKind::delta;
   std::uint64_t update = 0;  ///< The state after this update, from 1, is what it leads to.
   std::vector<std::byte> bytes;
+};
+
+/// All tiles of a field as a picture of three planes of 10 bits a pixel, none of them subsampled.
+struct TexturePicture {
+  int width = 0, height = 0;                         ///< Multiples of 8, at most 8192 [pixels].
+  std::array<std::vector<std::uint16_t>, 3> planes;  ///< width * height each, 0 to 1023.
+};
+
+/// A video codec that light goes through in place of our own codec: one that a platform has, in
+/// hardware perhaps. `LAMBENT_STREAM_H265` has one (stream/textures/h265.h).
+class TextureWriter {
+ public:
+  virtual ~TextureWriter() = default;
+  /// Encodes a picture by itself (`key`; of any size) or by those before, at once. `quantiser`: 0
+  /// to 51, 6 more halve the exactness. `shown` becomes what decoders show, to the bit.
+  virtual Expected<std::vector<std::byte>> write(const TexturePicture& picture, bool key,
+                                                 int quantiser, TexturePicture& shown) = 0;
+};
+class TextureReader {
+ public:
+  virtual ~TextureReader() = default;
+  /// Decodes one picture into `picture`, whose size says what is expected. Bytes may be anything.
+  virtual Expected<void> read(std::span<const std::byte> bytes, bool key,
+                              TexturePicture& picture) = 0;
 };
 
 /// How far decoded irradiance E' is from a field's E, over all texels of all probes that are looked
@@ -53,6 +81,13 @@ class LightEncoder {
  public:
   /// Fails on settings out of range.
   static Expected<LightEncoder> create(const LightEncoderSettings& settings = {});
+  /// The same, but light goes through a video codec: `encode` then gives textures in place of keys
+  /// and deltas, and `join` geometry alone, as there is a key for all in the next update only
+  /// (`refresh`). Where errors stay above the target after some pictures, they are above it.
+  static Expected<LightEncoder> create(const LightEncoderSettings& settings,
+                                       std::unique_ptr<TextureWriter> writer);
+  /// The next update is a key.
+  void refresh();
   ~LightEncoder();
   LightEncoder(LightEncoder&&) noexcept;
   LightEncoder& operator=(LightEncoder&&) noexcept;
@@ -92,6 +127,9 @@ class LightDecoder {
   LightDecoder(LightDecoder&&) noexcept;
   LightDecoder& operator=(LightDecoder&&) noexcept;
 
+  /// What decodes textures; without, they are refused.
+  void read_textures(std::unique_ptr<TextureReader> reader);
+
   /// Takes one message.
   Expected<void> receive(std::span<const std::byte> message);
 
@@ -102,6 +140,10 @@ class LightDecoder {
   std::uint64_t update() const;
   /// The number of the last geometry received, for LightEncoder::join; 0: none.
   std::uint64_t geometry() const;
+  /// As LightEncoder::join, so that whoever hands the stream's messages on can take in who comes
+  /// late: the same bytes, as both sides hold the same state. Fails where `needs_key` says so, and
+  /// where light comes as textures or by regions.
+  Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
 
   // All below are empty or 0 before the first key.
 
@@ -120,6 +162,8 @@ class LightDecoder {
 
  private:
   friend class StreamedField;
+  friend class LightTextures;
+  friend class RegionEncoder;
   struct State;
   std::unique_ptr<State> state_;
 };
@@ -131,6 +175,9 @@ class StreamedField {
   ~StreamedField();
   StreamedField(StreamedField&&) noexcept;
   StreamedField& operator=(StreamedField&&) noexcept;
+
+  /// LightDecoder::read_textures
+  void read_textures(std::unique_ptr<TextureReader> reader);
 
   /// Takes one message as LightDecoder does, and brings the field up to date. Not to be called
   /// while the field is read.

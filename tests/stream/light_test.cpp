@@ -109,6 +109,27 @@ LightInput lamp(std::uint32_t input, float share) {
   return edit;
 }
 
+TEST(LightStream, ComesByRegionsToWhoCaresForSomeOfIt) {
+  const ServedScene served;
+  LightClient all(served.address()), some(served.address());
+  ASSERT_FALSE(HasFailure());
+  CameraInput camera;
+  camera.input = 1;
+  camera.position_ws = {2.75f, 2.5f, 1.0f};
+  ASSERT_TRUE(some.client().send(camera));
+  ASSERT_TRUE(some.client().send(Interest{2.0f}));
+  for (int i = 0; i < 12; ++i) ASSERT_TRUE(some.follow());
+  EXPECT_FALSE(some.lit().decoder().join()) << "it is no whole stream";
+  while (all.lit().update() < some.lit().update()) ASSERT_TRUE(all.follow());
+  while (some.lit().update() < all.lit().update()) ASSERT_TRUE(some.follow());
+  ASSERT_EQ(all.lit().update(), some.lit().update());
+  EXPECT_EQ(all.light(), some.light()) << "the box is one region, which is near";
+  // And all of it again
+  ASSERT_TRUE(some.client().send(Interest{0.0f}));
+  for (int i = 0; i < kUpdates && !some.lit().decoder().join(); ++i) ASSERT_TRUE(some.follow());
+  EXPECT_TRUE(some.lit().decoder().join());
+}
+
 TEST(LightStream, LightsACopyOfTheSceneAsTheServerDoes) {
   const ServedScene served;
   LightClient client(served.address());

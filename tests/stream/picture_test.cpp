@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "stream/picture/h264.h"
@@ -41,9 +43,22 @@ double psnr(const Image& a, const Image& b) {
   return -10.0 * std::log10(squares / static_cast<double>(a.pixels.size()));
 }
 
-PictureEncoder make_encoder(std::uint32_t bitrate) {
-  return *PictureEncoder::make({kWidth, kHeight, 30.0f, bitrate});
+/// Each encoder that this build has and that works on this machine.
+class PictureCodecs : public ::testing::TestWithParam<std::string> {
+ protected:
+  static PictureEncoder make_encoder(std::uint32_t bitrate) {
+    return std::move(*PictureEncoder::make({kWidth, kHeight, 30.0f, bitrate, GetParam()}));
+  }
+};
+
+std::vector<std::string> encoders_that_work() {
+  std::vector<std::string> names = picture_encoders();
+  std::erase_if(names, [](const std::string& name) { return !check_encoder(name); });
+  return names;
 }
+
+INSTANTIATE_TEST_SUITE_P(Encoders, PictureCodecs, ::testing::ValuesIn(encoders_that_work()),
+                         [](const auto& of) { return of.param; });
 
 TEST(Yuv, KeepsColoursToTheirRounding) {
   for (const glm::vec3 color : {glm::vec3(0.0f), glm::vec3(1.0f), glm::vec3(1.0f, 0.0f, 0.0f),
@@ -68,7 +83,7 @@ TEST(Yuv, IsBt709InLimitedRange) {
   EXPECT_EQ(yuv.cr[0], 26);
 }
 
-TEST(PictureCodec, EachPictureThatGoesInComesOutAtOnce) {
+TEST_P(PictureCodecs, EachPictureThatGoesInComesOutAtOnce) {
   PictureEncoder encoder = make_encoder(2'000'000);
   auto decoder = PictureDecoder::make();
   ASSERT_TRUE(decoder);
@@ -85,7 +100,7 @@ TEST(PictureCodec, EachPictureThatGoesInComesOutAtOnce) {
   }
 }
 
-TEST(PictureCodec, KeyPicturesCanBeAskedForAndDecodedAlone) {
+TEST_P(PictureCodecs, KeyPicturesCanBeAskedForAndDecodedAlone) {
   PictureEncoder encoder = make_encoder(2'000'000);
   YuvPicture yuv;
   std::vector<EncodedPicture> pictures;
@@ -103,7 +118,7 @@ TEST(PictureCodec, KeyPicturesCanBeAskedForAndDecodedAlone) {
   EXPECT_GT(psnr(to_display(*last), moving_picture(4)), kLeastPsnr);
 }
 
-TEST(PictureCodec, FollowsTheBitrateThatIsAimedAt) {
+TEST_P(PictureCodecs, FollowsTheBitrateThatIsAimedAt) {
   PictureEncoder encoder = make_encoder(1'500'000);
   YuvPicture yuv;
   const auto bytes_of = [&](int first) {
@@ -128,8 +143,19 @@ TEST(PictureCodec, FollowsTheBitrateThatIsAimedAt) {
   EXPECT_LT(little, much / 2);
 }
 
-TEST(PictureCodec, RefusesSizesThatItCannotEncode) {
-  EXPECT_FALSE(PictureEncoder::make({16384, 16384, 30.0f, 1'000'000}));
+TEST_P(PictureCodecs, RefusesSizesThatItCannotEncode) {
+  EXPECT_FALSE(PictureEncoder::make({16384, 16384, 30.0f, 1'000'000, GetParam()}));
+}
+
+TEST(PictureCodecs, OneThatIsNotHereIsRefusedWithTheReason) {
+  for (const std::string& name : {std::string("h264_nvenc"), std::string("no_such_codec")}) {
+    const auto works = check_encoder(name);
+    if (works) continue;  // somebody's machine has one
+    EXPECT_NE(works.error().message().find(name), std::string::npos);
+    EXPECT_GT(works.error().cause.size(), 15u) << works.error().cause;
+  }
+  EXPECT_FALSE(check_encoder("no_such_codec"));
+  EXPECT_TRUE(check_encoder(std::string(kDefaultEncoder)));
 }
 
 TEST(PictureDecoder, RefusesWhatIsNoPicture) {

@@ -31,10 +31,11 @@ const std::vector<std::string> kSmall = {
 /// A server in a process of its own, of which stderr is read.
 class RunningServer {
  public:
-  explicit RunningServer(const std::vector<std::string>& more = {}) {
+  explicit RunningServer(const std::vector<std::string>& more = {},
+                         const std::vector<std::string>& first = kSmall) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) return;
-    std::vector<std::string> arguments = kSmall;
+    std::vector<std::string> arguments = first;
     arguments.insert(arguments.end(), more.begin(), more.end());
     const int own = dup(STDERR_FILENO);
     dup2(ends[1], STDERR_FILENO);
@@ -143,6 +144,60 @@ TEST(ServeCommand, IsEncryptedAndAsksForTokens) {
   EXPECT_EQ(server.end(SIGTERM), 0);
 }
 
+TEST(ServeCommand, GivesItsSceneToWhoMayLookWhereThatIsAllowed) {
+  const test::TemporaryDirectory directory;
+  std::ofstream(directory.file("tokens")) << "view looking-looking-looking\n";
+  const RunningServer open({"--share-scene", "--tokens", directory.file("tokens")});
+  ASSERT_GT(open.port(), 0) << open.said();
+  const auto asked = [](const RunningServer& server, const std::string& header) {
+    return test::http_get(static_cast<std::uint16_t>(server.port()), "",
+                          "GET /scene.glb HTTP/1.1\r\nHost: localhost\r\n" + header + "\r\n");
+  };
+  EXPECT_THAT(asked(open, ""), HasSubstr("401"));
+  EXPECT_THAT(asked(open, "Authorization: Bearer guessing-guessing\r\n"), HasSubstr("401"));
+  const std::string answer = asked(open, "Authorization: Bearer looking-looking-looking\r\n");
+  EXPECT_THAT(answer, HasSubstr("model/gltf-binary"));
+  const std::string file = directory.file("scene.glb");
+  std::ofstream(file, std::ios::binary) << answer.substr(answer.find("\r\n\r\n") + 4);
+  const ProgramResult info = run_program("info " + file);
+  EXPECT_EQ(info.status, 0) << info.errors;
+  EXPECT_THAT(info.output, HasSubstr("38 triangles"));
+
+  const RunningServer closed;
+  ASSERT_GT(closed.port(), 0) << closed.said();
+  EXPECT_THAT(asked(closed, ""), HasSubstr("404"));
+}
+
+TEST(ServeCommand, RendersInTheLightOfAnotherServerAndOutlivesIt) {
+  const test::TemporaryDirectory directory;
+  RunningServer light;
+  ASSERT_GT(light.port(), 0) << light.said();
+  const std::vector<std::string> pictures = {"serve", "cornell-spot", "--port",
+                                             "0",     "--size",       "160x96"};
+  RunningServer server({"--light-from", light.host()}, pictures);
+  ASSERT_GT(server.port(), 0) << server.said();
+  const std::string connect =
+      "connect " + server.host() + " --size 96x64 -o " + directory.file("a.png");
+  const ProgramResult first = run_program(connect);
+  EXPECT_EQ(first.status, 0) << first.errors;
+  EXPECT_EQ(light.end(SIGKILL), -1);
+  const ProgramResult later = run_program(connect);
+  EXPECT_EQ(later.status, 0) << later.errors;
+  EXPECT_THAT(test::http_get(static_cast<std::uint16_t>(server.port()), "/stats"),
+              HasSubstr("\"light_server_connected\":false"));
+  EXPECT_EQ(server.end(SIGTERM), 0);
+  EXPECT_THAT(server.said(), HasSubstr("has gone"));
+
+  // One that was never there is told at once, and so is another scene
+  const ProgramResult nobody = run_program("serve cornell-spot --light-from " + light.host());
+  EXPECT_EQ(nobody.status, 1);
+  EXPECT_THAT(nobody.errors, HasSubstr("does not answer"));
+  RunningServer again;
+  const ProgramResult other = run_program("serve two-rooms --light-from " + again.host());
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.errors, HasSubstr("another scene"));
+}
+
 TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
   const auto refused = [](const std::string& arguments, const std::string& why) {
     const ProgramResult result = run_program("serve cornell-spot " + arguments);
@@ -157,6 +212,10 @@ TEST(ServeCommand, RefusesOptionsThatDoNotGoTogetherBeforeItReadsTheScene) {
   refused("--port 70000", "--port");
   refused("--quality hihg", "did you mean 'high'?");
   refused("--play", "no animation");
+  refused("--light-from localhost --rate 5", "--rate");
+  refused("--light-from localhost --probes 3x3x3", "--probes");
+  refused("--light-token file", "--light-from");
+  refused("--light-from localhost:99999", "1 to 65535");
   EXPECT_EQ(run_program("serve").status, 2);
   EXPECT_EQ(run_program("serve /nowhere.glb").status, 2);
 }

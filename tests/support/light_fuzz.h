@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 #include "stream/light/geometry_coding.h"
 #include "stream/light/light_coding.h"
 #include "stream/light/message.h"
+#include "stream/regions/region_encoder.h"
 #include "support/light_states.h"
 
 namespace lambent::test {
@@ -42,6 +44,23 @@ inline std::vector<std::byte> geometry_body(bool changes, std::span<const std::b
   out.raw(rest);
   return out.take();
 }
+
+/// In place of a video codec: pictures that are what their bytes are.
+class FuzzReader : public stream::TextureReader {
+ public:
+  Expected<void> read(std::span<const std::byte> bytes, bool /*key*/,
+                      stream::TexturePicture& picture) override {
+    if (bytes.empty()) return fail("picture", "", "is empty");
+    const std::size_t pixels = static_cast<std::size_t>(picture.width) * picture.height;
+    for (std::vector<std::uint16_t>& plane : picture.planes) {
+      plane.resize(pixels);
+      for (std::size_t i = 0; i < pixels; ++i) {
+        plane[i] = static_cast<std::uint16_t>(4 * std::to_integer<int>(bytes[i % bytes.size()]));
+      }
+    }
+    return {};
+  }
+};
 
 /// Gives a decoder that has a key the bytes as they are, and as the body of a message of the kind
 /// that the first byte names. Returns what is wrong with how it takes that; empty: nothing.
@@ -75,7 +94,18 @@ inline std::string feed_light_decoder(std::span<const std::byte> bytes) {
   if (client.receive(bytes)) return "takes a message without a checksum for one";
   if (light() != before) return "changed without a message";
   if (bytes.empty()) return "";
-  const auto kind = static_cast<LightMessageKind>(1 + std::to_integer<int>(bytes[0]) % 3);
+  const auto kind = static_cast<LightMessageKind>(1 + std::to_integer<int>(bytes[0]) % 6);
+  client.read_textures(std::make_unique<FuzzReader>());
+  if (kind == LightMessageKind::regions) {
+    // What follows on regions alone
+    stream::RegionEncoder regions;
+    stream::FollowedRegions has;
+    regions.follow(client.decoder());
+    if (!client.receive(regions.update_for(client.decoder(), {}, true, has).bytes)) {
+      return "refuses regions that an encoder wrote";
+    }
+    if (light() != before) return "has other light by regions";
+  }
   const Expected<void> taken = client.receive(fuzz_message(kind, bytes.subspan(1)));
   if (!taken && taken.error().cause.empty()) return "refuses without a cause";
   if (!taken && light() != before) return "changed by a message that it refused";

@@ -33,10 +33,12 @@ inline std::vector<std::pair<stream::Message, stream::Sender>> one_of_each_messa
           {ObjectInput{}, Sender::client},
           {Received{1, 2.0f}, Sender::client},
           {LightReceived{3, 2, 1}, Sender::client},
+          {Interest{4.0f}, Sender::client},
           {Ping{123, 0}, Sender::client},
           {welcome, Sender::server},
           {picture, Sender::server},
           {LightPayload{1, 2, 0.5f, bytes}, Sender::server},
+          {InputsApplied{1, 2}, Sender::server},
           {ServerStats{}, Sender::server},
           {refusal, Sender::server}};
 }

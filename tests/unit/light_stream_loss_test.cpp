@@ -44,6 +44,25 @@ TEST(LightStream, GivesLateJoinersWhatOthersHaveToTheBit) {
   EXPECT_EQ(late.update(), 18u);
 }
 
+TEST(LightStream, WhoeverFollowsItCanTakeOthersIn) {
+  Box box;
+  LightEncoder encoder = made_encoder();
+  LightDecoder relay;
+  EXPECT_FALSE(relay.join()) << "there is nothing yet";
+  for (int update = 0; update < 6; ++update) {
+    receive_all(relay, encoded(encoder, box));
+    for (const std::uint64_t known : {std::uint64_t{0}, relay.geometry()}) {
+      const Messages theirs = encoder.join(known).value(), ours = relay.join(known).value();
+      ASSERT_EQ(ours.size(), theirs.size());
+      for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_EQ(ours[i].bytes, theirs[i].bytes);
+    }
+    box.advance();
+  }
+  encoded(encoder, box);  // is lost
+  EXPECT_FALSE(relay.receive(encoded(encoder, box).back().bytes));
+  EXPECT_FALSE(relay.join()) << "what it has leads nowhere";
+}
+
 TEST(LightStream, RefusesWhatFollowsOnALossUntilAKeyComes) {
   Box box;
   // Geometry stays as it is, so that it is updates that tell

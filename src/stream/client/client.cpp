@@ -4,6 +4,7 @@
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/post.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/ssl.hpp>
@@ -106,7 +107,7 @@ class BeastClient : private Base, public Client {
         arrived_ = true;
       });
     }
-    run_until(arrived_, timeout);
+    wait_for_message(timeout);
     if (!arrived_) return std::nullopt;
     reading_ = false;
     if (ended_) return failed("has ended the connection", ended_);
@@ -116,6 +117,10 @@ class BeastClient : private Base, public Client {
     buffer_.consume(buffer_.size());
     if (!message) return tl::unexpected(message.error());
     return std::optional<Message>(std::move(*message));
+  }
+
+  void wake() override {
+    boost::asio::post(io, [this] { woken_ = true; });
   }
 
   void close() override {
@@ -162,6 +167,15 @@ class BeastClient : private Base, public Client {
     }
   }
 
+  /// As run_until(arrived_), unless somebody wakes it.
+  void wait_for_message(std::chrono::milliseconds timeout) {
+    const auto end = std::chrono::steady_clock::now() + timeout;
+    io.restart();
+    while (!arrived_ && !woken_ && io.run_one_until(end) > 0) {
+    }
+    woken_ = false;
+  }
+
   /// Starts an operation that the stream's own timeout ends, and waits for it.
   template <class Start>
   beast::error_code wait(const Start& start) {
@@ -180,7 +194,7 @@ class BeastClient : private Base, public Client {
   const ConnectSettings settings_;
   beast::flat_buffer buffer_;
   websocket::stream<Stream> socket_;
-  bool reading_ = false, arrived_ = false;
+  bool reading_ = false, arrived_ = false, woken_ = false;
   beast::error_code ended_;
 };
 

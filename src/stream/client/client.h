@@ -39,6 +39,8 @@ class Client {
   /// The next message; none where none came in time. Fails once the connection has ended, and on
   /// messages that are not of the protocol.
   virtual Expected<std::optional<Message>> receive(std::chrono::milliseconds timeout) = 0;
+  /// Has `receive` return at once, now or when it is called next. May be called from any thread.
+  virtual void wake() = 0;
   /// Says farewell, and waits for the server's.
   virtual void close() = 0;
 };

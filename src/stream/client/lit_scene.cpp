@@ -20,6 +20,10 @@ Expected<LitScene::Followed> LitScene::take_light(const LightPayload& light) {
     animate(scene_, -1, time_s_);
     if (const auto moved = world_.update(); !moved) return tl::unexpected(moved.error());
   }
+  if (light.time_s < 0.0f && time_s_ >= 0.0f) {
+    return fail("scene", "", "is no longer animated by the server, and where it began is not known",
+                Error::Kind::failed);
+  }
   // What is broken or does not apply leaves the light as it was, and is sent again
   const bool taken = streamed_.receive(light.bytes).has_value();
   const LightDecoder& decoder = streamed_.decoder();

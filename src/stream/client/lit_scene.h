@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 
 #include "lambent/stream.h"
 #include "lambent/world.h"
@@ -18,6 +20,11 @@ class LitScene {
   /// Refers to the scene, a copy of the server's as it was opened, and its world.
   LitScene(Scene& scene, World& world) : scene_(scene), world_(world), editor_(scene, world) {}
 
+  /// LightDecoder::read_textures
+  void read_textures(std::unique_ptr<TextureReader> reader) {
+    streamed_.read_textures(std::move(reader));
+  }
+
   /// What came of a message.
   struct Followed {
     bool lit = false;  ///< The field has the light of another update.
@@ -30,6 +37,10 @@ class LitScene {
 
   /// The server's light, for a Renderer; null before the first update. Stays where it is.
   const IrradianceField* field() const { return streamed_.field(); }
+  /// The light as it came.
+  const LightDecoder& decoder() const { return streamed_.decoder(); }
+  /// SceneEditor::original
+  Edit original(const EditTarget& target) const { return editor_.original(target); }
   /// The update of the light that it is.
   std::uint64_t update() const { return streamed_.decoder().update(); }
 

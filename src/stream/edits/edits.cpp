@@ -2,10 +2,8 @@
 #include "stream/edits/edits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
-#include <numbers>
 #include <optional>
 
 namespace lambent::stream {
@@ -47,31 +45,6 @@ Edit merged(const Edit& earlier, const Edit& later) {
   return both;
 }
 
-namespace {
-
-/// Angle of the sun along its daily circle, 0 at sunrise [rad].
-float angle_of(float hours) {
-  constexpr float kSunrise = 6.0f, kHoursOfDay = 24.0f;
-  return (hours - kSunrise) / kHoursOfDay * 2.0f * std::numbers::pi_v<float>;
-}
-
-}  // namespace
-
-glm::vec3 sun_direction(float hours) {
-  // At an equinox the circle is tilted from the zenith by the latitude
-  constexpr float kLatitude = std::numbers::pi_v<float> / 4.0f;
-  const float angle = angle_of(hours);
-  const glm::vec3 to_sun(std::cos(angle), std::sin(angle) * std::cos(kLatitude),
-                         std::sin(angle) * std::sin(kLatitude));
-  return glm::normalize(-to_sun);
-}
-
-float sun_share(float hours) {
-  // Full from some four degrees above the horizon on
-  constexpr float kFullHeight = 0.07f;
-  return std::clamp(-sun_direction(hours).y / kFullHeight, 0.0f, 1.0f);
-}
-
 /// What there was before an edit.
 struct SceneEditor::Undo {
   int light = -1, instance = -1;
@@ -79,12 +52,31 @@ struct SceneEditor::Undo {
   std::optional<glm::mat4> place_before;
 };
 
-SceneEditor::SceneEditor(Scene& scene, World& world) : scene_(scene), world_(world) {
+SceneEditor::SceneEditor(Scene& scene, World& world)
+    : scene_(scene), world_(world), first_lights_(scene.lights) {
+  for (const Instance& instance : scene.instances) {
+    first_places_.push_back(instance.world_from_object);
+  }
   for (std::size_t i = 0; i < scene.lights.size() && sun_ < 0; ++i) {
     if (scene.lights[i].type != Light::Type::directional) continue;
     sun_ = static_cast<int>(i);
     sun_irradiance_ = scene.lights[i].intensity;
   }
+}
+
+Edit SceneEditor::original(const EditTarget& target) const {
+  const auto& [kind, index] = target;
+  if (kind == target_of(ObjectInput{}).first) {
+    return ObjectInput{0, index, glm::mat4x3(first_places_[index])};
+  }
+  LightInput edit;
+  edit.light = kind == target_of(SunInput{}).first ? static_cast<std::uint32_t>(sun_) : index;
+  edit.edits = kEditsPosition | kEditsDirection | kEditsIntensity;
+  const Light& light = first_lights_[edit.light];
+  edit.position_ws = light.position_ws;
+  edit.direction_ws = light.direction_ws;
+  edit.intensity = light.intensity;
+  return edit;
 }
 
 Expected<SceneEditor::Undo> SceneEditor::apply_one(const Edit& edit) {

@@ -14,6 +14,7 @@
 #include "lambent/error.h"
 #include "lambent/scene.h"
 #include "lambent/world.h"
+#include "stream/edits/sun.h"
 #include "stream/protocol/messages.h"
 
 namespace lambent::stream {
@@ -32,14 +33,6 @@ EditTarget target_of(const Edit& edit);
 /// The later of two edits of one target, with what it leaves of the earlier one.
 Edit merged(const Edit& earlier, const Edit& later);
 
-/// Way that the sun's light travels at a time of day, at an equinox on 45 degrees of latitude: it
-/// rises in the east (+X) at 6, is highest at 12, in the south (+Z), and sets in the west at 18.
-glm::vec3 sun_direction(float hours);
-
-/// Share of its full irradiance that the sun has at a time of day: it fades as it sets, and at
-/// night there is none.
-float sun_share(float hours);
-
 /// Applies edits of clients to a scene that has its own sun.
 class SceneEditor {
  public:
@@ -55,6 +48,9 @@ class SceneEditor {
   /// was refused. Fails, as our bug would, where the world refuses what it accepted before.
   Expected<std::vector<Refused>> apply(std::span<const Edit> edits);
 
+  /// The edit that makes a target that was edited as it was when the editor was made.
+  Edit original(const EditTarget& target) const;
+
  private:
   struct Undo;
   Expected<Undo> apply_one(const Edit& edit);
@@ -64,6 +60,8 @@ class SceneEditor {
   World& world_;
   int sun_ = -1;  // the scene's first directional light; -1: none
   glm::vec3 sun_irradiance_{0.0f};
+  std::vector<Light> first_lights_;
+  std::vector<glm::mat4> first_places_;
 };
 
 }  // namespace lambent::stream

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -13,6 +14,8 @@
 #include "stream/light/geometry_coding.h"
 #include "stream/light/light_signal.h"
 #include "stream/light/message.h"
+#include "stream/regions/region_states.h"
+#include "stream/textures/texture_atlas.h"
 
 namespace lambent::stream {
 
@@ -45,17 +48,39 @@ struct LightDecoder::State {
   std::optional<ReceivedGeometry> current;  ///< Of `light`; empty before the first key.
   std::optional<ReceivedGeometry> next;     ///< Of a key that is still to come.
   LightState light;
-  bool lost = false;  ///< A change is missing.
+  bool lost = false;                      ///< A change is missing.
+  std::unique_ptr<TextureReader> reader;  ///< Null: textures are refused.
+  TexturePicture picture;                 ///< The last texture's.
+  /// How the light came; what follows must come in the same way.
+  enum class Way : std::uint8_t { coded, textures, regions };
+  Way way = Way::coded;
+  std::optional<RegionStates> regions;  ///< Where it came by regions.
+  std::uint64_t geometries = 0;         ///< Keys so far that were of another geometry.
   std::vector<int> changed;
   bool corrected = false;  ///< The last message changed corrections.
   std::vector<std::int32_t> levels;
+  /// The last message of all of the geometry for others, without its header, and its number.
+  std::vector<std::byte> whole_body;
+  std::uint64_t whole_version = 0;
 
   Expected<void> receive(std::span<const std::byte> bytes);
 
  private:
-  Expected<void> receive_geometry(const Message& message);
-  Expected<void> receive_key(const Message& message);
-  Expected<void> receive_delta(const Message& message);
+  Expected<void> receive_geometry(const OpenedMessage& message);
+  Expected<void> receive_key(const OpenedMessage& message);
+  Expected<void> receive_texture(const OpenedMessage& message);
+  Expected<void> receive_regions(const OpenedMessage& message);
+  Expected<void> receive_whole_regions(const MessageHeader& header, const RegionBody& body);
+  /// Whether a change goes on in the way in which the light came.
+  Expected<void> check_way(const MessageHeader& header, Way now);
+  /// Whether a key can be taken: its geometry is here, and it does not come too late.
+  Expected<void> check_key(const MessageHeader& header);
+  bool is_of_next(const MessageHeader& header) const {
+    return next && next->stream == header.stream && next->version == header.geometry;
+  }
+  /// The state of a key, of the geometry that is next where it is of that.
+  void take_key(const MessageHeader& header, LightState key);
+  Expected<void> receive_delta(const OpenedMessage& message);
   /// Whether a change leads on from this state, with this version of the geometry.
   Expected<void> check_follows(const MessageHeader& header, std::uint64_t base_geometry);
 };

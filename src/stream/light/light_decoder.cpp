@@ -9,6 +9,7 @@
 #include "stream/light/decoder_state.h"
 #include "stream/light/light_coding.h"
 #include "stream/light/message.h"
+#include "stream/textures/texture_coding.h"
 
 namespace lambent::stream {
 namespace {
@@ -20,7 +21,7 @@ std::string of_update(std::uint64_t update) {
 }  // namespace
 
 Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
-  const Expected<Message> message = open_message(bytes);
+  const Expected<OpenedMessage> message = open_message(bytes);
   if (!message) return tl::unexpected(message.error());
   switch (message->header.kind) {
     case LightMessageKind::geometry:
@@ -29,6 +30,11 @@ Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
       return receive_key(*message);
     case LightMessageKind::delta:
       return receive_delta(*message);
+    case LightMessageKind::texture_key:
+    case LightMessageKind::texture:
+      return receive_texture(*message);
+    case LightMessageKind::regions:
+      return receive_regions(*message);
   }
   return bad_stream("", "holds a message of an unknown kind");
 }
@@ -49,7 +55,7 @@ Expected<void> LightDecoder::State::check_follows(const MessageHeader& header,
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_geometry(const Message& message) {
+Expected<void> LightDecoder::State::receive_geometry(const OpenedMessage& message) {
   if (message.body.size() < sizeof(std::uint64_t)) return bad_stream("geometry", "is cut short");
   const std::uint64_t base = ByteReader(message.body).u64();
   const std::span<const std::byte> body = message.body.subspan(sizeof(base));
@@ -74,43 +80,98 @@ Expected<void> LightDecoder::State::receive_geometry(const Message& message) {
   current->version = message.header.geometry;
   current->lay_out();
   clear_unlit(current->layout, light);
+  if (way == Way::regions) regions->follow(current->layout);
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_key(const Message& message) {
-  const MessageHeader& header = message.header;
+Expected<void> LightDecoder::State::check_way(const MessageHeader& header, Way now) {
+  if (way == now) return {};
+  lost = true;
+  return bad_stream(of_update(header.update), "goes on in another way than its key came");
+}
+
+Expected<void> LightDecoder::State::check_key(const MessageHeader& header) {
   if (current && header.stream == current->stream && !lost && header.update < light.update) {
     return bad_stream(of_update(header.update), "comes too late");
   }
-  const bool is_of_next = next && next->stream == header.stream && next->version == header.geometry;
   const bool is_of_current =
       current && current->stream == header.stream && current->version == header.geometry;
-  if (!is_of_next && !is_of_current) {
-    lost = true;
-    return bad_stream(of_update(header.update), "is of geometry that is not here");
-  }
-  Expected<LightState> key = read_key(is_of_next ? next->layout : current->layout, message.body);
-  if (!key) return tl::unexpected(key.error());
-  if (is_of_next) {
+  if (is_of_next(header) || is_of_current) return {};
+  lost = true;
+  return bad_stream(of_update(header.update), "is of geometry that is not here");
+}
+
+void LightDecoder::State::take_key(const MessageHeader& header, LightState key) {
+  corrected = is_of_next(header);
+  if (corrected) {
     current = std::move(next);
     next.reset();
+    ++geometries;
   }
-  light = std::move(*key);
+  light = std::move(key);
   light.update = header.update;
   lost = false;
-  corrected = is_of_next;
   changed.resize(current->layout.probes());
   std::iota(changed.begin(), changed.end(), 0);
+}
+
+Expected<void> LightDecoder::State::receive_key(const OpenedMessage& message) {
+  const MessageHeader& header = message.header;
+  if (const auto fine = check_key(header); !fine) return fine;
+  const LightLayout& layout = is_of_next(header) ? next->layout : current->layout;
+  Expected<LightState> key = read_key(layout, message.body);
+  if (!key) return tl::unexpected(key.error());
+  take_key(header, std::move(*key));
+  way = Way::coded;
   return {};
 }
 
-Expected<void> LightDecoder::State::receive_delta(const Message& message) {
+Expected<void> LightDecoder::State::receive_texture(const OpenedMessage& message) {
+  const MessageHeader& header = message.header;
+  const bool key = header.kind == LightMessageKind::texture_key;
+  if (!reader) return bad_stream("", "comes as textures of a video codec, which is not here");
+  const Expected<void> fine = key ? check_key(header) : check_follows(header, header.geometry);
+  if (!fine) return fine;
+  if (!key) {
+    if (const auto same = check_way(header, Way::textures); !same) return same;
+  }
+  const ReceivedGeometry& of = is_of_next(header) ? *next : *current;
+  const auto atlas = TextureAtlas::of(of.geometry);
+  const auto body = read_texture(message.body);
+  Expected<void> read;
+  if (!atlas) read = tl::unexpected(atlas.error());
+  if (!body) read = tl::unexpected(body.error());
+  for (std::size_t i = 0; read && i < body->pictures.size(); ++i) {
+    picture.width = atlas->width();
+    picture.height = atlas->height();
+    read = reader->read(body->pictures[i], key && i == 0, picture);
+  }
+  if (!read) {
+    // Pictures that come next follow on this
+    lost = true;
+    return read;
+  }
+  const std::vector<std::int32_t> before = key ? std::vector<std::int32_t>() : light.coefficients;
+  take_key(header, state_of(*atlas, of.layout, of.basis, picture, body->scale));
+  way = Way::textures;
+  if (key) return {};
+  const std::size_t numbers = current->layout.numbers();
+  std::erase_if(changed, [&](int probe) {
+    const auto own = light.coefficients.begin() + static_cast<std::ptrdiff_t>(probe * numbers);
+    return std::equal(own, own + static_cast<std::ptrdiff_t>(numbers),
+                      before.begin() + static_cast<std::ptrdiff_t>(probe * numbers));
+  });
+  return {};
+}
+
+Expected<void> LightDecoder::State::receive_delta(const OpenedMessage& message) {
   if (current && message.header.stream == current->stream &&
       message.header.geometry != current->version && message.header.update > light.update) {
     lost = true;
     return bad_stream(of_update(message.header.update), "is of geometry that is not here");
   }
   if (const auto fine = check_follows(message.header, message.header.geometry); !fine) return fine;
+  if (const auto same = check_way(message.header, Way::coded); !same) return same;
   if (const auto fine = read_delta(current->layout, message.body, light, levels); !fine) {
     lost = true;
     return fine;
@@ -137,6 +198,10 @@ Expected<void> LightDecoder::receive(std::span<const std::byte> message) {
   return state_->receive(message);
 }
 
+void LightDecoder::read_textures(std::unique_ptr<TextureReader> reader) {
+  state_->reader = std::move(reader);
+}
+
 bool LightDecoder::needs_key() const {
   return state_->lost || !state_->current;
 }
@@ -148,6 +213,27 @@ std::uint64_t LightDecoder::update() const {
 std::uint64_t LightDecoder::geometry() const {
   if (state_->next) return state_->next->version;
   return state_->current ? state_->current->version : 0;
+}
+
+Expected<std::vector<LightMessage>> LightDecoder::join(std::uint64_t known_geometry) const {
+  State& s = *state_;
+  if (needs_key() || s.way != State::Way::coded) {
+    return bad_stream("", "is incomplete here: nobody can go on from it");
+  }
+  MessageHeader header{LightMessageKind::geometry, s.current->stream, s.light.update,
+                       s.current->version};
+  std::vector<LightMessage> messages;
+  if (known_geometry != s.current->version) {
+    // It is coded once, when the first needs it
+    if (s.whole_version != s.current->version) {
+      s.whole_body = geometry_body(0, write_geometry(s.current->geometry));
+      s.whole_version = s.current->version;
+    }
+    messages.push_back(make_message(header, s.whole_body));
+  }
+  header.kind = LightMessageKind::key;
+  messages.push_back(make_message(header, write_key(s.current->layout, s.light)));
+  return messages;
 }
 
 int LightDecoder::probes() const {

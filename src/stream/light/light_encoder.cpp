@@ -3,8 +3,8 @@
 #include <cmath>
 #include <mutex>
 #include <optional>
+#include <utility>
 
-#include "core/little_endian.h"
 #include "field/field_access.h"
 #include "field/field_state.h"
 #include "lambent/stream.h"
@@ -12,6 +12,7 @@
 #include "stream/light/light_coding.h"
 #include "stream/light/message.h"
 #include "stream/light/quantise.h"
+#include "stream/textures/texture_encoding.h"
 
 namespace lambent::stream {
 namespace {
@@ -50,13 +51,6 @@ double largest(const LightErrors& errors) {
   return std::max(errors.relative, errors.dark);
 }
 
-std::vector<std::byte> with_base(std::uint64_t base, std::span<const std::byte> body) {
-  ByteWriter out;
-  out.u64(base);
-  out.raw(body);
-  return out.take();
-}
-
 }  // namespace
 
 struct LightEncoder::State {
@@ -69,6 +63,8 @@ struct LightEncoder::State {
   double key_mean = 0.0;  // mean light at the last key [W/m^2]
   float thrift = 1.0f;
   LightErrors errors;
+  std::optional<TextureEncoding> textures;  // empty: our own codec
+  bool refreshes = false;                   // the next texture is a key
 
   // The last message of all of the geometry, without its header
   mutable std::mutex whole_mutex;
@@ -94,7 +90,7 @@ struct LightEncoder::State {
   LightMessage whole_geometry(std::uint64_t update) const {
     const std::scoped_lock lock(whole_mutex);
     if (whole_version != geometry_version) {
-      whole_body = with_base(0, write_geometry(geometry));
+      whole_body = geometry_body(0, write_geometry(geometry));
       whole_version = geometry_version;
     }
     return make_message(header(LightMessageKind::geometry, update), whole_body);
@@ -109,6 +105,7 @@ struct LightEncoder::State {
   std::optional<LightMessage> follow_geometry(const IrradianceField& field, std::uint64_t update);
 
   LightMessage encode_light(const FieldLight& field, std::uint64_t update);
+  Expected<LightMessage> encode_texture(const FieldLight& field, std::uint64_t update);
   LightMessage encode_key(const FieldLight& field, std::uint64_t update, float unit);
 
   LightMessage key() const {
@@ -135,7 +132,7 @@ std::optional<LightMessage> LightEncoder::State::follow_geometry(const Irradianc
   layout = layout_of(geometry);
   clear_unlit(layout, light);
   return make_message(header(LightMessageKind::geometry, update),
-                      with_base(base, write_changes(before, geometry, probes, corrects)));
+                      geometry_body(base, write_changes(before, geometry, probes, corrects)));
 }
 
 LightMessage LightEncoder::State::encode_key(const FieldLight& field, std::uint64_t update,
@@ -182,6 +179,18 @@ LightMessage LightEncoder::State::encode_light(const FieldLight& field, std::uin
   return encode_key(field, update, light.unit * static_cast<float>(kKeyAim / share));
 }
 
+Expected<LightMessage> LightEncoder::State::encode_texture(const FieldLight& field,
+                                                           std::uint64_t update) {
+  const bool key = std::exchange(refreshes, false) || light.update == 0;
+  auto encoded = textures->encode(geometry, layout, *basis, field, settings.target_error, key);
+  if (!encoded) return tl::unexpected(encoded.error());
+  light = std::move(encoded->light);
+  light.update = update;
+  errors = encoded->errors;
+  const auto kind = encoded->is_key ? LightMessageKind::texture_key : LightMessageKind::texture;
+  return make_message(header(kind, update), encoded->body);
+}
+
 LightEncoder::LightEncoder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 LightEncoder::~LightEncoder() = default;
 LightEncoder::LightEncoder(LightEncoder&&) noexcept = default;
@@ -200,6 +209,17 @@ Expected<LightEncoder> LightEncoder::create(const LightEncoderSettings& settings
   return LightEncoder(std::move(state));
 }
 
+Expected<LightEncoder> LightEncoder::create(const LightEncoderSettings& settings,
+                                            std::unique_ptr<TextureWriter> writer) {
+  auto encoder = create(settings);
+  if (encoder) encoder->state_->textures.emplace(std::move(writer));
+  return encoder;
+}
+
+void LightEncoder::refresh() {
+  state_->refreshes = true;
+}
+
 Expected<std::vector<LightMessage>> LightEncoder::encode(const IrradianceField& field) {
   State& s = *state_;
   const FieldAccess::State& of_field = FieldAccess::state_of(field);
@@ -214,7 +234,14 @@ Expected<std::vector<LightMessage>> LightEncoder::encode(const IrradianceField& 
   } else if (std::optional<LightMessage> changes = s.follow_geometry(field, update)) {
     messages.push_back(std::move(*changes));
   }
-  messages.push_back(s.encode_light(measure_light(s.layout, tiles), update));
+  const FieldLight light = measure_light(s.layout, tiles);
+  if (!s.textures) {
+    messages.push_back(s.encode_light(light, update));
+    return messages;
+  }
+  Expected<LightMessage> texture = s.encode_texture(light, update);
+  if (!texture) return tl::unexpected(texture.error());
+  messages.push_back(std::move(*texture));
   return messages;
 }
 
@@ -224,7 +251,7 @@ Expected<std::vector<LightMessage>> LightEncoder::join(std::uint64_t known_geome
     return fail("light stream", "", "holds no light before its first update");
   std::vector<LightMessage> messages;
   if (known_geometry != s.geometry_version) messages.push_back(s.whole_geometry(s.light.update));
-  messages.push_back(s.key());
+  if (!s.textures) messages.push_back(s.key());
   return messages;
 }
 

@@ -26,6 +26,13 @@ LightMessage make_message(const MessageHeader& header, std::span<const std::byte
   return message;
 }
 
+std::vector<std::byte> geometry_body(std::uint64_t base, std::span<const std::byte> coded) {
+  ByteWriter out;
+  out.u64(base);
+  out.raw(coded);
+  return out.take();
+}
+
 void seal_message(std::span<std::byte> bytes) {
   if (bytes.size() < kMessageHeaderBytes) return;
   ByteWriter checksum;
@@ -34,7 +41,7 @@ void seal_message(std::span<std::byte> bytes) {
             bytes.begin() + kMessageChecksumOffset);
 }
 
-Expected<Message> open_message(std::span<const std::byte> bytes) {
+Expected<OpenedMessage> open_message(std::span<const std::byte> bytes) {
   if (bytes.size() < kMessageHeaderBytes) return bad_stream("", "a message is cut short");
   ByteReader in(bytes);
   if (in.u32() != kLightMagic) return bad_stream("", "what came is no message of one");
@@ -48,10 +55,10 @@ Expected<Message> open_message(std::span<const std::byte> bytes) {
     return bad_stream("", "a message is broken: its checksum does not match what it holds");
   }
   if (kind < static_cast<std::uint32_t>(LightMessageKind::geometry) ||
-      kind > static_cast<std::uint32_t>(LightMessageKind::delta)) {
+      kind > static_cast<std::uint32_t>(LightMessageKind::regions)) {
     return bad_stream("", "holds a message of an unknown kind, " + std::to_string(kind));
   }
-  Message message;
+  OpenedMessage message;
   message.header.kind = static_cast<LightMessageKind>(kind);
   message.header.stream = in.u32();
   message.header.update = in.u64();

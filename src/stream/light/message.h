@@ -32,7 +32,7 @@ inline std::uint64_t geometry_number(std::uint32_t stream, std::uint64_t update)
   return std::uint64_t{stream} << 32u | (update & 0xFFFFFFFFu);
 }
 
-struct Message {
+struct OpenedMessage {
   MessageHeader header;
   std::span<const std::byte> body;
 };
@@ -40,11 +40,15 @@ struct Message {
 /// A message of this body.
 LightMessage make_message(const MessageHeader& header, std::span<const std::byte> body);
 
+/// The body of a message of geometry: what it changes (0: nothing, it is whole), and the coded
+/// rest.
+std::vector<std::byte> geometry_body(std::uint64_t base, std::span<const std::byte> coded);
+
 /// Writes the checksum of a message into its header, where it has one.
 void seal_message(std::span<std::byte> bytes);
 
 /// The parts of a message. Fails on what is no message, cut short, or broken.
-Expected<Message> open_message(std::span<const std::byte> bytes);
+Expected<OpenedMessage> open_message(std::span<const std::byte> bytes);
 
 /// An error that says what of the stream it is about.
 tl::unexpected<Error> bad_stream(const std::string& place, const std::string& cause);

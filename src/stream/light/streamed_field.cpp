@@ -2,6 +2,7 @@
 // The field of a client: a field of the stream's volumes, whose tiles hold what was decoded.
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "field/field_access.h"
@@ -122,6 +123,10 @@ Expected<void> StreamedField::receive(std::span<const std::byte> message) {
   }
   s.copy_light(changed);
   return {};
+}
+
+void StreamedField::read_textures(std::unique_ptr<TextureReader> reader) {
+  state_->decoder.read_textures(std::move(reader));
 }
 
 const LightDecoder& StreamedField::decoder() const {

@@ -5,9 +5,12 @@ export const VERSION = 1;
 const MAGIC = 0x54424d4c;
 const HEADER_BYTES = 8;
 export const TYPE = {
-  hello: 1, pictureRequest: 2, camera: 3, received: 4, timeOfDay: 33, light: 35,
-  welcome: 65, picture: 66, stats: 68, error: 69,
+  hello: 1, pictureRequest: 2, camera: 3, received: 4, lightReceived: 5, timeOfDay: 33, sun: 34, light: 35, object: 36,
+  welcome: 65, picture: 66, lightUpdate: 67, stats: 68, error: 69,
 };
+export const WANTS = { pictures: 1, light: 2 };
+export const CODE = { badToken: 3, refusedInput: 5 };
+export const LIGHT_KIND = { geometry: 1, key: 2, delta: 3 };
 export const EDITS = { position: 1, direction: 2, intensity: 4 };
 
 /// A message of a type, whose fields `write` puts in their order.
@@ -20,6 +23,7 @@ function message(type, write) {
   };
   const to = {
     word: (value) => number(4, (view) => view.setUint32(0, value, true)),
+    longWord: (value) => number(8, (view) => view.setBigUint64(0, value, true)),
     real: (value) => number(4, (view) => view.setFloat32(0, value, true)),
     reals: (values) => values.forEach((value) => to.real(value)),
     text: (value) => {
@@ -37,8 +41,8 @@ function message(type, write) {
   return whole;
 }
 
-export const hello = (size, rate, token) => message(TYPE.hello, (to) => {
-  [MAGIC, VERSION, 1, size.width, size.height].forEach(to.word);
+export const hello = (wants, size, rate, token) => message(TYPE.hello, (to) => {
+  [MAGIC, VERSION, wants, size.width, size.height].forEach(to.word);
   to.real(rate);
   to.text(token);
 });
@@ -64,6 +68,13 @@ export const received = (picture, decodeMs) => message(TYPE.received, (to) => {
   to.real(decodeMs);
 });
 
+/// `update` and `geometry` are BigInts.
+export const lightReceived = (update, geometry, needsKey) => message(TYPE.lightReceived, (to) => {
+  to.longWord(update);
+  to.longWord(geometry);
+  to.word(needsKey ? 1 : 0);
+});
+
 /// Reads fields one after the other; throws where there are too few.
 class Reader {
   constructor(buffer) {
@@ -71,7 +82,7 @@ class Reader {
     this.at = 0;
   }
   word() { this.at += 4; return this.view.getUint32(this.at - 4, true); }
-  longWord() { this.at += 8; return Number(this.view.getBigUint64(this.at - 8, true)); }
+  longWord() { this.at += 8; return this.view.getBigUint64(this.at - 8, true); }
   real() { this.at += 4; return this.view.getFloat32(this.at - 4, true); }
   reals(count) { return Array.from({ length: count }, () => this.real()); }
   bytes() {
@@ -101,12 +112,22 @@ const readers = {
   [TYPE.welcome]: readWelcome,
   [TYPE.picture]: (from) => ({
     number: from.word(), key: from.word() === 1, size: { width: from.word(), height: from.word() },
-    state: from.longWord(), input: from.word(), renderMs: from.real(), encodeMs: from.real(),
+    state: Number(from.longWord()), input: from.word(), renderMs: from.real(), encodeMs: from.real(),
     bytes: from.bytes(),
   }),
   [TYPE.stats]: (from) => ({
-    state: from.longWord(), updateMs: from.real(), rate: from.real(), clients: from.word(),
+    state: Number(from.longWord()), updateMs: from.real(), rate: from.real(), clients: from.word(),
     bitrate: from.word(), roundTripMs: from.real(),
+  }),
+  [TYPE.timeOfDay]: (from) => ({ input: from.word(), hours: from.real() }),
+  [TYPE.sun]: (from) => ({ input: from.word(), direction: from.reals(3) }),
+  [TYPE.light]: (from) => ({
+    input: from.word(), light: from.word(), edits: from.word(), position: from.reals(3), direction: from.reals(3),
+    intensity: from.reals(3),
+  }),
+  [TYPE.object]: (from) => ({ input: from.word(), instance: from.word(), axes: from.reals(9), position: from.reals(3) }),
+  [TYPE.lightUpdate]: (from) => ({
+    kind: from.word(), update: from.longWord(), time: from.real(), bytes: from.bytes(),
   }),
   [TYPE.error]: (from) => ({ code: from.word(), text: new TextDecoder().decode(from.bytes()) }),
 };

@@ -1,133 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <wels/codec_api.h>
-
 #include <cassert>
-#include <cmath>
 #include <utility>
 
-#include "stream/picture/h264.h"
+#include "stream/picture/picture_codec.h"
 
 namespace lambent::stream {
-namespace {
 
-SEncParamExt parameters(ISVCEncoder& encoder, const EncoderSettings& settings) {
-  SEncParamExt to{};
-  encoder.GetDefaultParams(&to);
-  to.iUsageType = CAMERA_VIDEO_REAL_TIME;
-  to.iPicWidth = settings.width;
-  to.iPicHeight = settings.height;
-  to.fMaxFrameRate = settings.rate;
-  to.iTargetBitrate = static_cast<int>(settings.bitrate);
-  to.iMaxBitrate = UNSPECIFIED_BIT_RATE;
-  to.iRCMode = RC_BITRATE_MODE;
-  to.bEnableFrameSkip = false;  // pictures in are pictures out
-  to.uiIntraPeriod = 0;         // key pictures when they are asked for
-  to.iNumRefFrame = 1;
-  to.iMultipleThreadIdc = 1;  // the renderer has the other cores
-  to.bEnableSceneChangeDetect = false;
-  to.bEnableBackgroundDetection = false;
-  to.eSpsPpsIdStrategy = CONSTANT_ID;
-  SSpatialLayerConfig& layer = to.sSpatialLayers[0];
-  layer.uiProfileIdc = PRO_BASELINE;
-  layer.iVideoWidth = settings.width;
-  layer.iVideoHeight = settings.height;
-  layer.fFrameRate = settings.rate;
-  layer.iSpatialBitrate = to.iTargetBitrate;
-  layer.iMaxSpatialBitrate = UNSPECIFIED_BIT_RATE;
-  // How players get their colours back
-  layer.bVideoSignalTypePresent = true;
-  layer.uiVideoFormat = VF_UNDEF;
-  layer.bFullRange = false;
-  layer.bColorDescriptionPresent = true;
-  layer.uiColorPrimaries = CP_BT709;
-  layer.uiTransferCharacteristics = TRC_IEC61966_2_1;  // sRGB, as the tone map has it
-  layer.uiColorMatrix = CM_BT709;
-  return to;
+tl::unexpected<Error> refused_size(const EncoderSettings& settings) {
+  return fail("H.264", settings.encoder,
+              "refuses pictures of " + std::to_string(settings.width) + "x" +
+                  std::to_string(settings.height) + " pixels");
 }
 
-}  // namespace
+std::vector<std::string> picture_encoders() {
+  std::vector<std::string> names = ffmpeg_encoders();
+  names.insert(names.begin(), std::string(kDefaultEncoder));
+  return names;
+}
 
-struct PictureEncoder::Codec {
-  struct Destroy {
-    void operator()(ISVCEncoder* made) const {
-      made->Uninitialize();
-      WelsDestroySVCEncoder(made);
-    }
-  };
-  std::unique_ptr<ISVCEncoder, Destroy> encoder;
-  std::int64_t pictures = 0;
-};
+Expected<void> check_encoder(const std::string& name) {
+  EncoderSettings settings;
+  settings.encoder = name;
+  auto encoder = PictureEncoder::make(settings);
+  if (!encoder) return tl::unexpected(encoder.error());
+  YuvPicture grey{settings.width, settings.height, {}, {}, {}};
+  constexpr std::uint8_t kGrey = 128;
+  const std::size_t pixels = static_cast<std::size_t>(settings.width) * settings.height;
+  grey.y.assign(pixels, kGrey);
+  grey.cb.assign(pixels / 4, kGrey);
+  grey.cr.assign(pixels / 4, kGrey);
+  const auto encoded = encoder->encode(grey);
+  if (!encoded) return tl::unexpected(encoded.error());
+  return {};
+}
 
-PictureEncoder::PictureEncoder(const EncoderSettings& settings, std::unique_ptr<Codec> codec)
+PictureEncoder::PictureEncoder(const EncoderSettings& settings, std::unique_ptr<PictureCodec> codec)
     : settings_(settings), codec_(std::move(codec)) {}
 PictureEncoder::~PictureEncoder() = default;
 PictureEncoder::PictureEncoder(PictureEncoder&&) noexcept = default;
 PictureEncoder& PictureEncoder::operator=(PictureEncoder&&) noexcept = default;
 
 Expected<PictureEncoder> PictureEncoder::make(const EncoderSettings& settings) {
-  ISVCEncoder* made = nullptr;
-  if (WelsCreateSVCEncoder(&made) != 0 || made == nullptr) {
-    return fail("H.264", "", "the encoder could not be started", Error::Kind::failed);
-  }
-  auto codec = std::make_unique<Codec>();
-  codec->encoder.reset(made);
-  int level = WELS_LOG_QUIET;
-  made->SetOption(ENCODER_OPTION_TRACE_LEVEL, &level);
-  const SEncParamExt wanted = parameters(*made, settings);
-  if (made->InitializeExt(&wanted) != cmResultSuccess) {
-    return fail("H.264", "",
-                "the encoder refuses pictures of " + std::to_string(settings.width) + "x" +
-                    std::to_string(settings.height) + " pixels");
-  }
-  int format = videoFormatI420;
-  made->SetOption(ENCODER_OPTION_DATAFORMAT, &format);
-  return PictureEncoder(settings, std::move(codec));
+  auto codec =
+      settings.encoder == kDefaultEncoder ? make_openh264(settings) : make_ffmpeg(settings);
+  if (!codec) return tl::unexpected(codec.error());
+  return PictureEncoder(settings, std::move(*codec));
 }
 
 Expected<EncodedPicture> PictureEncoder::encode(const YuvPicture& picture, bool key) {
   assert(picture.width == settings_.width && picture.height == settings_.height);
-  if (key) codec_->encoder->ForceIntraFrame(true);
-  SSourcePicture source{};
-  source.iColorFormat = videoFormatI420;
-  source.iPicWidth = picture.width;
-  source.iPicHeight = picture.height;
-  source.iStride[0] = picture.width;
-  source.iStride[1] = source.iStride[2] = picture.width / 2;
-  // The codec's interface is older than const
-  source.pData[0] = const_cast<unsigned char*>(picture.y.data());
-  source.pData[1] = const_cast<unsigned char*>(picture.cb.data());
-  source.pData[2] = const_cast<unsigned char*>(picture.cr.data());
-  source.uiTimeStamp = std::llround(1000.0 * static_cast<double>(codec_->pictures) /
-                                    static_cast<double>(settings_.rate));
-  SFrameBSInfo info{};
-  if (codec_->encoder->EncodeFrame(&source, &info) != cmResultSuccess ||
-      info.eFrameType == videoFrameTypeSkip || info.eFrameType == videoFrameTypeInvalid) {
-    return fail("H.264", "", "the encoder failed at a picture", Error::Kind::failed);
-  }
-  ++codec_->pictures;
-
-  EncodedPicture encoded;
-  encoded.key = info.eFrameType == videoFrameTypeIDR;
-  encoded.bytes.reserve(static_cast<std::size_t>(info.iFrameSizeInBytes));
-  for (int i = 0; i < info.iLayerNum; ++i) {
-    const SLayerBSInfo& layer = info.sLayerInfo[i];
-    int size = 0;
-    for (int nal = 0; nal < layer.iNalCount; ++nal) size += layer.pNalLengthInByte[nal];
-    const auto* first = reinterpret_cast<const std::byte*>(layer.pBsBuf);
-    encoded.bytes.insert(encoded.bytes.end(), first, first + size);
-  }
-  return encoded;
+  return codec_->encode(picture, key);
 }
 
 void PictureEncoder::aim(float rate, std::uint32_t bitrate) {
-  if (rate != settings_.rate) {
-    codec_->encoder->SetOption(ENCODER_OPTION_FRAME_RATE, &rate);
-    settings_.rate = rate;
-  }
-  if (bitrate == settings_.bitrate) return;
-  SBitrateInfo info{SPATIAL_LAYER_ALL, static_cast<int>(bitrate)};
-  codec_->encoder->SetOption(ENCODER_OPTION_BITRATE, &info);
+  if (rate == settings_.rate && bitrate == settings_.bitrate) return;
+  settings_.rate = rate;
   settings_.bitrate = bitrate;
+  codec_->aim(rate, bitrate);
 }
 
 }  // namespace lambent::stream

@@ -27,7 +27,7 @@ void fields(Archive& a, Hello& m) {
   std::uint32_t magic = kMagic;
   a.word("magic", magic, kMagic, kMagic);
   a.word("version", m.version, 0, kAnyWord);
-  a.word("wants", m.wants, 1, kWantsPicture | kWantsLight);
+  a.word("wants", m.wants, 1, kWantsAll);
   a.word("width", m.size.x, kMinPictureSide, kMaxPictureSide);
   a.word("height", m.size.y, kMinPictureSide, kMaxPictureSide);
   a.real("rate", m.rate, kMinPictureRate, kMaxPictureRate);
@@ -95,6 +95,11 @@ void fields(Archive& a, LightReceived& m) {
 }
 
 template <class Archive>
+void fields(Archive& a, Interest& m) {
+  a.real("radius", m.radius, 0.0f, kMaxPlace);
+}
+
+template <class Archive>
 void fields(Archive& a, Ping& m) {
   a.long_word("token", m.token);
   a.word("answer", m.answer, 0, 1);
@@ -116,7 +121,7 @@ void fields(Archive& a, Welcome& m) {
   auto role = static_cast<std::uint32_t>(m.role);
   a.word("role", role, 1, static_cast<std::uint32_t>(Role::change));
   m.role = static_cast<Role>(role);
-  a.word("offers", m.offers, 0, kWantsPicture | kWantsLight);
+  a.word("offers", m.offers, 0, kWantsAll);
   a.word("max_width", m.max_size.x, kMinPictureSide, kMaxPictureSide);
   a.word("max_height", m.max_size.y, kMinPictureSide, kMaxPictureSide);
   a.real("rate", m.rate, 0.0f, 1e6f);
@@ -146,6 +151,12 @@ void fields(Archive& a, LightPayload& m) {
   a.long_word("update", m.update);
   a.real("time", m.time_s, -1.0f, kMaxTime);
   a.bytes("bytes", m.bytes, kMaxLightBytes);
+}
+
+template <class Archive>
+void fields(Archive& a, InputsApplied& m) {
+  a.word("input", m.input, 1, kAnyWord);
+  a.long_word("update", m.update);
 }
 
 template <class Archive>

@@ -56,6 +56,10 @@ struct Type<LightReceived> {
   static constexpr std::uint8_t kNumber = 5;
 };
 template <>
+struct Type<Interest> {
+  static constexpr std::uint8_t kNumber = 6;
+};
+template <>
 struct Type<Ping> {
   static constexpr std::uint8_t kNumber = 32;
 };
@@ -78,6 +82,10 @@ struct Type<ServerStats> {
 template <>
 struct Type<Refusal> {
   static constexpr std::uint8_t kNumber = 69;
+};
+template <>
+struct Type<InputsApplied> {
+  static constexpr std::uint8_t kNumber = 70;
 };
 
 constexpr std::uint8_t kFirstOfBoth = 32, kFirstOfServer = 64;

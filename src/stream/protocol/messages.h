@@ -40,7 +40,9 @@ inline constexpr float kMinPictureRate = 0.1f, kMaxPictureRate = 120.0f;
 enum class Role : std::uint32_t { view = 1, change = 2 };
 
 /// What a client asks for, and a server offers: any of these, added.
-inline constexpr std::uint32_t kWantsPicture = 1, kWantsLight = 2;
+/// Textures are light through H.265, in place of our own codec.
+inline constexpr std::uint32_t kWantsPicture = 1, kWantsLight = 2, kWantsTextures = 4;
+inline constexpr std::uint32_t kWantsAll = kWantsPicture | kWantsLight | kWantsTextures;
 
 // Messages of clients
 
@@ -115,6 +117,11 @@ struct LightReceived {
   std::uint32_t needs_key = 0;  ///< 1: LightDecoder::needs_key.
 };
 
+/// From now on light near the client's camera comes with each update, and the rest every eighth.
+struct Interest {
+  float radius = 0.0f;  ///< Within this all is near, and what is seen within twice [m]; 0: all is.
+};
+
 // Messages of both
 
 /// To be sent back as it is, marked as an answer.
@@ -164,6 +171,12 @@ struct LightPayload {
   std::vector<std::byte> bytes;
 };
 
+/// Told to a client of light that has sent edits: which of them the light shows.
+struct InputsApplied {
+  std::uint32_t input = 0;   ///< The client's last input that was applied or refused, from 1.
+  std::uint64_t update = 0;  ///< Light of this update and later ones is of the scene after it.
+};
+
 /// How the server fares, once a second.
 struct ServerStats {
   std::uint64_t state = 0;
@@ -191,8 +204,8 @@ struct Refusal {
 };
 
 using Message = std::variant<Hello, PictureRequest, CameraInput, TimeOfDay, SunInput, LightInput,
-                             ObjectInput, Received, LightReceived, Ping, Welcome, Picture,
-                             LightPayload, ServerStats, Refusal>;
+                             ObjectInput, Received, LightReceived, Interest, Ping, Welcome, Picture,
+                             LightPayload, InputsApplied, ServerStats, Refusal>;
 
 /// Who sends a message. Each refuses what only the other one may say.
 enum class Sender : std::uint8_t { client, server };

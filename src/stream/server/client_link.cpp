@@ -61,34 +61,42 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
   {
     const std::lock_guard lock(mutex_);
     refusal = std::visit(
-        Overloaded{[&](const CameraInput& camera) -> std::optional<Refusal> {
-                     inputs_.camera = camera;
-                     inputs_.last_input = camera.input;
-                     return std::nullopt;
-                   },
-                   [&](const PictureRequest& request) -> std::optional<Refusal> {
-                     inputs_.request = request;
-                     return std::nullopt;
-                   },
-                   [&](const TimeOfDay& edit) { return take_edit(edit); },
-                   [&](const SunInput& edit) { return take_edit(edit); },
-                   [&](const LightInput& edit) { return take_edit(edit); },
-                   [&](const ObjectInput& edit) { return take_edit(edit); },
-                   [&](const Received& received) -> std::optional<Refusal> {
-                     take_received(received, now);
-                     return std::nullopt;
-                   },
-                   [&](const LightReceived& received) -> std::optional<Refusal> {
-                     take_light_received(received);
-                     return std::nullopt;
-                   },
-                   [&](const Ping& ping) -> std::optional<Refusal> {
-                     if (ping.answer == 0) answer = Ping{ping.token, 1};
-                     return std::nullopt;
-                   },
-                   [](const auto&) -> std::optional<Refusal> {
-                     return Refusal{Refusal::Code::bad_message, "this message is not expected now"};
-                   }},
+        Overloaded{
+            [&](const CameraInput& camera) -> std::optional<Refusal> {
+              inputs_.camera = camera;
+              inputs_.last_input = camera.input;
+              return std::nullopt;
+            },
+            [&](const PictureRequest& request) -> std::optional<Refusal> {
+              inputs_.request = request;
+              return std::nullopt;
+            },
+            [&](const Interest& interest) -> std::optional<Refusal> {
+              if (!wants(kWantsLight)) {
+                return Refusal{Refusal::Code::bad_message, "there is no light to have less of"};
+              }
+              inputs_.interest = interest;
+              return std::nullopt;
+            },
+            [&](const TimeOfDay& edit) { return take_edit(edit); },
+            [&](const SunInput& edit) { return take_edit(edit); },
+            [&](const LightInput& edit) { return take_edit(edit); },
+            [&](const ObjectInput& edit) { return take_edit(edit); },
+            [&](const Received& received) -> std::optional<Refusal> {
+              take_received(received, now);
+              return std::nullopt;
+            },
+            [&](const LightReceived& received) -> std::optional<Refusal> {
+              take_light_received(received);
+              return std::nullopt;
+            },
+            [&](const Ping& ping) -> std::optional<Refusal> {
+              if (ping.answer == 0) answer = Ping{ping.token, 1};
+              return std::nullopt;
+            },
+            [](const auto&) -> std::optional<Refusal> {
+              return Refusal{Refusal::Code::bad_message, "this message is not expected now"};
+            }},
         message);
   }
   if (answer) put_notice(*answer);
@@ -135,6 +143,14 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
     }
   }
   wake_connection_();
+}
+
+void ClientLink::begin_light_anew() {
+  const std::lock_guard lock(mutex_);
+  light_.clear();
+  updates_under_way_.clear();
+  all_sent_at_ = 0;
+  light_lost_ = true;
 }
 
 SharedBytes ClientLink::next(Clock::time_point now) {

@@ -24,6 +24,7 @@ namespace lambent::stream {
 struct ClientInputs {
   std::optional<CameraInput> camera;
   std::optional<PictureRequest> request;
+  std::optional<Interest> interest;
   std::vector<Edit> edits;             ///< In their order; one a target.
   std::vector<double> round_trips_ms;  ///< Of pictures that the client has decoded since.
   /// The number of its last input; where edits wait, of the last one before these.
@@ -42,7 +43,7 @@ enum class LightNeed : std::uint8_t {
 };
 
 /// All functions may be called from any thread.
-class ClientLink {
+class ClientLink : public std::enable_shared_from_this<ClientLink> {
  public:
   /// Pictures that a client may have been sent without word of their arrival: one that travels and
   /// one that is decoded.
@@ -63,6 +64,8 @@ class ClientLink {
   const Hello& hello() const { return hello_; }
   Role role() const { return role_; }
   bool wants(std::uint32_t what) const { return (hello_.wants & what) != 0; }
+  /// In whichever codec.
+  bool wants_light() const { return wants(kWantsLight | kWantsTextures); }
 
   // The connection's side
 
@@ -89,6 +92,8 @@ class ClientLink {
   std::uint64_t known_geometry() const;
   /// All messages that lead to an update: changes, or all.
   void put_light(std::span<const SharedBytes> messages, std::uint64_t update, LightNeed what);
+  /// Updates are counted anew, from another stream: what waits is forgotten, and all is needed.
+  void begin_light_anew();
   /// Something to tell, soon.
   void put_notice(const Message& message);
   /// Bytes that wait to be written.

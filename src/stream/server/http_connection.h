@@ -5,6 +5,7 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/ssl.hpp>
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,6 +46,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
  private:
   // Of a request line with its headers [bytes].
   static constexpr std::uint32_t kMaxHeaderBytes = 8192;
+  // Who takes an answer more slowly is gone: 1 Mbit/s.
+  static constexpr std::size_t kLeastBytesPerSecond = 125'000;
 
   std::string_view header(boost::beast::http::field name) const {
     const auto value = parser_.get()[name];
@@ -83,10 +86,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     const std::string_view token = bearer_token(header(http::field::authorization));
     const bool authorized = context_.access.admit(token, unix_time_s()).has_value();
     const auto method = request.method_string();
-    respond(respond_to({method.data(), method.size()}, target, authorized, context_.hub));
+    respond(respond_to({method.data(), method.size()}, target, authorized, context_.hub,
+                       context_.settings.scene.get()));
   }
 
-  void respond(const Response& response) {
+  void respond(Response response) {
     namespace http = boost::beast::http;
     if (response.status == 421 || response.status == 403) context_.count_refused();
     answer_.result(response.status);
@@ -99,13 +103,19 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
     }
     answer_.set(http::field::cache_control, "no-store");
     answer_.set("Content-Security-Policy",
-                "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+                "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'; "
+                "connect-src 'self' blob:; img-src blob:; "
                 "base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
     answer_.set("X-Content-Type-Options", "nosniff");
     answer_.set("Referrer-Policy", "no-referrer");
-    answer_.body() = response.body;
+    body_ = std::move(response.body);
+    const std::string_view bytes = response.kept.empty() ? body_ : response.kept;
+    answer_.body() = {bytes.data(), bytes.size()};
     answer_.prepare_payload();
-    if (parser_.get().method() == http::verb::head) answer_.body().clear();
+    if (parser_.get().method() == http::verb::head) answer_.body() = {};
+    const std::chrono::seconds slowest(bytes.size() / kLeastBytesPerSecond);
+    boost::beast::get_lowest_layer(stream_).expires_after(context_.settings.hello_timeout +
+                                                          slowest);
     http::async_write(stream_, answer_,
                       [self = this->shared_from_this()](ErrorCode error, std::size_t) {
                         if (!error) self->end();
@@ -126,7 +136,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection<Stream
   Stream stream_;
   boost::beast::flat_buffer buffer_;
   boost::beast::http::request_parser<boost::beast::http::empty_body> parser_;
-  boost::beast::http::response<boost::beast::http::string_body> answer_;
+  std::string body_;  // of an answer that is not kept by the server
+  boost::beast::http::response<boost::beast::http::span_body<const char>> answer_;
 };
 
 }  // namespace lambent::stream

@@ -86,7 +86,13 @@ std::string Hub::stats_json() const {
   json["light_bytes"] = now.light_bytes;
   json["waiting_bytes"] = waiting;
   json["refused"] = now.refused;
-  return json.dump();
+  if (now.light_from) {
+    json["light_server_connected"] = now.light_from->connected;
+    json["light_server_connections"] = now.light_from->connections;
+    json["light_server_lost_because"] = now.light_from->lost_because;
+  }
+  // Text of others may be no UTF-8
+  return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 }  // namespace lambent::stream

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,16 +17,24 @@
 
 namespace lambent::stream {
 
+/// The server that computes the light, where that is another one.
+struct LightFrom {
+  bool connected = false;
+  std::uint64_t connections = 0;  ///< So far.
+  std::string lost_because;       ///< The last time; empty: never.
+};
+
 /// What is told of the world to whoever asks (/stats).
 struct HubStats {
-  std::uint64_t state = 0;        ///< Updates of the world so far.
-  double update_ms = 0.0;         ///< Of the last update of the light.
-  double rate = 0.0;              ///< Updates a second, as reached.
-  std::uint64_t pictures = 0;     ///< Made so far.
-  double picture_ms = 0.0;        ///< To render and encode the last one.
-  std::uint64_t light_bytes = 0;  ///< Of light, to all clients so far.
-  std::uint64_t refused = 0;      ///< Connections and messages that were refused.
-  std::uint64_t joined = 0;       ///< Clients so far.
+  std::uint64_t state = 0;                ///< Updates of the world so far.
+  double update_ms = 0.0;                 ///< Of the last update of the light.
+  double rate = 0.0;                      ///< Updates a second, as reached.
+  std::uint64_t pictures = 0;             ///< Made so far.
+  double picture_ms = 0.0;                ///< To render and encode the last one.
+  std::uint64_t light_bytes = 0;          ///< Of light, to all clients so far.
+  std::uint64_t refused = 0;              ///< Connections and messages that were refused.
+  std::uint64_t joined = 0;               ///< Clients so far.
+  std::optional<LightFrom> light_from{};  ///< None: the light is computed here.
 };
 
 /// All functions may be called from any thread.

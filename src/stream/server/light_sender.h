@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "lambent/stream.h"
 #include "stream/server/client_link.h"
+#include "stream/server/region_sender.h"
 
 namespace lambent::stream {
 
@@ -21,20 +23,43 @@ class LightSender {
   /// Remembers edits that the world has accepted, for who comes later, and sends them with the next
   /// light.
   void add_edit(const Edit& edit);
+  /// Who gets light by regions.
+  RegionSender& regions() { return regions_; }
   /// Sends the light after an update of the field to those clients that want any. Fails on light
   /// that is not finite.
   Expected<void> send(const IrradianceField& field, float time_s,
                       std::span<ClientLink* const> clients);
 
+  /// The number of the next update that a client is sent: the first that shows edits added now.
+  std::uint64_t next_update(const ClientLink& client) const;
   /// To all clients so far.
   std::uint64_t bytes_sent() const { return bytes_sent_; }
 
  private:
   explicit LightSender(LightEncoder encoder) : encoder_(std::move(encoder)) {}
 
+  struct Receivers {
+    std::vector<ClientLink*> follow, begin;
+    bool any() const { return !follow.empty() || !begin.empty(); }
+  };
+  static Receivers receivers_of(std::span<ClientLink* const> clients, std::uint32_t codec);
+  void put(ClientLink& client, std::span<const SharedBytes> messages, std::uint64_t update,
+           LightNeed what);
+  std::vector<Edit> all_edits() const;
+  Expected<void> send_coded(const IrradianceField& field, float time_s, std::span<const Edit> edits,
+                            const Receivers& to);
+  Expected<void> send_textures(const IrradianceField& field, float time_s,
+                               std::span<const Edit> edits, Receivers to);
+
+  void follow_by_regions(std::span<const LightMessage> changes);
+
   LightEncoder encoder_;
-  std::map<EditTarget, Edit> edited_;  // since the scene was opened
-  std::vector<Edit> new_edits_;        // since light was sent last
+  RegionSender regions_;
+  LightDecoder whole_;                    // follows the encoder while somebody gets regions
+  std::optional<LightEncoder> textures_;  // where there is a video codec
+  Clock::time_point next_texture_key_;    // not before
+  std::map<EditTarget, Edit> edited_;     // since the scene was opened
+  std::vector<Edit> new_edits_;           // since light was sent last
   std::uint64_t bytes_sent_ = 0;
 };
 

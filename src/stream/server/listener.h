@@ -23,6 +23,8 @@ struct ListenSettings {
   std::string tokens;              ///< See Access; empty: none, on loopback alone.
   /// Origins of other pages that may connect, as https://example.org.
   std::vector<std::string> origins;
+  /// A .glb file that whoever may look gets as /scene.glb; null: none.
+  std::shared_ptr<const std::string> scene;
   std::size_t max_connections = 64;  ///< Clients and plain requests at a time.
   double max_message_rate = 200.0;   ///< Messages of a client a second.
   /// Until a connection has said what it wants.

@@ -68,7 +68,8 @@ Expected<Picture> PictureMaker::make(const WorldState& state, Clock::time_point 
   picture.render_ms = static_cast<float>(rendering.lap());
 
   Stopwatch encoding;
-  EncoderSettings wanted{yuv_.width, yuv_.height, pace_.likely_rate(), pace_.bitrate()};
+  EncoderSettings wanted{yuv_.width, yuv_.height, pace_.likely_rate(), pace_.bitrate(),
+                         settings_.encoder};
   if (!encoder_ || encoder_->settings().width != wanted.width ||
       encoder_->settings().height != wanted.height) {
     Expected<PictureEncoder> encoder = PictureEncoder::make(wanted);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/image/tone_map.h"
 #include "lambent/renderer.h"
@@ -18,6 +19,7 @@ struct PictureSettings {
   PaceLimits limits;
   ToneMap tone_map = ToneMap::aces;
   std::optional<float> exposure_stops;  ///< None: as suits the pictures, followed smoothly.
+  std::string encoder = std::string(kDefaultEncoder);  ///< One of picture_encoders().
 };
 
 /// Where the world is, as pictures tell it.

@@ -10,9 +10,29 @@ Server::Server(const ServedWorld& served, const ServerSettings& settings)
     : hub_(settings.max_clients, settings.max_picture_clients),
       loop_(served, settings.world, hub_) {}
 
+Server::Server(const RelayedWorld& relayed, const ServerSettings& settings)
+    : hub_(settings.max_clients),
+      upstream_(&relayed.light),
+      loop_(relayed, settings.world, hub_, settings.listen.log) {
+  upstream_->on_arrival([this] { hub_.wake(); });
+}
+
+Server::~Server() {
+  if (upstream_ != nullptr) upstream_->on_arrival(nullptr);
+}
+
 Expected<std::unique_ptr<Server>> Server::open(const ServedWorld& served,
                                                const ServerSettings& settings) {
-  std::unique_ptr<Server> server(new Server(served, settings));
+  return listening(std::unique_ptr<Server>(new Server(served, settings)), settings);
+}
+
+Expected<std::unique_ptr<Server>> Server::open(const RelayedWorld& relayed,
+                                               const ServerSettings& settings) {
+  return listening(std::unique_ptr<Server>(new Server(relayed, settings)), settings);
+}
+
+Expected<std::unique_ptr<Server>> Server::listening(std::unique_ptr<Server> server,
+                                                    const ServerSettings& settings) {
   ListenSettings listen = settings.listen;
   // Plain requests get through when there are as many clients as may be
   constexpr std::size_t kPlainConnections = 56;

@@ -24,6 +24,11 @@ class Server {
   static Expected<std::unique_ptr<Server>> open(const ServedWorld& served,
                                                 const ServerSettings& settings);
 
+  /// The same where another server computes the light.
+  static Expected<std::unique_ptr<Server>> open(const RelayedWorld& relayed,
+                                                const ServerSettings& settings);
+  ~Server();
+
   std::string url() const { return listener_->url(); }
   std::uint16_t port() const { return listener_->port(); }
   HubStats stats() const { return hub_.stats(); }
@@ -34,8 +39,12 @@ class Server {
 
  private:
   Server(const ServedWorld& served, const ServerSettings& settings);
+  Server(const RelayedWorld& relayed, const ServerSettings& settings);
+  static Expected<std::unique_ptr<Server>> listening(std::unique_ptr<Server> server,
+                                                     const ServerSettings& settings);
 
   Hub hub_;
+  Upstream* upstream_ = nullptr;  // that wakes the hub; null: none
   WorldLoop loop_;
   std::unique_ptr<Listener> listener_;
 };

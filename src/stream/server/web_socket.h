@@ -123,6 +123,13 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
     admission_ = context_.access.admit(hello->token, unix_time_s());
     if (!admission_) return refuse({Refusal::Code::bad_token, "the token is not known here"});
     const Welcome welcome = context_.hub.welcome(admission_->role);
+    if ((hello->wants & ~welcome.offers & kWantsTextures) != 0) {
+      return refuse({Refusal::Code::bad_message, "this server sends no light through H.265"});
+    }
+    constexpr std::uint32_t kBothCodecs = kWantsLight | kWantsTextures;
+    if ((hello->wants & kBothCodecs) == kBothCodecs) {
+      return refuse({Refusal::Code::bad_message, "light is wanted in two codecs"});
+    }
     if ((hello->wants & ~welcome.offers) != 0) {
       return refuse({Refusal::Code::bad_message, "this server does not offer what is wanted"});
     }

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/stopwatch.h"
+#include "stream/textures/h265.h"
 
 namespace lambent::stream {
 namespace {
@@ -18,6 +20,16 @@ constexpr std::chrono::seconds kStatsInterval{1};
 }  // namespace
 
 WorldLoop::WorldLoop(const ServedWorld& served, const WorldSettings& settings, Hub& hub)
+    : WorldLoop(Served{served.scene, served.world, &served.field, served.camera}, settings, hub) {}
+
+WorldLoop::WorldLoop(const RelayedWorld& relayed, const WorldSettings& settings, Hub& hub,
+                     const std::function<void(const std::string&)>& log)
+    : WorldLoop(Served{relayed.scene, relayed.world, nullptr, relayed.camera}, settings, hub) {
+  upstream_ = &relayed.light;
+  relayed_.emplace(relayed.scene, relayed.world, relayed.light, log);
+}
+
+WorldLoop::WorldLoop(const Served& served, const WorldSettings& settings, Hub& hub)
     : served_(served), settings_(settings), hub_(hub), editor_(served.scene, served.world) {
   for (const Animation& animation : served.scene.animations) {
     duration_s_ = std::max(duration_s_, duration(animation));
@@ -25,9 +37,23 @@ WorldLoop::WorldLoop(const ServedWorld& served, const WorldSettings& settings, H
   welcome();
 }
 
+/// What pictures are made with; null where no light has come yet.
+const IrradianceField* WorldLoop::field() const {
+  return relayed_ ? relayed_->field() : served_.field;
+}
+
+std::vector<ClientLink*> WorldLoop::light_clients() const {
+  std::vector<ClientLink*> clients;
+  for (const Viewer& viewer : viewers_) {
+    if (viewer.link->wants_light()) clients.push_back(viewer.link.get());
+  }
+  return clients;
+}
+
 void WorldLoop::welcome() {
   Welcome told;
   told.offers = kWantsPicture | kWantsLight;
+  if (!upstream_ && has_h265()) told.offers |= kWantsTextures;
   told.max_size = settings_.pictures.limits.size;
   told.rate = settings_.rate;
   told.camera = input_of(served_.camera);
@@ -52,22 +78,71 @@ void WorldLoop::meet_clients() {
     const bool known = std::any_of(viewers_.begin(), viewers_.end(),
                                    [&](const Viewer& viewer) { return viewer.link == link; });
     if (known || link->gone()) continue;
-    Viewer viewer{link, nullptr};
-    if (link->wants(kWantsPicture)) {
-      viewer.pictures = std::make_unique<PictureMaker>(
-          served_.world, served_.field, settings_.pictures, served_.camera, link->hello());
-    }
-    viewers_.push_back(std::move(viewer));
+    viewers_.push_back({link, nullptr, link->wants(kWantsPicture)});
+    // Nothing of one that had the same place in memory
+    (relayed_ ? relayed_->regions() : light_->regions()).set_surroundings(*link, std::nullopt);
   }
+  if (field() == nullptr) return;
+  for (Viewer& viewer : viewers_) {
+    if (!std::exchange(viewer.waits_for_light, false)) continue;
+    viewer.pictures = std::make_unique<PictureMaker>(served_.world, *field(), settings_.pictures,
+                                                     served_.camera, viewer.link->hello());
+    viewer.pictures->follow(viewer.first_inputs);
+  }
+}
+
+/// Follows where a client of light is that wants less of it far away.
+void WorldLoop::follow_interest(Viewer& viewer, const ClientInputs& inputs) {
+  if (inputs.camera) viewer.camera = inputs.camera;
+  if (inputs.interest) viewer.radius = inputs.interest->radius;
+  if (!viewer.link->wants(kWantsLight) || (!inputs.camera && !inputs.interest)) return;
+  RegionSender& regions = relayed_ ? relayed_->regions() : light_->regions();
+  if (viewer.radius <= 0.0f) return regions.set_surroundings(*viewer.link, std::nullopt);
+  const Camera camera = viewer.camera ? camera_of(*viewer.camera) : served_.camera;
+  // Pictures are less than twice as wide as high, so that this cone holds their corners
+  constexpr float kOfHeight = 2.3f;
+  Surroundings where;
+  where.position_ws = glm::vec3(camera.world_from_view[3]);
+  where.forward_ws = -glm::normalize(glm::vec3(camera.world_from_view[2]));
+  where.half_view = std::atan(kOfHeight * std::tan(0.5f * camera.vertical_fov));
+  where.radius = viewer.radius;
+  regions.set_surroundings(*viewer.link, where);
+}
+
+/// Hands a client's edits to the server that computes the light, and tells which of its inputs
+/// pictures show.
+void WorldLoop::forward(ClientLink& link, ClientInputs& inputs) {
+  const auto shared = link.shared_from_this();
+  if (const auto refusal = relayed_->forward(inputs.edits, shared)) {
+    link.put_notice(*refusal);
+    tell_applied(link, inputs);
+  }
+  inputs.last_input = relayed_->shown(link, inputs.last_input);
+}
+
+/// Tells a client of light that its edits have been applied or refused.
+void WorldLoop::tell_applied(ClientLink& link, const ClientInputs& inputs) {
+  if (inputs.edits.empty() || inputs.last_input == 0 || !link.wants_light()) return;
+  const std::uint64_t next = relayed_ ? relayed_->update() : light_->next_update(link);
+  link.put_notice(InputsApplied{inputs.last_input, next});
 }
 
 /// Takes what clients sent. Their edits change the world that all see, when its light follows.
 Expected<void> WorldLoop::follow_clients(bool with_edits) {
   std::vector<Edit> edits;
   std::vector<ClientLink*> senders;
+  std::vector<std::pair<ClientLink*, ClientInputs>> edited;
   for (Viewer& viewer : viewers_) {
-    const ClientInputs inputs = viewer.link->take_inputs(with_edits);
+    ClientInputs inputs = viewer.link->take_inputs(with_edits || relayed_.has_value());
+    follow_interest(viewer, inputs);
+    if (relayed_) forward(*viewer.link, inputs);
     if (viewer.pictures) viewer.pictures->follow(inputs);
+    if (viewer.waits_for_light) {
+      if (inputs.camera) viewer.first_inputs.camera = inputs.camera;
+      if (inputs.request) viewer.first_inputs.request = inputs.request;
+    }
+    if (relayed_) continue;
+    if (!inputs.edits.empty()) edited.emplace_back(viewer.link.get(), inputs);
     edits.insert(edits.end(), inputs.edits.begin(), inputs.edits.end());
     senders.resize(edits.size(), viewer.link.get());
   }
@@ -83,6 +158,7 @@ Expected<void> WorldLoop::follow_clients(bool with_edits) {
   for (std::size_t i = 0; i < edits.size(); ++i) {
     if (accepted[i]) light_->add_edit(edits[i]);
   }
+  for (const auto& [link, inputs] : edited) tell_applied(*link, inputs);
   if (refused->size() == edits.size()) return {};
   welcome();
   state_.last_change = state_.updates + 1;
@@ -109,9 +185,10 @@ void WorldLoop::update_light() {
   request.time_budget_ms = interval_ms * static_cast<double>(settings_.update_share);
   request.viewer_ws = glm::vec3(served_.camera.world_from_view[3]);
   Stopwatch watch;
-  const UpdateStatistics done = served_.field.update(served_.world, request);
+  const UpdateStatistics done = served_.field->update(served_.world, request);
   const double update_ms = watch.lap();
   ++state_.updates;
+  ++updates_since_stats_;
   if (done.change > kSeenChange) state_.last_change = state_.updates;
   hub_.edit_stats([&](HubStats& stats) {
     stats.state = state_.updates;
@@ -125,11 +202,8 @@ void WorldLoop::update_light() {
 
 /// Sends what the update made of the light to those who render it themselves.
 void WorldLoop::send_light() {
-  std::vector<ClientLink*> clients;
-  for (const Viewer& viewer : viewers_) {
-    if (viewer.link->wants(kWantsLight)) clients.push_back(viewer.link.get());
-  }
-  const auto sent = light_->send(served_.field, time_s_, clients);
+  const std::vector<ClientLink*> clients = light_clients();
+  const auto sent = light_->send(*served_.field, time_s_, clients);
   hub_.edit_stats([&](HubStats& stats) { stats.light_bytes = light_->bytes_sent(); });
   if (sent) return;
   for (ClientLink* client : clients) {
@@ -137,12 +211,32 @@ void WorldLoop::send_light() {
   }
 }
 
+/// Takes in the light that has come from its server.
+Expected<void> WorldLoop::follow_relayed() {
+  Stopwatch watch;
+  const auto followed = relayed_->follow(light_clients());
+  if (!followed) return tl::unexpected(followed.error());
+  const double took_ms = watch.lap();
+  if (followed->moved) welcome();
+  if (followed->moved || followed->change > kSeenChange) ++state_.last_change;
+  state_.updates = relayed_->update();
+  updates_since_stats_ += followed->updates;
+  const UpstreamStatus status = upstream_->status();
+  hub_.edit_stats([&](HubStats& stats) {
+    stats.state = state_.updates;
+    stats.light_bytes = relayed_->bytes_sent();
+    if (followed->updates > 0) stats.update_ms = took_ms;
+    stats.light_from = LightFrom{status.connected, status.connections, status.lost_because};
+  });
+  return {};
+}
+
 /// One picture for each client that is due and keeps up, until an update is. Whether there was any.
 bool WorldLoop::make_pictures() {
   bool any = false;
   for (std::size_t i = 0; i < viewers_.size(); ++i) {
     const Clock::time_point now = Clock::now();
-    if (any && now >= next_update_) return any;
+    if (any && !relayed_ && now >= next_update_) return any;
     const std::size_t index = (first_viewer_ + i) % viewers_.size();
     Viewer& viewer = viewers_[index];
     if (!viewer.pictures || !viewer.link->ready_for_picture()) continue;
@@ -169,8 +263,7 @@ bool WorldLoop::make_pictures() {
 void WorldLoop::tell_stats(Clock::time_point now) {
   if (now < next_stats_) return;
   const std::chrono::duration<double> since = now - (next_stats_ - kStatsInterval);
-  const double rate = static_cast<double>(state_.updates - updates_at_stats_) / since.count();
-  updates_at_stats_ = state_.updates;
+  const double rate = static_cast<double>(std::exchange(updates_since_stats_, 0)) / since.count();
   next_stats_ = now + kStatsInterval;
   hub_.edit_stats([&](HubStats& stats) { stats.rate = rate; });
   const HubStats stats = hub_.stats();
@@ -190,7 +283,8 @@ void WorldLoop::tell_stats(Clock::time_point now) {
 
 /// When there is something to do again, unless a client sends something before.
 Clock::time_point WorldLoop::next_work() const {
-  Clock::time_point next = std::min(next_update_, Clock::now() + kLongestWait);
+  Clock::time_point next = Clock::now() + kLongestWait;
+  if (!relayed_) next = std::min(next, next_update_);
   for (const Viewer& viewer : viewers_) {
     if (!viewer.pictures || !viewer.link->ready_for_picture()) continue;
     if (const auto due = viewer.pictures->due(state_)) next = std::min(next, *due);
@@ -199,14 +293,19 @@ Clock::time_point WorldLoop::next_work() const {
 }
 
 Expected<void> WorldLoop::run(const std::function<bool()>& stop) {
-  auto light = LightSender::make(settings_.light);
-  if (!light) return tl::unexpected(light.error());
-  light_.emplace(std::move(*light));
+  if (!relayed_) {
+    auto light = LightSender::make(settings_.light);
+    if (!light) return tl::unexpected(light.error());
+    light_.emplace(std::move(*light));
+  }
   start_ = next_update_ = Clock::now();
   next_stats_ = next_update_ + kStatsInterval;
   while (!stop()) {
     meet_clients();
-    const bool update_is_due = Clock::now() >= next_update_;
+    if (relayed_) {
+      if (const auto done = follow_relayed(); !done) return done;
+    }
+    const bool update_is_due = !relayed_ && Clock::now() >= next_update_;
     if (const auto done = follow_clients(update_is_due); !done) return done;
     if (update_is_due) {
       if (const auto done = play(); !done) return done;

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "lambent/field.h"
@@ -15,6 +16,7 @@
 #include "stream/server/hub.h"
 #include "stream/server/light_sender.h"
 #include "stream/server/picture_maker.h"
+#include "stream/server/relayed_light.h"
 
 namespace lambent::stream {
 
@@ -36,9 +38,20 @@ struct ServedWorld {
   Camera camera;  ///< Where clients begin.
 };
 
+/// The same where another server computes the light.
+struct RelayedWorld {
+  Scene& scene;  ///< A copy of that server's.
+  World& world;
+  Upstream& light;
+  Camera camera;
+};
+
 class WorldLoop {
  public:
   WorldLoop(const ServedWorld& served, const WorldSettings& settings, Hub& hub);
+  /// `log` is told where the light's server goes and comes.
+  WorldLoop(const RelayedWorld& relayed, const WorldSettings& settings, Hub& hub,
+            const std::function<void(const std::string&)>& log);
 
   /// Runs until `stop` says so, which is asked some ten times a second or more. Fails where the
   /// world cannot go on. Throws std::bad_alloc where memory runs out.
@@ -47,8 +60,25 @@ class WorldLoop {
  private:
   struct Viewer {
     std::shared_ptr<ClientLink> link;
-    std::unique_ptr<PictureMaker> pictures;  // null: asked for none
+    std::unique_ptr<PictureMaker> pictures;  // null: asked for none, or waits
+    bool waits_for_light = false;            // pictures are made as soon as there is any
+    std::optional<CameraInput> camera{};     // of who gets light by regions
+    float radius = 0.0f;                     // that it cares about [m]; 0: all
+    ClientInputs first_inputs{};             // that came until then
   };
+  struct Served {
+    Scene& scene;
+    World& world;
+    IrradianceField* field;  // null: another server has it
+    Camera camera;
+  };
+  WorldLoop(const Served& served, const WorldSettings& settings, Hub& hub);
+  const IrradianceField* field() const;
+  std::vector<ClientLink*> light_clients() const;
+  void tell_applied(ClientLink& link, const ClientInputs& inputs);
+  void follow_interest(Viewer& viewer, const ClientInputs& inputs);
+  void forward(ClientLink& link, ClientInputs& inputs);
+  Expected<void> follow_relayed();
   void welcome();
   void meet_clients();
   Expected<void> follow_clients(bool with_edits);
@@ -59,11 +89,13 @@ class WorldLoop {
   void tell_stats(Clock::time_point now);
   Clock::time_point next_work() const;
 
-  ServedWorld served_;
+  Served served_;
   WorldSettings settings_;
   Hub& hub_;
   SceneEditor editor_;
-  std::optional<LightSender> light_;  // while it runs
+  std::optional<LightSender> light_;  // while it runs, unless it is relayed
+  std::optional<RelayedLight> relayed_;
+  Upstream* upstream_ = nullptr;  // null: none
   std::vector<Viewer> viewers_;
   std::uint64_t met_ = 0;         // Hub::membership of these
   std::size_t first_viewer_ = 0;  // who is made a picture first: one after the other
@@ -72,7 +104,7 @@ class WorldLoop {
   float duration_s_ = 0.0f;  // of the longest animation
   float time_s_ = -1.0f;     // of the animations; below 0: none is played
   Clock::time_point next_update_, next_stats_;
-  std::uint64_t updates_at_stats_ = 0;
+  std::uint64_t updates_since_stats_ = 0;
 };
 
 }  // namespace lambent::stream

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lambent/light_from.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "lambent/server_address.h"
+#include "lambent/words.h"
+
+namespace lambent::cli {
+
+void add_light_from_options(CLI::App& command, LightFromOptions& o,
+                            const std::vector<CLI::Option*>& of_own_light) {
+  command.option_defaults()->group("Light of another server");
+  CLI::Option* from =
+      command
+          .add_option("--light-from", o.server,
+                      "Render in the light that this server computes, of the same scene; edits go "
+                      "there: HOST[:PORT], https:// in front for TLS")
+          ->type_name("HOST");
+  command.add_option("--light-token", o.token_file, "File that holds the token for that server")
+      ->needs(from)
+      ->type_name("FILE");
+  command
+      .add_option("--light-authority", o.authority,
+                  "Whom to trust for it besides the system's authorities, PEM")
+      ->needs(from)
+      ->type_name("FILE");
+  for (CLI::Option* option : of_own_light) from->excludes(option);
+}
+
+Expected<std::unique_ptr<stream::Upstream>> open_upstream(const LightFromOptions& options) {
+  stream::UpstreamSettings settings;
+  settings.connect.authority = options.authority;
+  const auto parsed = parse_server_address("--light-from", options.server, settings.connect);
+  if (!parsed) return tl::unexpected(parsed.error());
+  auto token = read_token(options.token_file);
+  if (!token) return tl::unexpected(token.error());
+  settings.token = std::move(*token);
+  return stream::Upstream::open(settings);
+}
+
+Expected<void> check_same_scene(const LightFromOptions& options, const stream::Welcome& welcome,
+                                const Scene& scene) {
+  const std::size_t lights = std::min(scene.lights.size(), stream::kMaxToldLights);
+  if (welcome.instances == scene.instances.size() && welcome.lights.size() == lights) return {};
+  return fail("--light-from", options.server,
+              "serves another scene: it has " + count_text(welcome.instances, "object") + " and " +
+                  count_text(welcome.lights.size(), "light") + ", this one " +
+                  count_text(scene.instances.size(), "object") + " and " +
+                  count_text(lights, "light"));
+}
+
+}  // namespace lambent::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light by way of a video codec: bodies of textures, and the state that they lead to.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "stream/light/light_state.h"
+#include "stream/light/tile_basis.h"
+#include "stream/textures/texture_atlas.h"
+
+namespace lambent::stream {
+
+/// More pictures of one update than this are no encoder's.
+inline constexpr int kMaxTexturePictures = 8;
+
+/// A state is in units of so much of a texture's scale: finer than its steps of 1 / 1023.
+inline constexpr float kTextureUnits = 4096.0f;
+
+/// The pictures of an update, one refining the other.
+struct TextureBody {
+  float scale = 1.0f;  ///< [(W/m^2)^(1/2)], kLeastUnit * kTextureUnits to kMaxUnit.
+  std::vector<std::span<const std::byte>> pictures;
+};
+std::vector<std::byte> write_texture(float scale, std::span<const std::vector<std::byte>> pictures);
+/// Refers to the body. Fails on what no encoder wrote.
+Expected<TextureBody> read_texture(std::span<const std::byte> body);
+
+/// The state of light that a picture shows, but for its update.
+LightState state_of(const TextureAtlas& atlas, const LightLayout& layout, const TileBasis& basis,
+                    const TexturePicture& shown, float scale);
+
+}  // namespace lambent::stream
