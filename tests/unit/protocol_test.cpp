@@ -127,7 +127,7 @@ TEST(Protocol, NumbersOutOfRangeAreRefusedByName) {
   };
   const std::vector<std::byte> hello = write_message(Hello{});
   EXPECT_THAT(cause(with_word(hello, kHeaderBytes, 1)), HasSubstr("magic"));
-  EXPECT_THAT(cause(with_word(hello, kHeaderBytes + 8, 4)), HasSubstr("wants"));
+  EXPECT_THAT(cause(with_word(hello, kHeaderBytes + 8, 8)), HasSubstr("wants"));
   EXPECT_THAT(cause(with_word(hello, kHeaderBytes + 12, 100'000)), HasSubstr("width"));
   EXPECT_THAT(cause(with_word(hello, kHeaderBytes + 16, 0)), HasSubstr("height"));
   EXPECT_THAT(cause(with_word(hello, kHeaderBytes + 24, 0xffffffff)), HasSubstr("token"));
