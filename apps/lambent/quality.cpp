@@ -18,11 +18,15 @@ const std::map<std::string, Quality> kQualities = {
 
 /// What is left of noise in single pictures would flicker in a sequence of them.
 Quality chosen_quality(const RenderOptions& options) {
-  if (!options.quality.empty()) return kQualities.at(options.quality);
+  if (!options.quality.empty()) return quality_from_name(options.quality);
   return options.frames > 0 ? Quality::draft : Quality::high;
 }
 
 }  // namespace
+
+Quality quality_from_name(const std::string& name) {
+  return kQualities.at(name);
+}
 
 bool leaves_out(const RenderOptions& options, const char* pass) {
   return std::find(options.without.begin(), options.without.end(), pass) != options.without.end();

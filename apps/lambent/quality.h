@@ -3,6 +3,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <string>
 
 #include "lambent/error.h"
 #include "lambent/render_options.h"
@@ -16,6 +17,9 @@ namespace lambent::cli {
 
 /// Declares --quality, --without and --samples.
 void add_quality_options(CLI::App& command, RenderOptions& options);
+
+/// The quality of a name that --quality takes.
+Quality quality_from_name(const std::string& name);
 
 /// Settings of a picture of this size: those of the quality, where no other option says otherwise.
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);

@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -22,6 +21,7 @@
 #include "lambent/memory_check.h"
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
+#include "lambent/quality.h"
 #include "lambent/stage.h"
 #include "lambent/step.h"
 #include "lambent/threads.h"
@@ -63,12 +63,9 @@ struct Options {
   int threads = 0;  // 0: all
 };
 
-const std::map<std::string, Quality> kQualities = {
-    {"draft", Quality::draft}, {"interactive", Quality::interactive}, {"high", Quality::high}};
-
 /// What pictures are like, of the largest size.
 FrameSettings frame_settings(const Options& options) {
-  FrameSettings frame = quality_settings(kQualities.at(options.quality));
+  FrameSettings frame = quality_settings(quality_from_name(options.quality));
   frame.seed = options.seed;
   frame.temporal_antialiasing = true;
   if (frame.denoise && frame.samples == 1) frame.averaged_frames = kAveragedFrames;

@@ -11,7 +11,7 @@ Server::Server(const ServedWorld& served, const ServerSettings& settings)
       loop_(served, settings.world, hub_) {}
 
 Server::Server(const RelayedWorld& relayed, const ServerSettings& settings)
-    : hub_(settings.max_clients),
+    : hub_(settings.max_clients, settings.max_picture_clients),
       upstream_(&relayed.light),
       loop_(relayed, settings.world, hub_, settings.listen.log) {
   upstream_->on_arrival([this] { hub_.wake(); });
