@@ -102,8 +102,9 @@ struct IrradianceField::State {
                             std::span<const int> probes, std::span<const int> all,
                             UpdateStatistics& statistics);
   /// Lets what averages and corrections learned of light that pending edits changed count less.
-  void forget_corrections(EditProgress progress);
   void reduce_history();
+  void forget_corrections(EditProgress progress);
+  void darken_sleeping();
   void solve_edited(UpdateStatistics& statistics);
   /// Stores solved light where it differs visibly from the light before, and restores the old light
   /// elsewhere. Returns the number of probes whose light changed.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "field/field_access.h"
+#include "field/field_state.h"
 #include "field/probes/probe_status.h"
 #include "field/probes/probe_store.h"
 #include "lambent/field.h"
@@ -365,18 +366,46 @@ TEST(FieldEdit, SameBitsOnAnyNumberOfThreads) {
 TEST(FieldEdit, IsNotHeldUpByWhatLearningCorrectionsTakes) {
   FieldSettings settings = Edited::few();
   settings.corrections = true;
-  Edited edited("cornell-spot", settings, 0);
-  // Enough for the edit, but not if its rays are thought to cost as much as those that corrections
-  // are learned with
-  const UpdateRequest request{.time_budget_ms = 5.0};
-  for (int i = 0; i < 8; ++i) edited.field.update(edited.world, request);
-  const double before = mean(light_of(edited.field));
-  edited.scene.lights[0].intensity *= 0.25f;
-  ASSERT_TRUE(edited.world.update());
-  const UpdateStatistics first = edited.field.update(edited.world, request);
-  EXPECT_GE(first.probes_invalidated, first.states.vigilant);
-  // Open air follows in the updates to come
-  EXPECT_NEAR(mean(light_of(edited.field)), 0.25 * before, 0.05 * before);
+  Edited edited("cornell-spot", settings, 8);
+  const Scheduling& learned = FieldAccess::state_of(edited.field).scheduling;
+  // Another process may take the processor while a cost is learned
+  constexpr int kTries = 20;
+  bool is_cheaper = false;
+  for (int i = 0; i < kTries && !is_cheaper; ++i) {
+    edited.scene.lights[0].intensity *= i % 2 == 0 ? 0.5f : 2.0f;
+    ASSERT_TRUE(edited.world.update());
+    edited.field.update(edited.world);
+    edited.field.update(edited.world);
+    constexpr double kBudgetMs = 5.0;
+    is_cheaper =
+        learned.edit_cost.rays_within(kBudgetMs) > 2 * learned.ray_cost.rays_within(kBudgetMs);
+  }
+  EXPECT_TRUE(is_cheaper);
+}
+
+TEST(FieldEdit, ALampThatGoesOnAgainIsAsBrightAsItWas) {
+  for (const bool corrections : {false, true}) {
+    FieldSettings settings = Edited::few();
+    settings.corrections = corrections;
+    Edited edited("cornell-spot", settings, 24);
+    const std::vector<double> before = light_of(edited.field);
+    const glm::vec3 intensity = edited.scene.lights[0].intensity;
+    edited.scene.lights[0].intensity = glm::vec3(0.0f);
+    ASSERT_TRUE(edited.world.update());
+    edited.field.update(edited.world);
+    EXPECT_EQ(mean(light_of(edited.field)), 0.0);
+    for (int i = 0; i < 19; ++i) edited.field.update(edited.world);
+    EXPECT_EQ(mean(light_of(edited.field)), 0.0);
+    edited.scene.lights[0].intensity = intensity;
+    ASSERT_TRUE(edited.world.update());
+    edited.field.update(edited.world);
+    // Open air follows within eight updates
+    EXPECT_NEAR(mean(light_of(edited.field)) / mean(before), 1.0, 0.05);
+    for (int i = 0; i < 8; ++i) edited.field.update(edited.world);
+    EXPECT_NEAR(mean(light_of(edited.field)) / mean(before), 1.0, 0.02);
+    // What averaging had gained is lost, and corrections have to be learned again
+    EXPECT_LT(relative_rmse(light_of(edited.field), before), corrections ? 0.12 : 0.05);
+  }
 }
 
 }  // namespace

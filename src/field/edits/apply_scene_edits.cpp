@@ -141,6 +141,7 @@ void IrradianceField::State::apply_edits_to_slice(const World& world,
   const std::vector<double> direct_after = backend->direct_light(probes);
   const double before = std::accumulate(direct_before.begin(), direct_before.end(), 0.0);
   const double after = std::accumulate(direct_after.begin(), direct_after.end(), 0.0);
+  edits.pending.direct_light += after;
   const auto brighter = static_cast<float>(before > 0.0 ? after / before : 1.0);
   const int texels = data.tile_texels();
   for (const int probe : probes) {
@@ -336,6 +337,17 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
   edits.pending.updated = std::move(merged);
 }
 
+/// Takes the light of sleeping probes that have not followed yet, once no other probe sees any
+/// direct light. Surfels that read them would bring it back, nothing would feed it, and its decay
+/// would be taken for what averaging has gained: a lamp that goes on again would be too bright.
+void IrradianceField::State::darken_sleeping() {
+  const auto texels = static_cast<std::size_t>(data.tile_texels());
+  for (const int probe : edits.stale_sleeping) {
+    std::fill_n(&data.light[probe * texels], texels, vec4(0.0f));
+    std::fill_n(&data.last_irradiance_estimate[probe * texels], texels, vec4(0.0f));
+  }
+}
+
 EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::uint64_t ray_budget,
                                                        const std::optional<vec3>& viewer_ws,
                                                        UpdateStatistics& statistics) {
@@ -366,7 +378,12 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
     watch.finish(field_pass::kEdits);
     apply_edits_in_slices(world, ray_budget, stale, statistics);
     watch.skip();
+    const bool dark = stale.waiting.empty() && edits.pending.direct_light == 0.0;
+    if (dark) darken_sleeping();
     solve_edited(statistics);
+    if (dark && !edits.stale_sleeping.empty()) {
+      backend->store_light(edits.stale_sleeping, dither_seed());
+    }
     watch.finish(field_pass::kSolve);
     if (!stale.waiting.empty()) return EditProgress::partial;
   }

@@ -19,7 +19,8 @@ struct PendingEdits {
   /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
   /// alone estimated (history_ratio.cpp).
   WorkingIrradiance history_ratio;
-  std::vector<int> updated;  ///< The probes that the edits have reached, in ascending order.
+  std::vector<int> updated;   ///< The probes that the edits have reached, in ascending order.
+  double direct_light = 0.0;  ///< Direct light that these see now, summed over their tiles.
 };
 
 /// How far an update got with the edits of the world: no probe was stale, some stale probes are
