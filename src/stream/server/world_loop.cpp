@@ -82,6 +82,10 @@ void WorldLoop::meet_clients() {
     // Nothing of one that had the same place in memory
     (relayed_ ? relayed_->regions() : light_->regions()).set_surroundings(*link, std::nullopt);
   }
+}
+
+/// Begins the pictures of who waits for the first light.
+void WorldLoop::begin_pictures() {
   if (field() == nullptr) return;
   for (Viewer& viewer : viewers_) {
     if (!std::exchange(viewer.waits_for_light, false)) continue;
@@ -302,6 +306,7 @@ Expected<void> WorldLoop::run(const std::function<bool()>& stop) {
   next_stats_ = next_update_ + kStatsInterval;
   while (!stop()) {
     meet_clients();
+    begin_pictures();
     if (relayed_) {
       if (const auto done = follow_relayed(); !done) return done;
     }

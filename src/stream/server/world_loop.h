@@ -81,6 +81,7 @@ class WorldLoop {
   Expected<void> follow_relayed();
   void welcome();
   void meet_clients();
+  void begin_pictures();
   Expected<void> follow_clients(bool with_edits);
   Expected<void> play();
   void update_light();
