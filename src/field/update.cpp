@@ -229,8 +229,8 @@ std::uint64_t IrradianceField::State::ray_budget(const UpdateRequest& request) c
   return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
 }
 
-/// Computes how many rays edits may take; 0 means any number. Their rays are cheaper than those
-/// that corrections are learned with, and more so than what a time of both allows.
+/// Computes how many rays edits may take; 0 means any number. Edits have a cost of their own, since
+/// the cost of new rays includes that of learning corrections.
 std::uint64_t IrradianceField::State::edit_budget(const UpdateRequest& request) const {
   if (settings.max_bounces >= 0) return 0;
   if (!(request.time_budget_ms > 0.0)) return request.ray_budget;

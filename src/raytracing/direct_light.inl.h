@@ -23,7 +23,7 @@
 LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
 
 /// Irradiance that a candidate brings to a point unless something is in the way [W/m^2]; of points
-/// with an albedo_shape, what an even reflector had to receive to send as much back.
+/// with an albedo_shape, weighted by the share of it that is reflected over the mean share.
 LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
   float cosine = dot(point.normal_ws, light.to_light);
   float side = dot(point.geometric_normal_ws, light.to_light);

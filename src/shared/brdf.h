@@ -145,8 +145,8 @@ LAMBENT_FN vec3 specular_albedo(Reflectance surface, float n_dot_v) {
 }
 
 /// Mean of Schlick's (1 - v_dot_h)^5 over light from a uniform sky, in proportion to the cosine to
-/// the normal: a polynomial fitted to integrals for 25 cosines, largest error 0.0001. Whatever the
-/// roughness, since the half vector is that of the light's direction.
+/// the normal: a polynomial fitted to integrals for 25 cosines, largest error 0.0001. It does not
+/// depend on the roughness, since the base has no microfacets.
 LAMBENT_FN float mean_base_schlick(float n_dot_v) {
   float s = 1.0f - clamp(n_dot_v, 0.0f, 1.0f);
   return s * cubic(vec4(0.00431124f, -0.00181278f, 0.0255616f, 0.0f), s);

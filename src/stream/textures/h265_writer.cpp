@@ -95,7 +95,7 @@ class X265Writer : public TextureWriter {
     param_->bEnableLoopFilter = 0;
     param_->bEnableSAO = 0;
     param_->bEnableWeightedPred = 0;
-    param_->maxCUSize = 16;
+    param_->maxCUSize = 16;  // the smallest; tiles are smaller still
     param_->frameNumThreads = 1;
     param_->bEnableWavefront = 0;
     char none[] = "none";
