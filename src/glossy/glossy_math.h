@@ -276,30 +276,40 @@ LAMBENT_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, float 
   add_light_of_ray(at, lobe, direction, ray, pixel * w, sums);
 }
 
-/// Light that the receiver reflects, without bias: the mean over pixels. Where many rays make it
-/// up, the mean over their weights times the known albedo of the lobe has less noise. How much of
-/// it counts is decided by the lobes and not by the rays: where rays of large weights would decide
-/// for the known albedo and those of small ones against it, energy would be lost. What emitters
-/// send straight comes with weights of its own, by which that mean would be off. Negative where
-/// there is no ray.
-LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
-  if (sums.pixels <= 0.0f) {
-    if (at.own.pdf == 0.0f) return vec3(-1.0f);
-    sums.pixels = 1.0f;
-    sums.own_weight = at.own.pdf > 0.0f ? at.at_own.value / at.at_own.pdf : 0.0f;
+/// Light that the receiver reflects by its own ray alone.
+LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
+  CoatSums alone = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f};
+  if (at.own.pdf > 0.0f) {
+    float weight = at.at_own.value / at.at_own.pdf;
+    add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, weight, alone);
   }
+  return alone.light + alone.emission;
+}
+
+/// Light that the receiver reflects. Where many rays around fit its lobe, it is their mean over
+/// their weights times the known albedo of the lobe, and elsewhere what its own ray brings: rays
+/// that hardly fit would count now and then and for much, which is grain in mirrors. How much of
+/// either counts is decided by the lobes and not by the rays: where rays of large weights would
+/// decide for one and those of small ones against it, energy would be lost. A receiver without a
+/// ray of its own takes the mean over pixels. What emitters send straight comes with weights of its
+/// own, by which a mean over the others would be off. Negative where there is no ray.
+LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
+  if (sums.pixels <= 0.0f) return at.own.pdf == 0.0f ? vec3(-1.0f) : reflected_own_ray(at);
   if (sums.own_weight > 0.0f) {
     add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, sums.own_weight, sums);
   }
   float weight = sums.weight + sums.own_weight;
-  if (weight <= 0.0f) return vec3(0.0f);
   float known = clamp((sums.fitting - 1.0f) / (kRaysOfMean - 1.0f), 0.0f, 1.0f);
   // One over the smallest of weights is no number
   if (weight < kLeastPixelWeight) known = 0.0f;
-  float mean = known > 0.0f ? known / weight : 0.0f;
-  float n_dot_v = dot(at.lobe.normal_ws, at.lobe.to_viewer_ws);
-  float albedo = ggx_albedo(n_dot_v, at.lobe.alpha);
-  return sums.light * ((1.0f - known) / sums.pixels + mean * albedo) + sums.emission / sums.pixels;
+  vec3 over_pixels = (sums.light + sums.emission) / sums.pixels;
+  vec3 unknown = known >= 1.0f        ? vec3(0.0f)
+                 : at.own.pdf == 0.0f ? over_pixels
+                                      : reflected_own_ray(at);
+  if (known <= 0.0f) return unknown;
+  float albedo = ggx_albedo(dot(at.lobe.normal_ws, at.lobe.to_viewer_ws), at.lobe.alpha);
+  vec3 mean = sums.light * (albedo / weight) + sums.emission / sums.pixels;
+  return mix(unknown, mean, known);
 }
 
 /// All that a pixel's coat reflects but for what lights sent it straight: by rays, if any reached
