@@ -58,7 +58,7 @@ void FramePassesVulkan::indirect() {
   };
   // As on the processor (frame_cpu.cpp), corrections' grain must not come back with what is added
   // to the lookup and filtered with it, or taken out of it
-  const bool alone = looks_up(*request_) && sources.subtracted_field == nullptr;
+  const bool alone = is_looked_up(*request_) && sources.subtracted_field == nullptr;
   const CorrectionUse use = alone ? CorrectionUse::smooth : CorrectionUse::none;
   add("indirect", ask(0u));
   look_up("indirect", *sources.field, memory_.queries, pixels_, use, memory_.irradiance);
