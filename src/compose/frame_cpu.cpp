@@ -212,8 +212,7 @@ class FramePassesCpu final : public FramePasses {
     const World& world = request().world;
     const IndirectSources& sources = request().sources;
     const auto normal_at = [&](std::size_t i) { return gbuffer_.surfaces[i].normal_ws; };
-    const bool alone = is_looked_up(request()) && sources.subtracted_field == nullptr;
-    const CorrectionUse use = alone ? CorrectionUse::smooth : CorrectionUse::none;
+    const CorrectionUse use = pixel_correction(request());
     look_up(world, *sources.field, use, gbuffer_, normal_at, queries_, light_.irradiance);
     if (sources.subtracted_field != nullptr) {
       look_up(world, *sources.subtracted_field, use, gbuffer_, normal_at, queries_, subtracted_);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "compose/gbuffer.h"
+#include "field/correction/correction_use.h"
 #include "fog/fog.h"
 #include "lambent/renderer.h"
 #include "temporal/taa.h"
@@ -54,6 +55,15 @@ inline bool looks_up(const FrameRequest& request) {
 /// Whether pixels' indirect light is that of a lookup.
 inline bool is_looked_up(const FrameRequest& request) {
   return request.sources.field != nullptr && !gathers(request);
+}
+
+/// How lookups at pixels are corrected. Where light comes from a small patch, corrections are
+/// learned from gathers most of which miss it, and their cells differ. Shown as they are they are
+/// better than none; under light that is filtered, or combined with what other means find of the
+/// same pixels, they would come back as spots on walls.
+inline CorrectionUse pixel_correction(const FrameRequest& request) {
+  const bool alone = is_looked_up(request) && request.sources.subtracted_field == nullptr;
+  return alone ? CorrectionUse::smooth : CorrectionUse::none;
 }
 
 /// Whether coats reflect by rays of their own.

@@ -56,10 +56,7 @@ void FramePassesVulkan::indirect() {
       to.run(kernels_.pixel_queries, arguments, pixels_);
     };
   };
-  // As on the processor (frame_cpu.cpp), corrections' grain must not come back with what is added
-  // to the lookup and filtered with it, or taken out of it
-  const bool alone = is_looked_up(*request_) && sources.subtracted_field == nullptr;
-  const CorrectionUse use = alone ? CorrectionUse::smooth : CorrectionUse::none;
+  const CorrectionUse use = pixel_correction(*request_);
   add("indirect", ask(0u));
   look_up("indirect", *sources.field, memory_.queries, pixels_, use, memory_.irradiance);
   if (sources.subtracted_field == nullptr) return;
