@@ -45,17 +45,22 @@ std::optional<Refusal> ClientLink::take_edit(const Edit& edit) {
   return std::nullopt;
 }
 
-void ClientLink::take_received(const Received& received, Clock::time_point now) {
+void ClientLink::take_received(const Received& received, Clock::time_point now,
+                               std::optional<PathTime> path) {
+  using Milliseconds = std::chrono::duration<double, std::milli>;
   while (!under_way_.empty() && under_way_.front().number <= received.picture) {
     // One that was not sent yet cannot have arrived
-    if (!under_way_.front().sent) return;
-    const std::chrono::duration<double, std::milli> took = now - *under_way_.front().sent;
-    inputs_.round_trips_ms.push_back(took.count());
+    const UnderWay& one = under_way_.front();
+    if (!one.sent) return;
+    const Milliseconds took = now - *one.sent;
+    const Milliseconds on_path = path && one.path ? Milliseconds(*path - *one.path) : took;
+    inputs_.arrivals.push_back({took.count(), std::min(on_path, took).count()});
     under_way_.pop_front();
   }
 }
 
-std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_point now) {
+std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_point now,
+                                           std::optional<PathTime> path) {
   std::optional<Refusal> refusal;
   std::optional<Ping> answer;
   {
@@ -83,7 +88,7 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
             [&](const LightInput& edit) { return take_edit(edit); },
             [&](const ObjectInput& edit) { return take_edit(edit); },
             [&](const Received& received) -> std::optional<Refusal> {
-              take_received(received, now);
+              take_received(received, now, path);
               return std::nullopt;
             },
             [&](const LightReceived& received) -> std::optional<Refusal> {
@@ -153,7 +158,7 @@ void ClientLink::begin_light_anew() {
   light_lost_ = true;
 }
 
-SharedBytes ClientLink::next(Clock::time_point now) {
+SharedBytes ClientLink::next(Clock::time_point now, std::optional<PathTime> path) {
   const std::lock_guard lock(mutex_);
   if (!notices_.empty()) {
     auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(notices_.front()));
@@ -167,7 +172,9 @@ SharedBytes ClientLink::next(Clock::time_point now) {
   }
   if (!picture_) return nullptr;
   for (UnderWay& one : under_way_) {
-    if (one.number == waiting_picture_) one.sent = now;
+    if (one.number != waiting_picture_) continue;
+    one.sent = now;
+    one.path = path;
   }
   auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(*picture_));
   picture_.reset();
@@ -215,7 +222,7 @@ void ClientLink::put_picture(const Picture& picture) {
     if (gone_) return;
     picture_ = std::move(bytes);
     waiting_picture_ = picture.number;
-    under_way_.push_back({picture.number, std::nullopt});
+    under_way_.push_back({picture.number, {}, {}});
   }
   wake_connection_();
 }

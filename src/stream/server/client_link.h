@@ -16,17 +16,24 @@
 
 #include "stream/edits/edits.h"
 #include "stream/protocol/messages.h"
+#include "stream/server/path_time.h"
 #include "stream/server/rate_limit.h"
 
 namespace lambent::stream {
+
+/// A picture that a client has decoded.
+struct Arrival {
+  double round_trip_ms = 0.0;  ///< From when it was written until the client told of it.
+  double path_ms = 0.0;        ///< Of that, while bytes were on their way (PathTime).
+};
 
 /// What a client sent since it was last asked.
 struct ClientInputs {
   std::optional<CameraInput> camera;
   std::optional<PictureRequest> request;
   std::optional<Interest> interest;
-  std::vector<Edit> edits;             ///< In their order; one a target.
-  std::vector<double> round_trips_ms;  ///< Of pictures that the client has decoded since.
+  std::vector<Edit> edits;        ///< In their order; one a target.
+  std::vector<Arrival> arrivals;  ///< Of pictures that the client has decoded since.
   /// The number of its last input; where edits wait, of the last one before these.
   std::uint32_t last_input = 0;
   bool any() const { return camera || request || !edits.empty(); }
@@ -70,10 +77,12 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   // The connection's side
 
   /// Takes a message of the client's. What is returned is why the client must go: it sent what it
-  /// may not, or too much.
-  std::optional<Refusal> receive(const Message& message, Clock::time_point now);
+  /// may not, or too much. `path` is the connection's path time so far, for clients of pictures;
+  /// none where it is not known.
+  std::optional<Refusal> receive(const Message& message, Clock::time_point now,
+                                 std::optional<PathTime> path = std::nullopt);
   /// What is to be written next, notices before light before the picture; null: nothing.
-  SharedBytes next(Clock::time_point now);
+  SharedBytes next(Clock::time_point now, std::optional<PathTime> path = std::nullopt);
   /// The connection is gone; the world forgets the client.
   void leave();
 
@@ -103,9 +112,10 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   struct UnderWay {
     std::uint32_t number = 0;
     std::optional<Clock::time_point> sent;
+    std::optional<PathTime> path;  // when it was sent
   };
   std::optional<Refusal> take_edit(const Edit& edit);
-  void take_received(const Received& received, Clock::time_point now);
+  void take_received(const Received& received, Clock::time_point now, std::optional<PathTime> path);
   void take_light_received(const LightReceived& received);
 
   const Hello hello_;

@@ -110,7 +110,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
         parse_message({static_cast<const std::byte*>(data.data()), data.size()}, Sender::client);
     if (!message) return refuse({Refusal::Code::bad_message, message.error().message()});
     if (!link_) return greet(*message);
-    if (auto refusal = link_->receive(*message, now)) refuse(std::move(*refusal));
+    if (auto refusal = link_->receive(*message, now, path_time())) refuse(std::move(*refusal));
   }
 
   void greet(const Message& message) {
@@ -145,6 +145,12 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
     link_->put_notice(welcome);
   }
 
+  /// Of clients of pictures, whose pace follows it.
+  std::optional<PathTime> path_time() {
+    if (!link_->wants(kWantsPicture)) return std::nullopt;
+    return path_time_of(boost::beast::get_lowest_layer(socket_).socket().native_handle());
+  }
+
   /// Writes what there is to write, unless something is being written.
   void pump() {
     if (writing_since_ || closing_) return;
@@ -152,7 +158,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
       outgoing_ = std::make_shared<const std::vector<std::byte>>(std::move(*farewell_));
       closing_ = true;
     } else if (link_) {
-      outgoing_ = link_->next(Clock::now());
+      outgoing_ = link_->next(Clock::now(), path_time());
       if (!outgoing_) return;
     } else {
       return;
