@@ -281,6 +281,10 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->type_name("FILE");
   command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
   command.option_defaults()->group("Clients");
+  command
+      .add_option("--record", listen.record,
+                  "Write what clients send to this file, which lambent_stream_replay plays again")
+      ->type_name("FILE");
   command.add_flag("--share-scene", o.share_scene,
                    "Give the scene to who may look, so that browsers can render it (/light)");
   command

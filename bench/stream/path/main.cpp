@@ -114,7 +114,7 @@ Measured measure(const Options& options) {
   const auto clients = join(options.clients, [&](std::size_t client, std::uint64_t update) {
     measured.arrivals[client].push_back({update, Clock::now()});
   });
-  clients->run_for(std::chrono::seconds(1));
+  clients->run_for(std::chrono::seconds(5));  // those that came last catch up
   const std::uint64_t keys = clients->seen().keys;
   measured.begin = Clock::now();
   clients->run_for(std::chrono::milliseconds(static_cast<int>(1e3 * options.seconds)));

@@ -113,7 +113,7 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
 }
 
 void ClientLink::take_light_received(const LightReceived& received) {
-  while (!updates_under_way_.empty() && updates_under_way_.front() <= received.update) {
+  while (!updates_under_way_.empty() && updates_under_way_.front().update <= received.update) {
     updates_under_way_.pop_front();
   }
   known_geometry_ = received.geometry;
@@ -121,10 +121,17 @@ void ClientLink::take_light_received(const LightReceived& received) {
   if (received.needs_key == 1 && received.update >= all_sent_at_) light_lost_ = true;
 }
 
+bool ClientLink::is_late() const {
+  if (updates_under_way_.size() < kUpdatesUnderWay) return false;
+  if (updates_under_way_.size() >= kMostUpdatesUnderWay) return true;
+  std::size_t bytes = 0;
+  for (const LightUnderWay& one : updates_under_way_) bytes += one.bytes;
+  return 2 * bytes >= whole_bytes_;
+}
+
 LightNeed ClientLink::need_light() {
   const std::lock_guard lock(mutex_);
-  // Those that wait to be written count, too: a key in their place would be longer than they are
-  const bool late = updates_under_way_.size() >= kUpdatesUnderWay;
+  const bool late = is_late();
   if (late) light_lost_ = true;
   if (gone_ || late) return LightNeed::nothing;
   return light_lost_ ? LightNeed::all : LightNeed::changes;
@@ -141,7 +148,11 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
     const std::lock_guard lock(mutex_);
     if (gone_ || messages.empty()) return;
     light_.insert(light_.end(), messages.begin(), messages.end());
-    updates_under_way_.push_back(update);
+    std::size_t bytes = 0;
+    for (const SharedBytes& message : messages) bytes += message->size();
+    // A beginning takes its time, and keeps nobody from following it
+    updates_under_way_.push_back({update, what == LightNeed::all ? 0 : bytes});
+    if (what == LightNeed::all) whole_bytes_ = bytes;
     if (what == LightNeed::all) {
       light_lost_ = false;
       all_sent_at_ = update;

@@ -55,9 +55,11 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   /// Pictures that a client may have been sent without word of their arrival: one that travels and
   /// one that is decoded.
   static constexpr std::size_t kPicturesUnderWay = 2;
-  /// The same of updates of light, those that wait to be written among them: most of a second, on
-  /// long paths.
-  static constexpr std::size_t kUpdatesUnderWay = 8;
+  /// The same of updates of light, those that wait to be written among them. More may be, as long
+  /// as they have less than half the bytes of what the client was sent when it began: where a path
+  /// has lost something, the updates that wait for it are there sooner than a beginning anew would
+  /// be.
+  static constexpr std::size_t kUpdatesUnderWay = 8, kMostUpdatesUnderWay = 64;
   /// Edits of different targets between two updates of the world.
   static constexpr std::size_t kMaxEdits = 64;
   /// Notices that wait for a connection; more means that it is stuck.
@@ -114,6 +116,11 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
     std::optional<Clock::time_point> sent;
     std::optional<PathTime> path;  // when it was sent
   };
+  struct LightUnderWay {
+    std::uint64_t update = 0;
+    std::size_t bytes = 0;  // of changes
+  };
+  bool is_late() const;
   std::optional<Refusal> take_edit(const Edit& edit);
   void take_received(const Received& received, Clock::time_point now, std::optional<PathTime> path);
   void take_light_received(const LightReceived& received);
@@ -131,8 +138,9 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   std::uint32_t waiting_picture_ = 0;  // its number
   std::deque<std::vector<std::byte>> notices_;
   std::deque<SharedBytes> light_;
-  std::deque<std::uint64_t> updates_under_way_;
-  bool light_lost_ = true;  // changes would lead from what the client does not have
+  std::deque<LightUnderWay> updates_under_way_;
+  std::size_t whole_bytes_ = 0;  // of the last light that was sent from its beginning
+  bool light_lost_ = true;       // changes would lead from what the client does not have
   std::uint64_t all_sent_at_ = 0, known_geometry_ = 0;
 };
 
