@@ -22,6 +22,7 @@
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
 #include "lambent/quality.h"
+#include "lambent/server_address.h"
 #include "lambent/stage.h"
 #include "lambent/step.h"
 #include "lambent/threads.h"
@@ -53,6 +54,7 @@ struct Options {
   std::string quality = "interactive";
   std::string size = "720p";
   std::string exposure = "auto", tone_map = "aces";
+  std::string publish;  // a broker's address; empty: none
   std::string encoder = std::string(stream::kDefaultEncoder);
   double max_megabits = 20.0;
   double idle_s = 20.0;
@@ -250,8 +252,22 @@ Expected<void> serve_own(const Options& options, const stream::PictureSettings& 
                      server_settings(options, pictures, options.server.world.rate));
 }
 
-Expected<void> serve(const Options& options) {
+/// Where light is published besides, if anywhere.
+Expected<void> read_publish(Options& options) {
+  if (options.publish.empty()) return {};
+  stream::ConnectSettings parsed;
+  const auto fine = parse_server_address("--publish", options.publish, parsed);
+  if (!fine) return fine;
+  if (parsed.broker.name.empty()) {
+    return fail("--publish", options.publish, "is no broker's address: nats://HOST[:PORT]/NAME");
+  }
+  options.server.publish = parsed.broker;
+  return {};
+}
+
+Expected<void> serve(Options options) {
   if (const auto fine = check(options); !fine) return fine;
+  if (const auto fine = read_publish(options); !fine) return fine;
   const auto pictures = picture_settings(options);
   if (!pictures) return tl::unexpected(pictures.error());
   const glm::uvec2& size = pictures->limits.size;
@@ -281,6 +297,10 @@ void add_listen_options(CLI::App& command, Options& o) {
       ->type_name("FILE");
   command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
   command.option_defaults()->group("Clients");
+  command
+      .add_option("--publish", o.publish,
+                  "Publish the light at this broker, too: nats://HOST[:PORT]/NAME")
+      ->type_name("BROKER");
   command
       .add_option("--record", listen.record,
                   "Write what clients send to this file, which lambent_stream_replay plays again")
