@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How pictures follow the pace of clients and of this machine.
-#include "stream/server/pace.h"
+#include "stream/pace/pace.h"
 
 #include <gtest/gtest.h>
 

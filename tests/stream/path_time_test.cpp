@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the system tells of the time that bytes are on their way.
-#include "stream/server/path_time.h"
+#include "stream/pace/path_time.h"
 
 #include <arpa/inet.h>
 #include <fcntl.h>

@@ -8,9 +8,9 @@
 #include <cstdlib>
 #include <span>
 
-#include "stream/light/bit_models.h"
+#include "stream/coding/bit_models.h"
+#include "stream/coding/signed_number.h"
 #include "stream/light/geometry.h"
-#include "stream/light/signed_number.h"
 
 namespace lambent::stream {
 

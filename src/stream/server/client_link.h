@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "stream/edits/edits.h"
+#include "stream/pace/path_time.h"
 #include "stream/protocol/messages.h"
-#include "stream/server/path_time.h"
 #include "stream/server/rate_limit.h"
 
 namespace lambent::stream {

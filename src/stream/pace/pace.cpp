@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/server/pace.h"
+#include "stream/pace/pace.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/server/path_time.h"
+#include "stream/pace/path_time.h"
 
 // In place of <netinet/tcp.h>, whose tcp_info ends earlier.
 #include <linux/tcp.h>
