@@ -65,7 +65,7 @@ void set_congestion(const Network& network, const std::string& name) {
     file << name << std::flush;
     done = file.good();
   }).join();
-  if (!done) throw std::runtime_error("this system has no congestion control " + name);
+  if (!done) throw std::runtime_error("this system allows no congestion control " + name);
 }
 
 }  // namespace

@@ -83,12 +83,13 @@ Address address() {
   return address;
 }
 
-/// Clients of which all have light. Throws where that does not come.
+/// Clients of which all have light; the first one decodes what it gets. Throws where that does not
+/// come.
 std::unique_ptr<LightClients> join(int count, const LightClients::OnLight& on_light) {
   constexpr std::chrono::seconds kPatience{120};
   const auto end = Clock::now() + kPatience;
   while (Clock::now() < end) {
-    auto clients = LightClients::make(address(), 1, on_light);
+    auto clients = LightClients::make(address(), count, on_light);
     clients->add(count);
     while (clients->seen().failed == 0 && Clock::now() < end) {
       clients->run_for(std::chrono::milliseconds(20));
@@ -148,6 +149,15 @@ std::vector<double> ages_of(const Measured& measured,
   return ages;
 }
 
+/// Ages [ms] at each millisecond of the measured time, of what a client beside the server had then.
+std::vector<double> ages_beside(const Measured& measured,
+                                const std::map<std::uint64_t, Clock::time_point>& made) {
+  Measured beside = measured;
+  beside.arrivals.assign(1, {});
+  for (const auto& [update, at] : made) beside.arrivals.front().push_back({update, at});
+  return ages_of(beside, made);
+}
+
 /// From when light was there at the server until a client had it [ms].
 std::vector<double> delays_of(const Measured& measured,
                               const std::map<std::uint64_t, Clock::time_point>& made) {
@@ -155,7 +165,7 @@ std::vector<double> delays_of(const Measured& measured,
   for (const std::vector<Arrival>& arrivals : measured.arrivals) {
     for (const Arrival& one : arrivals) {
       const auto then = made.find(one.update);
-      if (one.at < measured.begin || then == made.end()) continue;
+      if (one.at < measured.begin || one.at > measured.end || then == made.end()) continue;
       delays.push_back(Milliseconds(one.at - then->second).count());
     }
   }
@@ -165,22 +175,24 @@ std::vector<double> delays_of(const Measured& measured,
 void print(const Options& options, const Measured& measured,
            const std::map<std::uint64_t, Clock::time_point>& made,
            const ImpairedPath::Counts& counts) {
-  const std::vector<double> ages = ages_of(measured, made), delays = delays_of(measured, made);
+  const std::vector<double> ages = ages_of(measured, made), delays = delays_of(measured, made),
+                            beside = ages_beside(measured, made);
   std::printf(
       "| round trip [ms] | loss [%%] | Mbit/s | congestion control | packets lost | light's way: "
       "median, 95 %%, largest [ms] | age of the light that clients have: median, 95 %%, largest "
-      "[ms] | updates missed, keys again | late join: median, largest [ms] |\n"
-      "|---|---|---|---|---|---|---|---|---|\n");
+      "[ms] | beside the server: median, 95 %% [ms] | updates missed, keys again | late join: "
+      "median, largest [ms] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|\n");
   std::printf(
-      "| %.0f | %g | %s | %s | %llu of %llu | %.0f, %.0f, %.0f | %.0f, %.0f, %.0f | %llu, "
-      "%llu | %.0f, %.0f |\n",
+      "| %.0f | %g | %s | %s | %llu of %llu | %.0f, %.0f, %.0f | %.0f, %.0f, %.0f | %.0f, %.0f | "
+      "%llu, %llu | %.0f, %.0f |\n",
       2.0 * options.delay_ms, options.loss_percent,
       options.megabits > 0.0 ? std::to_string(static_cast<int>(options.megabits)).c_str() : "any",
       options.congestion.empty() ? "the system's" : options.congestion.c_str(),
       static_cast<unsigned long long>(counts.lost), static_cast<unsigned long long>(counts.sent),
       percentile(delays, 0.5), percentile(delays, 0.95), percentile(delays, 1.0),
-      percentile(ages, 0.5), percentile(ages, 0.95), percentile(ages, 1.0),
-      static_cast<unsigned long long>(measured.missed),
+      percentile(ages, 0.5), percentile(ages, 0.95), percentile(ages, 1.0), percentile(beside, 0.5),
+      percentile(beside, 0.95), static_cast<unsigned long long>(measured.missed),
       static_cast<unsigned long long>(measured.keys), percentile(measured.join_ms, 0.5),
       percentile(measured.join_ms, 1.0));
 }
@@ -243,7 +255,8 @@ int main(int argc, char** argv) try {
       ->check(CLI::Range(0.0, 50.0));
   app.add_option("--megabits", options.megabits, "Each way; 0: any [Mbit/s]")
       ->check(CLI::Range(0.0, 10'000.0));
-  app.add_option("--congestion", options.congestion, "TCP's control, as cubic or bbr");
+  app.add_option("--congestion", options.congestion,
+                 "TCP's control, as reno or bbr (of those that this system allows)");
   app.add_option("--clients", options.clients, "That get light all the time")
       ->check(CLI::Range(1, 32));
   app.add_option("--joins", options.joins, "Clients that come late, one after the other")
