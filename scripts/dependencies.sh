@@ -28,6 +28,10 @@ lambent_packages=(
 # shellcheck disable=SC2034
 lambent_gpl_packages=(pkg-config libx265-dev libavcodec-dev libavutil-dev)
 
+# What LAMBENT_STREAM_NATS needs, which is off by default, and what its tests run.
+# shellcheck disable=SC2034
+lambent_broker_packages=(pkg-config libnats-dev nats-server)
+
 # The server's HTTP and WebSocket. Debian 12 has a newer Boost beside the one that it calls libboost-dev.
 if grep -qs '^VERSION_CODENAME=bookworm' /etc/os-release; then
   lambent_packages+=(libboost1.81-dev)

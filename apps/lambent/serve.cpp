@@ -2,7 +2,6 @@
 // lambent serve: one shared scene, whose light is kept up to date and sent to clients.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -13,19 +12,18 @@
 #include "lambent/command_files.h"
 #include "lambent/commands.h"
 #include "lambent/console.h"
-#include "lambent/field_options.h"
 #include "lambent/help.h"
 #include "lambent/input.h"
 #include "lambent/interrupts.h"
-#include "lambent/light_from.h"
 #include "lambent/memory_check.h"
 #include "lambent/parse.h"
 #include "lambent/progress_bar.h"
 #include "lambent/quality.h"
+#include "lambent/serve_options.h"
+#include "lambent/server_address.h"
 #include "lambent/stage.h"
 #include "lambent/step.h"
 #include "lambent/threads.h"
-#include "lambent/validators.h"
 #include "lambent/words.h"
 #include "scenes/glb_writer.h"
 #include "stream/edits/edits.h"
@@ -43,28 +41,9 @@ constexpr const char* kExamples =
 
 // Frames over which light is averaged, as in sequences: each counts a tenth.
 constexpr int kAveragedFrames = 10;
-constexpr int kMaxClients = 10'000;
-
-struct Options {
-  StageOptions stage;
-  FieldOptions field;
-  LightFromOptions light_from;
-  stream::ServerSettings server;
-  std::string quality = "interactive";
-  std::string size = "720p";
-  std::string exposure = "auto", tone_map = "aces";
-  std::string encoder = std::string(stream::kDefaultEncoder);
-  double max_megabits = 20.0;
-  double idle_s = 20.0;
-  int picture_clients = -1;  // below 0: as many as clients
-  int updates = 8;
-  bool share_scene = false;
-  std::uint32_t seed = 1;
-  int threads = 0;  // 0: all
-};
 
 /// What pictures are like, of the largest size.
-FrameSettings frame_settings(const Options& options) {
+FrameSettings frame_settings(const ServeOptions& options) {
   FrameSettings frame = quality_settings(quality_from_name(options.quality));
   frame.seed = options.seed;
   frame.temporal_antialiasing = true;
@@ -72,7 +51,7 @@ FrameSettings frame_settings(const Options& options) {
   return frame;
 }
 
-Expected<stream::PictureSettings> picture_settings(const Options& options) {
+Expected<stream::PictureSettings> picture_settings(const ServeOptions& options) {
   stream::PictureSettings settings;
   settings.frame = frame_settings(options);
   const auto size = parse_size("--size", options.size);
@@ -99,7 +78,8 @@ Expected<stream::PictureSettings> picture_settings(const Options& options) {
 }
 
 /// Fails where the renderers of all clients would not fit.
-Expected<void> check_memory(const Options& options, std::size_t clients, const glm::uvec2& size) {
+Expected<void> check_memory(const ServeOptions& options, std::size_t clients,
+                            const glm::uvec2& size) {
   RenderOptions picture;
   picture.quality = options.quality;
   const std::uint64_t one = picture_bytes(picture, glm::ivec2(size));
@@ -113,7 +93,7 @@ Expected<void> check_memory(const Options& options, std::size_t clients, const g
               Error::Kind::failed);
 }
 
-Expected<void> check(const Options& options) {
+Expected<void> check(const ServeOptions& options) {
   if (const auto fine = check_scene_input(options.stage.scene); !fine) return fine;
   const stream::ListenSettings& listen = options.server.listen;
   if (listen.certificate.empty() != listen.key.empty()) {
@@ -141,7 +121,7 @@ Expected<std::shared_ptr<const std::string>> shared_scene(const Scene& scene) {
 
 /// Serves until somebody ends it.
 template <class Served>
-Expected<void> serve_world(const Options& options, const Served& served,
+Expected<void> serve_world(const ServeOptions& options, const Served& served,
                            stream::ServerSettings settings) {
   if (options.share_scene) {
     auto shared = shared_scene(served.scene);
@@ -162,13 +142,13 @@ Expected<void> serve_world(const Options& options, const Served& served,
 }
 
 /// Clients of pictures at a time, at most.
-std::size_t picture_clients(const Options& options) {
+std::size_t picture_clients(const ServeOptions& options) {
   return options.picture_clients < 0 ? options.server.max_clients
                                      : static_cast<std::size_t>(options.picture_clients);
 }
 
 /// What the server is told of the options, where the light is updated so often a second.
-stream::ServerSettings server_settings(const Options& options,
+stream::ServerSettings server_settings(const ServeOptions& options,
                                        const stream::PictureSettings& pictures, float rate) {
   stream::ServerSettings settings = options.server;
   settings.max_picture_clients = picture_clients(options);
@@ -187,13 +167,14 @@ stream::ServerSettings server_settings(const Options& options,
 }
 
 /// The view that the options ask for, with a picture's proportions.
-Expected<View> served_view(const Options& options, const World& world, const glm::uvec2& size) {
+Expected<View> served_view(const ServeOptions& options, const World& world,
+                           const glm::uvec2& size) {
   const glm::vec2 pixels(size);
   return choose_view(options.stage, world, pixels.x / pixels.y);
 }
 
 /// Serves the scene in the light that another server computes.
-Expected<void> serve_relayed(const Options& options, const stream::PictureSettings& pictures) {
+Expected<void> serve_relayed(const ServeOptions& options, const stream::PictureSettings& pictures) {
   begin_step("connecting to the light");
   const auto upstream = open_upstream(options.light_from);
   if (!upstream) return tl::unexpected(upstream.error());
@@ -223,7 +204,7 @@ Expected<void> serve_relayed(const Options& options, const stream::PictureSettin
 }
 
 /// Serves the scene in light that is computed here.
-Expected<void> serve_own(const Options& options, const stream::PictureSettings& pictures) {
+Expected<void> serve_own(const ServeOptions& options, const stream::PictureSettings& pictures) {
   begin_step("reading the scene");
   Expected<Scene> scene = open_stage(options.stage);
   if (!scene) return tl::unexpected(scene.error());
@@ -250,8 +231,22 @@ Expected<void> serve_own(const Options& options, const stream::PictureSettings& 
                      server_settings(options, pictures, options.server.world.rate));
 }
 
-Expected<void> serve(const Options& options) {
+/// Where light is published besides, if anywhere.
+Expected<void> read_publish(ServeOptions& options) {
+  if (options.publish.empty()) return {};
+  stream::ConnectSettings parsed;
+  const auto fine = parse_server_address("--publish", options.publish, parsed);
+  if (!fine) return fine;
+  if (parsed.broker.name.empty()) {
+    return fail("--publish", options.publish, "is no broker's address: nats://HOST[:PORT]/NAME");
+  }
+  options.server.publish = parsed.broker;
+  return {};
+}
+
+Expected<void> serve(ServeOptions options) {
   if (const auto fine = check(options); !fine) return fine;
+  if (const auto fine = read_publish(options); !fine) return fine;
   const auto pictures = picture_settings(options);
   if (!pictures) return tl::unexpected(pictures.error());
   const glm::uvec2& size = pictures->limits.size;
@@ -261,136 +256,14 @@ Expected<void> serve(const Options& options) {
                                            : serve_relayed(options, *pictures);
 }
 
-void add_listen_options(CLI::App& command, Options& o) {
-  stream::ListenSettings& listen = o.server.listen;
-  command.add_option("--port", listen.port, "Port to listen at; 0: any that is free")
-      ->check(whole_number(0, std::numeric_limits<std::uint16_t>::max()))
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      .add_option("--host", listen.host,
-                  "Address to listen at; those that other machines reach need --tokens")
-      ->capture_default_str()
-      ->type_name("A");
-  command
-      .add_option(
-          "--tokens", listen.tokens,
-          "File of who may look and who may change, a line each: view|change TOKEN [EXPIRY]")
-      ->type_name("FILE");
-  command.add_option("--certificate", listen.certificate, "TLS certificate chain, PEM")
-      ->type_name("FILE");
-  command.add_option("--key", listen.key, "Its private key, PEM")->type_name("FILE");
-  command.option_defaults()->group("Clients");
-  command.add_flag("--share-scene", o.share_scene,
-                   "Give the scene to who may look, so that browsers can render it (/light)");
-  command
-      .add_option("--light-error", o.server.world.light.target_error,
-                  "Error that the light stream may have, of the mean irradiance")
-      ->check(number(0.001, 0.2))
-      ->capture_default_str()
-      ->type_name("E");
-  command.add_option("--clients", o.server.max_clients, "Clients at a time")
-      ->check(whole_number(1, kMaxClients))
-      ->capture_default_str()
-      ->type_name("N");
-  command
-      .add_option(
-          "--picture-clients", o.picture_clients,
-          "Of these, clients of pictures, which take memory; 0: none (as many as --clients)")
-      ->check(whole_number(0, kMaxClients))
-      ->type_name("N");
-  command
-      .add_option("--origin", listen.origins,
-                  "Pages from here may connect, too, as https://example.org; as often as wanted")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("O");
-  command
-      .add_option("--fps", o.server.world.pictures.limits.rate,
-                  "Pictures a second that a client gets at most")
-      ->check(number(stream::kMinPictureRate, stream::kMaxPictureRate))
-      ->capture_default_str()
-      ->type_name("F");
-  command.add_option("--bitrate", o.max_megabits, "Of a client's pictures at most [Mbit/s]")
-      ->check(number(0.1, 1000.0))
-      ->capture_default_str()
-      ->type_name("M");
-  command
-      .add_option("--encoder", o.encoder, "Of pictures: " + list_text(stream::picture_encoders()))
-      ->check(one_of(stream::picture_encoders()))
-      ->capture_default_str()
-      ->type_name("E");
-  command.add_option("--idle", o.idle_s, "End connections without a sign of life after [s]")
-      ->check(number(1.0, 3600.0))
-      ->capture_default_str()
-      ->type_name("S");
-}
-
-void add_world_options(CLI::App& command, Options& o) {
-  command.add_option("--rate", o.server.world.rate, "Updates of the light a second")
-      ->check(number(0.1, 1000.0))
-      ->capture_default_str()
-      ->type_name("R");
-  command.add_flag("--play", o.server.world.play, "Play the scene's animations");
-  command
-      .add_option("--quality", o.quality,
-                  "Of pictures: draft, interactive (one ray a pixel) or high (some 64)")
-      ->check(one_of({"draft", "interactive", "high"}))
-      ->capture_default_str()
-      ->type_name("Q");
-  command
-      .add_option("--size", o.size,
-                  "Pixels of pictures at most; or a name: 480p, 720p, 1080p, 1440p, 4k")
-      ->capture_default_str()
-      ->type_name("WxH");
-}
-
-/// Where the light comes from elsewhere, nothing says how to compute it: no option of the field,
-/// which are those from `first_of_field` on.
-void add_light_from(CLI::App& command, Options& o, std::size_t first_of_field) {
-  std::vector<CLI::Option*> of_own_light = command.get_options();
-  of_own_light.erase(of_own_light.begin(),
-                     of_own_light.begin() + static_cast<std::ptrdiff_t>(first_of_field));
-  for (const char* name : {"--rate", "--play", "--light-error"}) {
-    of_own_light.push_back(command.get_option(name));
-  }
-  add_light_from_options(command, o.light_from, of_own_light);
-  command.option_defaults()->group(kMainGroup);
-}
-
 }  // namespace
 
 void add_serve(CLI::App& app, Run& run) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ServeOptions>();
   CLI::App* command =
       app.add_subcommand("serve", "Serve a scene to browsers and other clients, live");
   command->group(kStreamGroup);
-  command->option_defaults()->group(kMainGroup);
-  add_world_options(*command, *o);
-  add_listen_options(*command, *o);
-  add_stage_options(*command, o->stage);
-  const std::size_t before_field = command->get_options().size();
-  add_field_options(*command, o->field);
-  command->add_option("--updates", o->updates, "Updates of the field before it is served")
-      ->check(whole_number(1, kMaxUpdates))
-      ->capture_default_str()
-      ->type_name("N");
-  add_light_from(*command, *o, before_field);
-  command->add_option("--seed", o->seed, "Of all random numbers")
-      ->check(whole_number(0, std::numeric_limits<std::uint32_t>::max()))
-      ->capture_default_str()
-      ->type_name("N");
-  command->add_option("--threads", o->threads, "Threads to use (all)")
-      ->check(whole_number(1, kMaxThreads))
-      ->type_name("N");
-  command->option_defaults()->group("Display");
-  command->add_option("--exposure", o->exposure, "In stops, or auto")
-      ->capture_default_str()
-      ->type_name("E");
-  command->add_option("--tone-map", o->tone_map, "aces, neutral or linear")
-      ->check(one_of({"aces", "neutral", "linear"}))
-      ->capture_default_str()
-      ->type_name("T");
+  add_serve_options(*command, *o);
   set_examples(*command, kExamples);
   command->callback([o, &run] { run = [o] { return serve(*o); }; });
 }

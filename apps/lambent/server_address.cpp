@@ -4,11 +4,21 @@
 #include <fstream>
 
 #include "lambent/validators.h"
+#include "stream/broker/broker.h"
 
 namespace lambent::cli {
 
 Expected<void> parse_server_address(const std::string& option, const std::string& address,
                                     stream::ConnectSettings& to) {
+  if (stream::is_broker_address(address)) {
+    auto broker = stream::parse_broker_address(option, address);
+    if (!broker) return tl::unexpected(broker.error());
+    if (!stream::has_broker()) {
+      return fail(option, address, "brokers are not in this build (LAMBENT_STREAM_NATS)");
+    }
+    to.broker = std::move(*broker);
+    return {};
+  }
   std::string text = address;
   const std::string https = "https://", http = "http://";
   if (text.starts_with(https)) {

@@ -9,8 +9,8 @@
 
 namespace lambent::cli {
 
-/// "HOST", "HOST:PORT" or either after http:// or https://, into `to`. `option` names the culprit
-/// in the error.
+/// "HOST", "HOST:PORT", either after http:// or https://, or nats://HOST[:PORT]/NAME, into `to`.
+/// `option` names the culprit in the error.
 Expected<void> parse_server_address(const std::string& option, const std::string& address,
                                     stream::ConnectSettings& to);
 

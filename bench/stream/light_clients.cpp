@@ -43,7 +43,8 @@ struct Shared {
   boost::asio::io_context io{1};
   ssl::context tls{ssl::context::tls_client};
   tcp::endpoint server;
-  std::string host;
+  std::string host, token;
+  LightClients::OnLight on_light;
   Seen seen;
   int connecting = 0;
 };
@@ -51,8 +52,8 @@ struct Shared {
 template <class Stream>
 class OneClient {
  public:
-  OneClient(Shared& shared, bool decodes)
-      : shared_(shared), socket_([&shared] {
+  OneClient(Shared& shared, std::size_t number, bool decodes)
+      : shared_(shared), number_(number), socket_([&shared] {
           if constexpr (std::is_same_v<Stream, TlsStream>) {
             return websocket::stream<Stream>(shared.io, shared.tls);
           } else {
@@ -86,6 +87,7 @@ class OneClient {
       if (done) return fail();
       stream::Hello hello;
       hello.wants = stream::kWantsLight;
+      hello.token = shared_.token;
       send(hello);
       read();
     });
@@ -128,6 +130,7 @@ class OneClient {
       ++seen.missed;
     }
     update_ = update;
+    if (shared_.on_light) shared_.on_light(number_, update);
     if (joined_) return;
     joined_ = true;
     ++seen.joined;
@@ -158,6 +161,7 @@ class OneClient {
   }
 
   Shared& shared_;
+  const std::size_t number_;
   websocket::stream<Stream> socket_;
   beast::flat_buffer buffer_;
   std::deque<std::vector<std::byte>> outgoing_;
@@ -170,7 +174,10 @@ class OneClient {
 template <class Stream>
 class Clients : public LightClients {
  public:
-  Clients(const Address& address, int decode_every) : decode_every_(decode_every) {
+  Clients(const Address& address, int decode_every, OnLight on_light)
+      : decode_every_(decode_every) {
+    shared_.on_light = std::move(on_light);
+    shared_.token = address.token;
     shared_.server = {boost::asio::ip::make_address(address.host), address.port};
     shared_.host = address.host + ":" + std::to_string(address.port);
     shared_.tls.set_verify_mode(ssl::verify_none);
@@ -185,7 +192,7 @@ class Clients : public LightClients {
       for (; waiting_ > 0 && shared_.connecting < kConnecting; --waiting_) {
         const bool decodes =
             decode_every_ > 0 && clients_.size() % static_cast<std::size_t>(decode_every_) == 0;
-        clients_.push_back(std::make_unique<OneClient<Stream>>(shared_, decodes));
+        clients_.push_back(std::make_unique<OneClient<Stream>>(shared_, clients_.size(), decodes));
         clients_.back()->start();
       }
       shared_.io.restart();
@@ -204,9 +211,12 @@ class Clients : public LightClients {
 
 }  // namespace
 
-std::unique_ptr<LightClients> LightClients::make(const Address& address, int decode_every) {
-  if (address.tls) return std::make_unique<Clients<TlsStream>>(address, decode_every);
-  return std::make_unique<Clients<PlainStream>>(address, decode_every);
+std::unique_ptr<LightClients> LightClients::make(const Address& address, int decode_every,
+                                                 OnLight on_light) {
+  if (address.tls) {
+    return std::make_unique<Clients<TlsStream>>(address, decode_every, std::move(on_light));
+  }
+  return std::make_unique<Clients<PlainStream>>(address, decode_every, std::move(on_light));
 }
 
 }  // namespace lambent::stream_load

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@ struct Address {
   std::string host = "127.0.0.1";
   std::uint16_t port = 8080;
   bool tls = false;  ///< The certificate is not looked at: load is measured here, not trust.
+  std::string token;
 };
 
 /// What all clients together have seen.
@@ -31,8 +33,11 @@ struct Seen {
 /// Clients that answer each message of light, and check the numbers of updates.
 class LightClients {
  public:
+  /// A client, by its number from 0, has the light of an update.
+  using OnLight = std::function<void(std::size_t client, std::uint64_t update)>;
   /// One client in `decode_every` decodes what it gets; 0: none.
-  static std::unique_ptr<LightClients> make(const Address& address, int decode_every);
+  static std::unique_ptr<LightClients> make(const Address& address, int decode_every,
+                                            OnLight on_light = nullptr);
   virtual ~LightClients() = default;
 
   /// Begins to connect so many more clients.

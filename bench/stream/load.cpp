@@ -2,18 +2,16 @@
 // lambent_stream_load: how many clients of light a server keeps up with. Prints the tables of
 // docs/serve.md. The server runs beside it and is told apart by its process.
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "bench/stream/light_clients.h"
+#include "bench/stream/process_usage.h"
 
 namespace lambent::stream_load {
 namespace {
@@ -25,28 +23,6 @@ struct Options {
   int decode_every = 100;
   double seconds = 5.0;
 };
-
-struct Process {
-  double cpu_s = 0.0, rss_mb = 0.0;
-};
-
-/// What a process has taken so far, all of its threads together.
-Process look_at(int process) {
-  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  // What follows on the name, which may hold anything, in parentheses
-  std::istringstream fields(text.substr(text.rfind(')') + 2));
-  constexpr int kUserTime = 11, kResident = 21;  // counted from the state on
-  std::vector<double> numbers;
-  std::string field;
-  for (int i = 0; i <= kResident && fields >> field; ++i) {
-    numbers.push_back(std::atof(field.c_str()));
-  }
-  if (numbers.size() <= kResident) return {};
-  constexpr double kBytesOfMb = 1e6;
-  return {(numbers[kUserTime] + numbers[kUserTime + 1]) / static_cast<double>(sysconf(_SC_CLK_TCK)),
-          numbers[kResident] * static_cast<double>(sysconf(_SC_PAGESIZE)) / kBytesOfMb};
-}
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
@@ -94,12 +70,12 @@ int run(const Options& options) {
         clients->seen().join_ms.end());
     clients->run_for(std::chrono::seconds(1));  // those that came last catch up
     const Seen before = clients->seen();
-    const Process from = look_at(options.server);
+    const ProcessUsage from = usage_of(options.server);
     const auto start = std::chrono::steady_clock::now();
     clients->run_for(std::chrono::milliseconds(static_cast<int>(1e3 * options.seconds)));
     const double took_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const Process to = look_at(options.server);
+    const ProcessUsage to = usage_of(options.server);
     const Seen& after = clients->seen();
     const double each = static_cast<double>(after.updates - before.updates) / wanted;
     std::printf("| %d | %.2f | %.2f | %.0f | %llu | %llu | %.0f, %.0f, %.0f |\n", wanted,

@@ -160,12 +160,32 @@ TEST_F(Link, NoMoreThanTwoPicturesAreUnderWay) {
   now += std::chrono::milliseconds(30);
   receive(Received{1, 1.0f});
   EXPECT_TRUE(link.ready_for_picture());
-  ASSERT_EQ(link.take_inputs(true).round_trips_ms.size(), 1u);
+  ASSERT_EQ(link.take_inputs(true).arrivals.size(), 1u);
   // What was never sent does not count
   receive(Received{1000, 1.0f});
   link.put_picture(picture);
   receive(Received{1000, 1.0f});
   EXPECT_FALSE(link.ready_for_picture());
+}
+
+TEST_F(Link, TellsTheTimeOnThePathFromThatOfProgramsThatAreLate) {
+  Picture picture;
+  picture.size = {64, 64};
+  picture.number = 1;
+  link.put_picture(picture);
+  ASSERT_TRUE(link.next(now, PathTime(5'000)));
+  now += std::chrono::milliseconds(300);
+  EXPECT_FALSE(link.receive(Received{1, 1.0f}, now, PathTime(12'000)));
+  ++picture.number;
+  link.put_picture(picture);
+  ASSERT_TRUE(link.next(now, PathTime(12'000)));
+  now += std::chrono::milliseconds(300);
+  EXPECT_FALSE(link.receive(Received{2, 1.0f}, now)) << "the system does not tell";
+  const std::vector<Arrival> arrivals = link.take_inputs(true).arrivals;
+  ASSERT_EQ(arrivals.size(), 2u);
+  EXPECT_EQ(arrivals[0].round_trip_ms, 300.0);
+  EXPECT_EQ(arrivals[0].path_ms, 7.0);
+  EXPECT_EQ(arrivals[1].path_ms, 300.0);
 }
 
 TEST_F(Link, NoticesOfAConnectionThatIsStuckAreBounded) {

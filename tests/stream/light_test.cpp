@@ -196,7 +196,7 @@ TEST(LightStream, WhoFallsBehindBeginsAgainWithTheLatest) {
   ASSERT_TRUE(slow.follow());
   const std::uint64_t before = slow.lit().update();
   // It reads nothing for long enough that its window is full
-  const std::uint64_t enough = before + 3 * ClientLink::kUpdatesUnderWay;
+  const std::uint64_t enough = before + ClientLink::kMostUpdatesUnderWay;
   for (std::uint64_t state = 0; state < enough + 10;) {
     const auto stats = test::next<ServerStats>(*watching->client);
     ASSERT_TRUE(stats);
@@ -285,6 +285,26 @@ TEST_F(LightLink, NoMoreUpdatesAreUnderWayThanTheWindow) {
   EXPECT_EQ(link.need_light(), LightNeed::nothing);
   answer(3, 0);
   EXPECT_EQ(link.need_light(), LightNeed::all);
+}
+
+TEST_F(LightLink, WaitsForWhatWasLostWhereThatIsShorterThanABeginning) {
+  const auto put_bytes = [&](std::uint64_t update, LightNeed what, std::size_t bytes) {
+    const SharedBytes message = std::make_shared<const std::vector<std::byte>>(bytes);
+    link.put_light({&message, 1}, update, what);
+  };
+  put_bytes(1, LightNeed::all, 10'000);
+  answer(1, 0);
+  std::uint64_t update = 2;
+  for (; link.need_light() == LightNeed::changes; ++update) {
+    put_bytes(update, LightNeed::changes, 300);
+  }
+  EXPECT_EQ(update - 2, 17u) << "half of what it began with";
+  // And however small they are
+  answer(update, 0);
+  put_bytes(update, LightNeed::all, 1'000'000);
+  std::uint64_t last = update + 1;
+  for (; link.need_light() == LightNeed::changes; ++last) put_bytes(last, LightNeed::changes, 1);
+  EXPECT_EQ(last - update, ClientLink::kMostUpdatesUnderWay);
 }
 
 TEST_F(LightLink, AKeyThatIsAskedForIsSentOnce) {

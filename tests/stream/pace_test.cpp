@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How pictures follow the pace of clients and of this machine.
-#include "stream/server/pace.h"
+#include "stream/pace/pace.h"
 
 #include <gtest/gtest.h>
 
@@ -22,11 +22,11 @@ TEST(Pace, HoldsWhatIsAskedForToTheLimits) {
 
 TEST(Pace, SpendsFewerBitsWhilePicturesWaitInLine) {
   Pace pace(kLimits, {640, 360}, 30.0f);
-  for (int i = 0; i < 10; ++i) pace.delivered(20.0);
+  for (int i = 0; i < 10; ++i) pace.delivered(20.0, 20.0);
   const std::uint32_t before = pace.bitrate();
-  for (int i = 0; i < 5; ++i) pace.delivered(500.0);
+  for (int i = 0; i < 5; ++i) pace.delivered(500.0, 500.0);
   EXPECT_LT(pace.bitrate(), before / 2);
-  for (int i = 0; i < 100; ++i) pace.delivered(20.0);
+  for (int i = 0; i < 100; ++i) pace.delivered(20.0, 20.0);
   EXPECT_GT(pace.bitrate(), before / 2);
   EXPECT_LE(pace.bitrate(), kLimits.bitrate);
 }
@@ -34,8 +34,32 @@ TEST(Pace, SpendsFewerBitsWhilePicturesWaitInLine) {
 TEST(Pace, ALongPathIsNoReasonToSpendFewer) {
   Pace pace(kLimits, {640, 360}, 30.0f);
   const std::uint32_t before = pace.bitrate();
-  for (int i = 0; i < 20; ++i) pace.delivered(300.0);
+  for (int i = 0; i < 20; ++i) pace.delivered(300.0, 300.0);
   EXPECT_GE(pace.bitrate(), before);
+}
+
+TEST(Pace, AMachineThatIsBusyIsNoReasonToSpendFewer) {
+  Pace pace(kLimits, {640, 360}, 30.0f);
+  for (int i = 0; i < 10; ++i) pace.delivered(20.0, 2.0);
+  const std::uint32_t before = pace.bitrate();
+  for (int i = 0; i < 50; ++i) {
+    // The client decodes late, and its system tells late of what has come
+    pace.delivered(800.0, 44.0);
+    pace.made(20.0);
+  }
+  EXPECT_GE(pace.bitrate(), before);
+  EXPECT_EQ(pace.size(), glm::uvec2(640, 360));
+  EXPECT_GT(pace.round_trip_ms(), 700.0);
+}
+
+TEST(Pace, APathWithoutRoomMakesPicturesSmaller) {
+  Pace pace(kLimits, {640, 360}, 30.0f);
+  for (int i = 0; i < 10; ++i) pace.delivered(20.0, 2.0);
+  for (int i = 0; i < 50; ++i) {
+    pace.delivered(800.0, 780.0);
+    pace.made(20.0);
+  }
+  EXPECT_LT(pace.size().x, 640u);
 }
 
 TEST(Pace, PicturesShrinkWhereRenderingIsSlowAndGrowAgain) {
@@ -44,7 +68,7 @@ TEST(Pace, PicturesShrinkWhereRenderingIsSlowAndGrowAgain) {
   EXPECT_LT(pace.size().x, 640u);
   for (int i = 0; i < 1000; ++i) {
     pace.made(10.0);
-    pace.delivered(20.0);
+    pace.delivered(20.0, 20.0);
   }
   EXPECT_EQ(pace.size(), glm::uvec2(1280, 720));
 }

@@ -110,7 +110,7 @@ TEST(Server, RefusesAnEditOfWhatIsNotThereAndGoesOn) {
   LightInput edit = lamp_off(1);
   edit.light = 99;
   ASSERT_TRUE(watcher.client().send(edit));
-  const auto refusal = next<Refusal>(watcher.client());
+  const auto refusal = watcher.refusal();
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::refused_input);
   ASSERT_TRUE(watcher.client().send(Ping{77, 0}));
@@ -172,7 +172,7 @@ TEST_F(WithTokens, OnlyWhoHasOneGetsInAndOnlyInItsRole) {
   EXPECT_EQ(edits.welcome().role, Role::change);
   EXPECT_GT(mean(looks.picture()), 0.1);
   ASSERT_TRUE(looks.client().send(lamp_off(1)));
-  const auto refusal = next<Refusal>(looks.client());
+  const auto refusal = looks.refusal();
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::not_allowed);
   EXPECT_TRUE(is_closed(looks.client()));
@@ -184,7 +184,7 @@ TEST_F(WithTokens, WhoseTokenIsRevokedIsSentAway) {
   Watcher looks(served.address(), small_hello(kLook)), edits(served.address(), small_hello(kEdit));
   ASSERT_FALSE(HasFailure());
   write("change " + kEdit + "\n");
-  const auto refusal = next<Refusal>(looks.client());
+  const auto refusal = looks.refusal();
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::bad_token);
   EXPECT_FALSE(edits.picture().empty());
@@ -243,7 +243,7 @@ TEST(Server, SaysFarewellWhenItEnds) {
   ASSERT_FALSE(HasFailure());
   watcher.picture();
   std::thread ends([&] { EXPECT_TRUE(served.stop()); });
-  const auto refusal = next<Refusal>(watcher.client());
+  const auto refusal = watcher.refusal();
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::shutting_down);
   EXPECT_TRUE(is_closed(watcher.client()));

@@ -144,23 +144,42 @@ class Watcher {
     for (;;) {
       const auto picture = next<stream::Picture>(*client_);
       if (!picture) return {};
-      EXPECT_EQ(picture->number, last_ + 1) << "pictures are left out";
-      last_ = picture->number;
-      const auto decoded = decoder_.decode(picture->bytes);
-      if (!decoded) {
-        ADD_FAILURE() << decoded.error().message();
-        return {};
-      }
-      if (!client_->send(stream::Received{picture->number, 0.0f})) return {};
-      state_ = picture->state;
-      if (picture->input >= input) return stream::to_display(*decoded);
+      Image shown = show(*picture);
+      if (shown.empty() || picture->input >= input) return shown;
     }
+  }
+
+  /// What the server refuses next; pictures that come before are shown. None where nothing comes.
+  std::optional<stream::Refusal> refusal() {
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (std::chrono::steady_clock::now() < end) {
+      const auto message = client_->receive(std::chrono::milliseconds(100));
+      if (!message) return std::nullopt;
+      if (!*message) continue;
+      if (const auto* refusal = std::get_if<stream::Refusal>(&**message)) return *refusal;
+      if (const auto* picture = std::get_if<stream::Picture>(&**message)) show(*picture);
+    }
+    return std::nullopt;
   }
 
   /// The update of the world that the last picture showed.
   std::uint64_t state() const { return state_; }
 
  private:
+  /// Decodes a picture, and tells the server; empty where either fails.
+  Image show(const stream::Picture& picture) {
+    EXPECT_EQ(picture.number, last_ + 1) << "pictures are left out";
+    last_ = picture.number;
+    const auto decoded = decoder_.decode(picture.bytes);
+    if (!decoded) {
+      ADD_FAILURE() << decoded.error().message();
+      return {};
+    }
+    if (!client_->send(stream::Received{picture.number, 0.0f})) return {};
+    state_ = picture.state;
+    return stream::to_display(*decoded);
+  }
+
   stream::PictureDecoder decoder_;
   std::unique_ptr<stream::Client> client_;
   stream::Welcome welcome_;

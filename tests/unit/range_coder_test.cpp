@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/light/range_coder.h"
+#include "stream/coding/range_coder.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "stream/light/bit_models.h"
+#include "stream/coding/bit_models.h"
 
 namespace lambent::stream {
 namespace {

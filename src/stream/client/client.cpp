@@ -13,6 +13,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "stream/broker/broker.h"
+
 namespace lambent::stream {
 namespace {
 
@@ -212,6 +214,7 @@ Expected<std::unique_ptr<Client>> Client::connect(const ConnectSettings& setting
 }
 
 Expected<Joined> join(const ConnectSettings& settings, const Hello& hello) {
+  if (!settings.broker.name.empty()) return join_through_broker(settings, hello);
   auto client = Client::connect(settings);
   if (!client) return tl::unexpected(client.error());
   if (const auto sent = (*client)->send(hello); !sent) return tl::unexpected(sent.error());

@@ -15,12 +15,19 @@
 
 namespace lambent::stream {
 
+/// A stream of light at a broker.
+struct BrokerAddress {
+  std::string url;   ///< nats://HOST:PORT, with a user and password where it needs them.
+  std::string name;  ///< Of the stream there, of letters, digits, - and _.
+};
+
 struct ConnectSettings {
   std::string host = "localhost";
   std::uint16_t port = 8080;
   bool tls = false;
   /// A PEM file of whom to trust besides, or in place of, the system's authorities; empty: these.
   std::string authority;
+  BrokerAddress broker;                       ///< In place of a server; no name: none.
   std::string origin;                         ///< As browsers send it; empty: none.
   std::chrono::milliseconds timeout{10'000};  ///< To connect, and to send a message.
 };
@@ -45,7 +52,8 @@ class Client {
   virtual void close() = 0;
 };
 
-/// Connects and says hello; the welcome, where the server takes the client in.
+/// Connects and says hello, to a server or through a broker; the welcome, where the server takes
+/// the client in.
 struct Joined {
   std::unique_ptr<Client> client;
   Welcome welcome;

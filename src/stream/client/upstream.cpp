@@ -10,7 +10,7 @@ namespace {
 
 // Messages that wait to be sent; a server that takes none of them is lost soon.
 constexpr std::size_t kMaxWaiting = 512;
-// Of light that nobody has taken: servers stop at eight updates, so that more is no server's.
+// Of light that nobody has taken: servers stop at 64 updates, so that more is no server's.
 constexpr std::size_t kMaxArrivedBytes = std::size_t{1} << 30u, kMaxArrived = 65'536;
 // A server that is there again answers sooner.
 constexpr std::chrono::milliseconds kShort{1'000};

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "stream/light/bit_models.h"
-#include "stream/light/signed_number.h"
+#include "stream/coding/bit_models.h"
+#include "stream/coding/signed_number.h"
 
 namespace lambent::stream {
 namespace {

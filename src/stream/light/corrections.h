@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "field/correction/correction_table.h"
-#include "stream/light/range_coder.h"
+#include "stream/coding/range_coder.h"
 
 namespace lambent::stream {
 

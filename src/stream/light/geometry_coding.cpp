@@ -2,15 +2,15 @@
 #include "stream/light/geometry_coding.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <string>
 
 #include "core/little_endian.h"
-#include "stream/light/bit_models.h"
+#include "core/parallel.h"
 #include "stream/light/message.h"
-#include "stream/light/signed_number.h"
+#include "stream/light/probe_coding.h"
 
 namespace lambent::stream {
 namespace {
@@ -28,93 +28,6 @@ constexpr std::uint32_t kSameCorrections = 0xFFFFFFFFu;
 /// The blocks that a field of so many probes has room for.
 std::uint64_t most_blocks(std::uint64_t probes) {
   return std::uint64_t{kCorrectionBucketsPerProbe} * kCorrectionBucket * probes;
-}
-
-/// Contexts of probes' records. The numbers of texels are told by how much the texels beside them
-/// differ from one another.
-struct ProbeModels {
-  static constexpr int kActivities = 5, kStateBits = 3;
-  using Number = SignedNumberModels;
-  std::array<BitModel, 2> changed;
-  std::array<BitModel, 1 << kStateBits> state;
-  BitModel centred, blank;
-  std::array<std::array<Number, kActivities>, 2> numbers;  // of means, and of deviations
-};
-
-/// What is expected of a number from those to its left, above, and above left (the median edge
-/// detector of LOCO-I: Weinberger et al., "The LOCO-I Lossless Image Compression Algorithm", IEEE
-/// Transactions on Image Processing 9(8), 2000).
-int expected_number(int left, int above, int corner) {
-  const auto [low, high] = std::minmax(left, above);
-  return std::clamp(left + above - corner, low, high);
-}
-
-int activity_of(int left, int above, int corner) {
-  const int sum = std::abs(left - corner) + std::abs(above - corner);
-  return sum == 0 ? 0 : sum <= 2 ? 1 : sum <= 5 ? 2 : sum <= 12 ? 3 : 4;
-}
-
-/// Codes one number of each texel of a tile, as what it differs by from that of `before`. Returns
-/// whether all are within 0 to `most`.
-template <class Coder>
-bool code_tile(Coder& coder, std::array<ProbeModels::Number, ProbeModels::kActivities>& models,
-               std::uint8_t CodedMoments::*number, int edge, int most,
-               std::span<const CodedMoments> before, std::span<CodedMoments> tile) {
-  const auto difference = [&](int x, int y) {
-    if (x < 0 || y < 0) return 0;
-    const std::size_t t = static_cast<std::size_t>(y) * edge + x;
-    return int{tile[t].*number} - int{before[t].*number};
-  };
-  for (int y = 0; y < edge; ++y) {
-    for (int x = 0; x < edge; ++x) {
-      const int left = x > 0 ? difference(x - 1, y) : difference(x, y - 1);
-      const int above = y > 0 ? difference(x, y - 1) : left;
-      const int corner = x > 0 && y > 0 ? difference(x - 1, y - 1) : left;
-      const int expected = expected_number(left, above, corner);
-      const std::size_t t = static_cast<std::size_t>(y) * edge + x;
-      const int coded = code_signed(coder, models[activity_of(left, above, corner)],
-                                    Coder::kWrites ? difference(x, y) - expected : 0);
-      const int value = before[t].*number + expected + coded;
-      if (value < 0 || value > most) return false;
-      tile[t].*number = static_cast<std::uint8_t>(value);
-    }
-  }
-  return true;
-}
-
-/// Codes a probe's record: its state, offset and distances, these as what they differ by from
-/// `before`, which may be blank. Returns false on what no encoder wrote.
-template <class Coder>
-bool code_probe(Coder& coder, ProbeModels& models, int probe, std::span<const CodedMoments> before,
-                FieldGeometry& geometry) {
-  int state = Coder::kWrites ? static_cast<int>(geometry.states[probe]) : 0, node = 1;
-  for (int bit = ProbeModels::kStateBits - 1; bit >= 0; --bit) {
-    node = 2 * node + (code_bit(coder, models.state[node], (state >> bit & 1) != 0) ? 1 : 0);
-  }
-  state = node - (1 << ProbeModels::kStateBits);
-  if (state > static_cast<int>(ProbeState::vigilant)) return false;
-  geometry.states[probe] = static_cast<ProbeState>(state);
-
-  std::uint32_t& offset = geometry.offsets[probe];
-  if (code_bit(coder, models.centred, offset == 0)) {
-    offset = 0;
-  } else {
-    offset = coder.bits(3 * kOffsetBits, offset);
-    if (encode_probe_offset(decode_probe_offset(offset)) != offset) return false;
-  }
-  const std::span tile(&geometry.moments[probe * geometry.tile()], geometry.tile());
-  const bool is_blank = std::all_of(tile.begin(), tile.end(), [](const CodedMoments& moments) {
-    return moments == CodedMoments{};
-  });
-  if (code_bit(coder, models.blank, is_blank)) {
-    std::fill(tile.begin(), tile.end(), CodedMoments{});
-    return true;
-  }
-  const int edge = geometry.distance_texels;
-  return code_tile(coder, models.numbers[0], &CodedMoments::mean, edge, CodedMoments::kMaxMean,
-                   before, tile) &&
-         code_tile(coder, models.numbers[1], &CodedMoments::deviation, edge,
-                   CodedMoments::kMaxDeviation, before, tile);
 }
 
 void write_vec3(const vec3& v, ByteWriter& out) {
@@ -195,6 +108,54 @@ void write_volume(const Volume& volume, ByteWriter& out) {
   write_place(volume.grid, out);
 }
 
+/// Probes' records are in sections, each with models of its own, so that all cores code them.
+constexpr int kSectionProbes = 512;
+
+std::size_t section_count(int probes) {
+  return (static_cast<std::size_t>(probes) + kSectionProbes - 1) / kSectionProbes;
+}
+
+/// Calls body(section) for each; on all cores, where there are threads.
+void for_each_section(std::size_t count, const std::function<void(std::size_t)>& body) {
+#ifdef __EMSCRIPTEN__
+  for (std::size_t section = 0; section < count; ++section) body(section);
+#else
+  parallel_chunks(count, 1, [&](std::size_t begin, std::size_t) { body(begin); });
+#endif
+}
+
+/// Codes the records of a section. Returns false on what no encoder wrote.
+template <class Coder>
+bool code_section(Coder& coder, std::size_t section, FieldGeometry& geometry) {
+  ProbeModels models;
+  const std::vector<CodedMoments> blank(geometry.tile());
+  const int first = static_cast<int>(section) * kSectionProbes;
+  const int end = std::min(first + kSectionProbes, geometry.probes());
+  for (int probe = first; probe < end; ++probe) {
+    if (!code_probe(coder, models, probe, blank, geometry)) return false;
+  }
+  return true;
+}
+
+/// The bytes of corrections, and of each section.
+Expected<std::vector<std::span<const std::byte>>> read_sections(std::span<const std::byte> bytes,
+                                                                int probes) {
+  std::vector<std::span<const std::byte>> sections(section_count(probes) + 1);
+  ByteReader sizes(bytes);
+  if (sizes.left() < sizeof(std::uint32_t) * sections.size()) {
+    return bad_stream("geometry", "is cut short");
+  }
+  std::span<const std::byte> rest = bytes.subspan(sizeof(std::uint32_t) * sections.size());
+  for (std::span<const std::byte>& section : sections) {
+    const std::uint32_t size = sizes.u32();
+    if (size > rest.size()) return bad_stream("geometry", "is cut short");
+    section = rest.first(size);
+    rest = rest.subspan(size);
+  }
+  if (!rest.empty()) return bad_stream("geometry", "goes on after its end");
+  return sections;
+}
+
 /// How many volumes and blocks of corrections there are.
 struct Counts {
   std::uint32_t volumes = 0, blocks = 0;
@@ -225,15 +186,19 @@ std::vector<std::byte> write_geometry(const FieldGeometry& geometry) {
   out.u32(static_cast<std::uint32_t>(geometry.volumes.size()));
   out.u32(static_cast<std::uint32_t>(geometry.corrections.size()));
   for (const Volume& volume : geometry.volumes) write_volume(volume, out);
-  RangeEncoder coder;
-  ProbeModels models;
   FieldGeometry copy = geometry;
-  const std::vector<CodedMoments> blank(geometry.tile());
-  for (int probe = 0; probe < copy.probes(); ++probe) {
-    code_probe(coder, models, probe, blank, copy);
-  }
-  write_corrections(coder, geometry.corrections);
-  out.raw(coder.finish());
+  std::vector<std::vector<std::byte>> sections(section_count(geometry.probes()) + 1);
+  for_each_section(sections.size(), [&](std::size_t section) {
+    RangeEncoder coder;
+    if (section == 0) {
+      write_corrections(coder, geometry.corrections);
+    } else {
+      code_section(coder, section - 1, copy);
+    }
+    sections[section] = coder.finish();
+  });
+  for (const auto& section : sections) out.u32(static_cast<std::uint32_t>(section.size()));
+  for (const auto& section : sections) out.raw(section);
   return out.take();
 }
 
@@ -266,19 +231,22 @@ Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size
   geometry.offsets.resize(probes);
   geometry.states.resize(probes);
   geometry.moments.resize(probes * geometry.tile());
-  RangeDecoder coder(body.subspan(body.size() - in.left()));
-  ProbeModels models;
-  const std::vector<CodedMoments> blank(geometry.tile());
-  for (int probe = 0; probe < geometry.probes(); ++probe) {
-    if (!code_probe(coder, models, probe, blank, geometry) || coder.overrun()) {
-      return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
-    }
-  }
   geometry.corrections.resize(counts->blocks);
-  if (!read_corrections(coder, counts->volumes, geometry.corrections)) {
-    return bad_stream("geometry", "holds senseless corrections");
+  const auto sections = read_sections(body.subspan(body.size() - in.left()), geometry.probes());
+  if (!sections) return tl::unexpected(sections.error());
+  std::vector<std::uint8_t> sound(sections->size());
+  for_each_section(sections->size(), [&](std::size_t section) {
+    RangeDecoder coder((*sections)[section]);
+    const bool read = section == 0 ? read_corrections(coder, counts->volumes, geometry.corrections)
+                                   : code_section(coder, section - 1, geometry) && !coder.overrun();
+    sound[section] = read && coder.left() == 0 ? 1 : 0;
+  });
+  if (sound[0] == 0) return bad_stream("geometry", "holds senseless corrections");
+  const auto bad = std::find(sound.begin(), sound.end(), std::uint8_t{0});
+  if (bad != sound.end()) {
+    return bad_stream("geometry", "holds senseless records in section " +
+                                      std::to_string(std::distance(sound.begin(), bad)));
   }
-  if (coder.left() > 0) return bad_stream("geometry", "goes on after its end");
   return geometry;
 }
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "stream/light/bit_models.h"
+#include "stream/coding/bit_models.h"
 
 namespace lambent::stream {
 

@@ -45,17 +45,22 @@ std::optional<Refusal> ClientLink::take_edit(const Edit& edit) {
   return std::nullopt;
 }
 
-void ClientLink::take_received(const Received& received, Clock::time_point now) {
+void ClientLink::take_received(const Received& received, Clock::time_point now,
+                               std::optional<PathTime> path) {
+  using Milliseconds = std::chrono::duration<double, std::milli>;
   while (!under_way_.empty() && under_way_.front().number <= received.picture) {
     // One that was not sent yet cannot have arrived
-    if (!under_way_.front().sent) return;
-    const std::chrono::duration<double, std::milli> took = now - *under_way_.front().sent;
-    inputs_.round_trips_ms.push_back(took.count());
+    const UnderWay& one = under_way_.front();
+    if (!one.sent) return;
+    const Milliseconds took = now - *one.sent;
+    const Milliseconds on_path = path && one.path ? Milliseconds(*path - *one.path) : took;
+    inputs_.arrivals.push_back({took.count(), std::min(on_path, took).count()});
     under_way_.pop_front();
   }
 }
 
-std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_point now) {
+std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_point now,
+                                           std::optional<PathTime> path) {
   std::optional<Refusal> refusal;
   std::optional<Ping> answer;
   {
@@ -83,7 +88,7 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
             [&](const LightInput& edit) { return take_edit(edit); },
             [&](const ObjectInput& edit) { return take_edit(edit); },
             [&](const Received& received) -> std::optional<Refusal> {
-              take_received(received, now);
+              take_received(received, now, path);
               return std::nullopt;
             },
             [&](const LightReceived& received) -> std::optional<Refusal> {
@@ -108,7 +113,7 @@ std::optional<Refusal> ClientLink::receive(const Message& message, Clock::time_p
 }
 
 void ClientLink::take_light_received(const LightReceived& received) {
-  while (!updates_under_way_.empty() && updates_under_way_.front() <= received.update) {
+  while (!updates_under_way_.empty() && updates_under_way_.front().update <= received.update) {
     updates_under_way_.pop_front();
   }
   known_geometry_ = received.geometry;
@@ -116,10 +121,17 @@ void ClientLink::take_light_received(const LightReceived& received) {
   if (received.needs_key == 1 && received.update >= all_sent_at_) light_lost_ = true;
 }
 
+bool ClientLink::is_late() const {
+  if (updates_under_way_.size() < kUpdatesUnderWay) return false;
+  if (updates_under_way_.size() >= kMostUpdatesUnderWay) return true;
+  std::size_t bytes = 0;
+  for (const LightUnderWay& one : updates_under_way_) bytes += one.bytes;
+  return 2 * bytes >= whole_bytes_;
+}
+
 LightNeed ClientLink::need_light() {
   const std::lock_guard lock(mutex_);
-  // Those that wait to be written count, too: a key in their place would be longer than they are
-  const bool late = updates_under_way_.size() >= kUpdatesUnderWay;
+  const bool late = is_late();
   if (late) light_lost_ = true;
   if (gone_ || late) return LightNeed::nothing;
   return light_lost_ ? LightNeed::all : LightNeed::changes;
@@ -136,7 +148,11 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
     const std::lock_guard lock(mutex_);
     if (gone_ || messages.empty()) return;
     light_.insert(light_.end(), messages.begin(), messages.end());
-    updates_under_way_.push_back(update);
+    std::size_t bytes = 0;
+    for (const SharedBytes& message : messages) bytes += message->size();
+    // A beginning takes its time, and keeps nobody from following it
+    updates_under_way_.push_back({update, what == LightNeed::all ? 0 : bytes});
+    if (what == LightNeed::all) whole_bytes_ = bytes;
     if (what == LightNeed::all) {
       light_lost_ = false;
       all_sent_at_ = update;
@@ -153,7 +169,7 @@ void ClientLink::begin_light_anew() {
   light_lost_ = true;
 }
 
-SharedBytes ClientLink::next(Clock::time_point now) {
+SharedBytes ClientLink::next(Clock::time_point now, std::optional<PathTime> path) {
   const std::lock_guard lock(mutex_);
   if (!notices_.empty()) {
     auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(notices_.front()));
@@ -167,7 +183,9 @@ SharedBytes ClientLink::next(Clock::time_point now) {
   }
   if (!picture_) return nullptr;
   for (UnderWay& one : under_way_) {
-    if (one.number == waiting_picture_) one.sent = now;
+    if (one.number != waiting_picture_) continue;
+    one.sent = now;
+    one.path = path;
   }
   auto bytes = std::make_shared<const std::vector<std::byte>>(std::move(*picture_));
   picture_.reset();
@@ -215,7 +233,7 @@ void ClientLink::put_picture(const Picture& picture) {
     if (gone_) return;
     picture_ = std::move(bytes);
     waiting_picture_ = picture.number;
-    under_way_.push_back({picture.number, std::nullopt});
+    under_way_.push_back({picture.number, {}, {}});
   }
   wake_connection_();
 }

@@ -15,18 +15,25 @@
 #include <vector>
 
 #include "stream/edits/edits.h"
+#include "stream/pace/path_time.h"
 #include "stream/protocol/messages.h"
 #include "stream/server/rate_limit.h"
 
 namespace lambent::stream {
+
+/// A picture that a client has decoded.
+struct Arrival {
+  double round_trip_ms = 0.0;  ///< From when it was written until the client told of it.
+  double path_ms = 0.0;        ///< Of that, while bytes were on their way (PathTime).
+};
 
 /// What a client sent since it was last asked.
 struct ClientInputs {
   std::optional<CameraInput> camera;
   std::optional<PictureRequest> request;
   std::optional<Interest> interest;
-  std::vector<Edit> edits;             ///< In their order; one a target.
-  std::vector<double> round_trips_ms;  ///< Of pictures that the client has decoded since.
+  std::vector<Edit> edits;        ///< In their order; one a target.
+  std::vector<Arrival> arrivals;  ///< Of pictures that the client has decoded since.
   /// The number of its last input; where edits wait, of the last one before these.
   std::uint32_t last_input = 0;
   bool any() const { return camera || request || !edits.empty(); }
@@ -48,9 +55,11 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   /// Pictures that a client may have been sent without word of their arrival: one that travels and
   /// one that is decoded.
   static constexpr std::size_t kPicturesUnderWay = 2;
-  /// The same of updates of light, those that wait to be written among them: most of a second, on
-  /// long paths.
-  static constexpr std::size_t kUpdatesUnderWay = 8;
+  /// The same of updates of light, those that wait to be written among them. More may be, as long
+  /// as they have less than half the bytes of what the client was sent when it began: where a path
+  /// has lost something, the updates that wait for it are there sooner than a beginning anew would
+  /// be.
+  static constexpr std::size_t kUpdatesUnderWay = 8, kMostUpdatesUnderWay = 64;
   /// Edits of different targets between two updates of the world.
   static constexpr std::size_t kMaxEdits = 64;
   /// Notices that wait for a connection; more means that it is stuck.
@@ -70,10 +79,12 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   // The connection's side
 
   /// Takes a message of the client's. What is returned is why the client must go: it sent what it
-  /// may not, or too much.
-  std::optional<Refusal> receive(const Message& message, Clock::time_point now);
+  /// may not, or too much. `path` is the connection's path time so far, for clients of pictures;
+  /// none where it is not known.
+  std::optional<Refusal> receive(const Message& message, Clock::time_point now,
+                                 std::optional<PathTime> path = std::nullopt);
   /// What is to be written next, notices before light before the picture; null: nothing.
-  SharedBytes next(Clock::time_point now);
+  SharedBytes next(Clock::time_point now, std::optional<PathTime> path = std::nullopt);
   /// The connection is gone; the world forgets the client.
   void leave();
 
@@ -103,9 +114,15 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   struct UnderWay {
     std::uint32_t number = 0;
     std::optional<Clock::time_point> sent;
+    std::optional<PathTime> path;  // when it was sent
   };
+  struct LightUnderWay {
+    std::uint64_t update = 0;
+    std::size_t bytes = 0;  // of changes
+  };
+  bool is_late() const;
   std::optional<Refusal> take_edit(const Edit& edit);
-  void take_received(const Received& received, Clock::time_point now);
+  void take_received(const Received& received, Clock::time_point now, std::optional<PathTime> path);
   void take_light_received(const LightReceived& received);
 
   const Hello hello_;
@@ -121,8 +138,9 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   std::uint32_t waiting_picture_ = 0;  // its number
   std::deque<std::vector<std::byte>> notices_;
   std::deque<SharedBytes> light_;
-  std::deque<std::uint64_t> updates_under_way_;
-  bool light_lost_ = true;  // changes would lead from what the client does not have
+  std::deque<LightUnderWay> updates_under_way_;
+  std::size_t whole_bytes_ = 0;  // of the last light that was sent from its beginning
+  bool light_lost_ = true;       // changes would lead from what the client does not have
   std::uint64_t all_sent_at_ = 0, known_geometry_ = 0;
 };
 

@@ -12,6 +12,7 @@
 #include "stream/server/access.h"
 #include "stream/server/hub.h"
 #include "stream/server/listener.h"
+#include "stream/session/session_file.h"
 
 namespace lambent::stream {
 
@@ -38,9 +39,23 @@ struct ConnectionContext {
   Access access;
   HostCheck hosts;
   std::unique_ptr<boost::asio::ssl::context> tls;  // null: none
+  std::optional<SessionWriter> session;
+  std::chrono::steady_clock::time_point session_start = std::chrono::steady_clock::now();
+  std::uint32_t session_clients = 0;  // so far
   std::size_t connections = 0;
   std::vector<std::weak_ptr<Session>> sessions;
   boost::asio::io_context io{1};  // last: connections that it keeps end before all else
+
+  /// Writes what a client did, where a session is recorded; none: it has gone.
+  void record(std::uint32_t client, std::optional<Message> message) {
+    if (!session) return;
+    const auto since = std::chrono::duration_cast<std::chrono::microseconds>(
+        std::chrono::steady_clock::now() - session_start);
+    const auto added = session->add({since, client, std::move(message)});
+    if (added) return;
+    settings.log("the session is recorded no longer: " + added.error().message());
+    session.reset();
+  }
 
   void count_refused() {
     hub.edit_stats([](HubStats& stats) { ++stats.refused; });

@@ -103,7 +103,8 @@ void LightSender::follow_by_regions(std::span<const LightMessage> changes) {
 Expected<void> LightSender::send_coded(const IrradianceField& field, float time_s,
                                        std::span<const Edit> edits, const Receivers& to) {
   // Nobody pays for light that nobody gets
-  if (!to.any()) return {};
+  is_current_ = to.any();
+  if (!is_current_) return {};
   const auto changes = encoder_.encode(field);
   if (!changes) return tl::unexpected(changes.error());
   follow_by_regions(*changes);
@@ -119,9 +120,14 @@ Expected<void> LightSender::send_coded(const IrradianceField& field, float time_
       }
     }
   }
+  return begin(to.begin, time_s);
+}
+
+/// Sends all that there is as of the last update.
+Expected<void> LightSender::begin(std::span<ClientLink* const> clients, float time_s) {
   // Many who come at once are sent the same bytes
   std::map<std::uint64_t, std::vector<SharedBytes>> by_geometry;
-  for (ClientLink* client : to.begin) {
+  for (ClientLink* client : clients) {
     const std::uint64_t known = client->known_geometry();
     if (regions_.serves(*client)) {
       auto all = encoder_.join(known);
@@ -139,6 +145,19 @@ Expected<void> LightSender::send_coded(const IrradianceField& field, float time_
     put(*client, messages->second, encoder_.update(), LightNeed::all);
   }
   return {};
+}
+
+Expected<void> LightSender::greet(const IrradianceField& field, float time_s,
+                                  std::span<ClientLink* const> newcomers) {
+  const Receivers to = receivers_of(newcomers, kWantsLight);
+  if (!to.any()) return {};
+  if (!is_current_) {
+    // Nobody follows, who would miss this update
+    const auto changes = encoder_.encode(field);
+    if (!changes) return tl::unexpected(changes.error());
+    is_current_ = true;
+  }
+  return begin(to.begin, time_s);
 }
 
 /// As send_coded; a key is one for all, and comes once a second at most.

@@ -30,6 +30,11 @@ class LightSender {
   Expected<void> send(const IrradianceField& field, float time_s,
                       std::span<ClientLink* const> clients);
 
+  /// Sends the light as it is between two updates to clients that have just come and want it, so
+  /// that they need not wait for the next one.
+  Expected<void> greet(const IrradianceField& field, float time_s,
+                       std::span<ClientLink* const> newcomers);
+
   /// The number of the next update that a client is sent: the first that shows edits added now.
   std::uint64_t next_update(const ClientLink& client) const;
   /// To all clients so far.
@@ -48,6 +53,7 @@ class LightSender {
   std::vector<Edit> all_edits() const;
   Expected<void> send_coded(const IrradianceField& field, float time_s, std::span<const Edit> edits,
                             const Receivers& to);
+  Expected<void> begin(std::span<ClientLink* const> clients, float time_s);
   Expected<void> send_textures(const IrradianceField& field, float time_s,
                                std::span<const Edit> edits, Receivers to);
 
@@ -55,6 +61,7 @@ class LightSender {
 
   LightEncoder encoder_;
   RegionSender regions_;
+  bool is_current_ = false;               // the encoder has the field's last update
   LightDecoder whole_;                    // follows the encoder while somebody gets regions
   std::optional<LightEncoder> textures_;  // where there is a video codec
   Clock::time_point next_texture_key_;    // not before

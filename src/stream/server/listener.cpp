@@ -69,6 +69,11 @@ class BeastListener : public Listener {
       if (!tls) return tl::unexpected(tls.error());
       context_.tls = std::move(*tls);
     }
+    if (!context_.settings.record.empty()) {
+      auto session = SessionWriter::create(context_.settings.record);
+      if (!session) return tl::unexpected(session.error());
+      context_.session.emplace(std::move(*session));
+    }
     const auto endpoint = resolve(context_.io, context_.settings);
     if (!endpoint) return tl::unexpected(endpoint.error());
     if (const auto bound = bind(*endpoint); !bound) return bound;

@@ -25,6 +25,7 @@ struct ListenSettings {
   std::vector<std::string> origins;
   /// A .glb file that whoever may look gets as /scene.glb; null: none.
   std::shared_ptr<const std::string> scene;
+  std::string record;  ///< A file that becomes the session (SessionWriter); empty: none.
   std::size_t max_connections = 64;  ///< Clients and plain requests at a time.
   double max_message_rate = 200.0;   ///< Messages of a client a second.
   /// Until a connection has said what it wants.

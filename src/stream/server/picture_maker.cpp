@@ -26,7 +26,7 @@ PictureMaker::PictureMaker(const World& world, const IrradianceField& field,
       camera_(camera) {}
 
 void PictureMaker::follow(const ClientInputs& inputs) {
-  for (const double ms : inputs.round_trips_ms) pace_.delivered(ms);
+  for (const Arrival& one : inputs.arrivals) pace_.delivered(one.round_trip_ms, one.path_ms);
   if (inputs.request) pace_.ask(inputs.request->size, inputs.request->rate);
   if (inputs.camera) camera_ = camera_of(*inputs.camera);
   if (inputs.any()) still_pictures_ = 0;

@@ -8,9 +8,9 @@
 #include "core/image/tone_map.h"
 #include "lambent/renderer.h"
 #include "stream/edits/edits.h"
+#include "stream/pace/pace.h"
 #include "stream/picture/h264.h"
 #include "stream/server/client_link.h"
-#include "stream/server/pace.h"
 
 namespace lambent::stream {
 

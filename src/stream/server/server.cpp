@@ -41,11 +41,17 @@ Expected<std::unique_ptr<Server>> Server::listening(std::unique_ptr<Server> serv
   auto listener = Listener::open(listen, server->hub_);
   if (!listener) return tl::unexpected(listener.error());
   server->listener_ = std::move(*listener);
+  if (!settings.publish.name.empty()) {
+    auto publisher = BrokerPublisher::open(settings.publish, server->hub_, listen.log);
+    if (!publisher) return tl::unexpected(publisher.error());
+    server->publisher_ = std::move(*publisher);
+  }
   return server;
 }
 
 Expected<void> Server::run(const std::function<bool()>& stop) {
   Expected<void> done = loop_.run(stop);
+  publisher_.reset();
   listener_->drain();
   return done;
 }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 
+#include "stream/broker/broker.h"
 #include "stream/server/listener.h"
 #include "stream/server/world_loop.h"
 
@@ -16,6 +17,7 @@ struct ServerSettings {
   std::size_t max_clients = 8;
   /// Of these, clients of pictures: each takes a renderer's memory (Renderer).
   std::size_t max_picture_clients = 8;
+  BrokerAddress publish;  ///< Where light goes besides, as one of the clients; no name: nowhere.
 };
 
 class Server {
@@ -47,6 +49,7 @@ class Server {
   Upstream* upstream_ = nullptr;  // that wakes the hub; null: none
   WorldLoop loop_;
   std::unique_ptr<Listener> listener_;
+  std::unique_ptr<BrokerPublisher> publisher_;  // null: none
 };
 
 }  // namespace lambent::stream

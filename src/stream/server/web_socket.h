@@ -83,6 +83,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
     if (!link_) return;
     context_.hub.leave(link_);
     link_.reset();
+    context_.record(session_client_, std::nullopt);
   }
 
   void read() {
@@ -110,7 +111,11 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
         parse_message({static_cast<const std::byte*>(data.data()), data.size()}, Sender::client);
     if (!message) return refuse({Refusal::Code::bad_message, message.error().message()});
     if (!link_) return greet(*message);
-    if (auto refusal = link_->receive(*message, now)) refuse(std::move(*refusal));
+    if (auto refusal = link_->receive(*message, now, path_time())) {
+      refuse(std::move(*refusal));
+    } else if (belongs_to_session(*message)) {
+      context_.record(session_client_, *message);
+    }
   }
 
   void greet(const Message& message) {
@@ -143,6 +148,14 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
                               });
     if (!link_) return refuse({Refusal::Code::too_many, "there are as many clients as may be"});
     link_->put_notice(welcome);
+    session_client_ = ++context_.session_clients;
+    context_.record(session_client_, kept);
+  }
+
+  /// Of clients of pictures, whose pace follows it.
+  std::optional<PathTime> path_time() {
+    if (!link_->wants(kWantsPicture)) return std::nullopt;
+    return path_time_of(boost::beast::get_lowest_layer(socket_).socket().native_handle());
   }
 
   /// Writes what there is to write, unless something is being written.
@@ -152,7 +165,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
       outgoing_ = std::make_shared<const std::vector<std::byte>>(std::move(*farewell_));
       closing_ = true;
     } else if (link_) {
-      outgoing_ = link_->next(Clock::now());
+      outgoing_ = link_->next(Clock::now(), path_time());
       if (!outgoing_) return;
     } else {
       return;
@@ -182,6 +195,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
   std::optional<Clock::time_point> writing_since_, close_deadline_;
   std::optional<Admission> admission_;
   std::shared_ptr<ClientLink> link_;
+  std::uint32_t session_client_ = 0;
   SharedBytes outgoing_;
   std::optional<std::vector<std::byte>> farewell_;
   bool closing_ = false;

@@ -68,10 +68,11 @@ void WorldLoop::welcome() {
   hub_.set_welcome(told);
 }
 
-/// Takes in who has come, and forgets who has gone.
-void WorldLoop::meet_clients() {
+/// Takes in who has come, and forgets who has gone. Returns who has come.
+std::vector<ClientLink*> WorldLoop::meet_clients() {
+  std::vector<ClientLink*> newcomers;
   const std::uint64_t membership = hub_.membership();
-  if (membership == met_) return;
+  if (membership == met_) return newcomers;
   met_ = membership;
   std::erase_if(viewers_, [](const Viewer& viewer) { return viewer.link->gone(); });
   for (const auto& link : hub_.clients()) {
@@ -79,8 +80,21 @@ void WorldLoop::meet_clients() {
                                    [&](const Viewer& viewer) { return viewer.link == link; });
     if (known || link->gone()) continue;
     viewers_.push_back({link, nullptr, link->wants(kWantsPicture)});
+    newcomers.push_back(link.get());
     // Nothing of one that had the same place in memory
     (relayed_ ? relayed_->regions() : light_->regions()).set_surroundings(*link, std::nullopt);
+  }
+  return newcomers;
+}
+
+/// Sends newcomers the light as it is, unless an update is due, which brings it.
+void WorldLoop::greet(std::span<ClientLink* const> newcomers) {
+  if (newcomers.empty() || relayed_ || Clock::now() >= next_update_) return;
+  const auto sent = light_->greet(*served_.field, time_s_, newcomers);
+  hub_.edit_stats([&](HubStats& stats) { stats.light_bytes = light_->bytes_sent(); });
+  if (sent) return;
+  for (ClientLink* client : newcomers) {
+    client->put_notice(Refusal{Refusal::Code::failed, sent.error().message()});
   }
 }
 
@@ -305,7 +319,7 @@ Expected<void> WorldLoop::run(const std::function<bool()>& stop) {
   start_ = next_update_ = Clock::now();
   next_stats_ = next_update_ + kStatsInterval;
   while (!stop()) {
-    meet_clients();
+    greet(meet_clients());
     begin_pictures();
     if (relayed_) {
       if (const auto done = follow_relayed(); !done) return done;

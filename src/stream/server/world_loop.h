@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,7 +81,8 @@ class WorldLoop {
   void forward(ClientLink& link, ClientInputs& inputs);
   Expected<void> follow_relayed();
   void welcome();
-  void meet_clients();
+  std::vector<ClientLink*> meet_clients();
+  void greet(std::span<ClientLink* const> newcomers);
   void begin_pictures();
   Expected<void> follow_clients(bool with_edits);
   Expected<void> play();

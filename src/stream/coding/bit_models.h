@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "stream/light/range_coder.h"
+#include "stream/coding/range_coder.h"
 
 namespace lambent::stream {
 

@@ -26,8 +26,10 @@ class Pace {
   void ask(glm::uvec2 size, float rate);
   /// A picture of the present size took so long to render and to encode [ms].
   void made(double ms);
-  /// The client has decoded a picture, so long after it was given to the network [ms].
-  void delivered(double round_trip_ms);
+  /// The client has decoded a picture, so long after it was given to the network; its bytes were on
+  /// their way for `path_ms` of that. Only these tell of a path that has too little room: a machine
+  /// that is busy, the client's or this one, makes pictures no smaller.
+  void delivered(double round_trip_ms, double path_ms);
 
   glm::uvec2 size() const;              ///< Even [pixels].
   float rate() const { return rate_; }  ///< Pictures a second, at most.
@@ -49,7 +51,7 @@ class Pace {
   double bits_a_pixel_ = 0.0;   // of a second's pictures at the likely rate
   double made_ms_ = 0.0;        // smoothed; 0: none yet
   double round_trip_ms_ = 0.0;  // smoothed; 0: none yet
-  double least_round_trip_ms_ = 0.0;
+  double least_path_ms_ = 0.0;
 };
 
 }  // namespace lambent::stream

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stream/server/pace.h"
+#include "stream/pace/pace.h"
 
 #include <algorithm>
 #include <array>
@@ -24,11 +24,12 @@ constexpr double kFastEnough = 0.5;
 // Pictures that must be so in a row before they grow: some seconds.
 constexpr int kSteadyPictures = 40;
 
-// Pictures that take so much longer to their client than the fastest did wait in line [ms].
+// Pictures whose bytes are on their way for so much longer than those of the fastest were wait in
+// line [ms]. Systems tell of what they have received 40 ms late where nothing is sent back at once.
 constexpr double kInLine = 60.0;
 // Down at once, up slowly: as congestion control of the internet does.
 constexpr double kLess = 0.8, kMore = 1.02;
-// The fastest round trip is forgotten, so that a path that became longer counts as it is.
+// The fastest one is forgotten, so that a path that became longer counts as it is.
 constexpr double kForgetLeast = 1.002;
 
 constexpr double kNewShare = 0.2;  // of the latest time in a smoothed one
@@ -85,12 +86,11 @@ void Pace::made(double ms) {
   choose_step();
 }
 
-void Pace::delivered(double round_trip_ms) {
+void Pace::delivered(double round_trip_ms, double path_ms) {
   round_trip_ms_ = smoothed(round_trip_ms_, round_trip_ms);
-  least_round_trip_ms_ = least_round_trip_ms_ > 0.0
-                             ? std::min(round_trip_ms, least_round_trip_ms_ * kForgetLeast)
-                             : round_trip_ms;
-  const bool waits = round_trip_ms > 2.0 * least_round_trip_ms_ + kInLine;
+  least_path_ms_ =
+      least_path_ms_ > 0.0 ? std::min(path_ms, least_path_ms_ * kForgetLeast) : path_ms;
+  const bool waits = path_ms > 2.0 * least_path_ms_ + kInLine;
   bits_a_pixel_ = std::clamp(bits_a_pixel_ * (waits ? kLess : kMore), kFewestBits / 2.0, kMostBits);
 }
 

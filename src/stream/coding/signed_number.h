@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "stream/light/bit_models.h"
+#include "stream/coding/bit_models.h"
 
 namespace lambent::stream {
 

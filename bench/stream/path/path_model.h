@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// One direction of a path through a network, as a queue: what Linux calls netem, for kernels that
+// are built without.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+
+namespace lambent::stream_path {
+
+struct PathSettings {
+  std::chrono::microseconds delay{0};  ///< Of each packet, one way.
+  double loss = 0.0;                   ///< Share of packets that are lost, each by itself, 0 to 1.
+  double rate = 0.0;                   ///< Bits a second; 0: without a bound.
+  /// Packets that come while more than this waits for its turn are lost.
+  std::chrono::microseconds queue{100'000};
+  std::uint32_t seed = 1;  ///< Of the losses.
+};
+
+/// Decides when a packet arrives, and whether it does. Packets stay in their order.
+class PathModel {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit PathModel(const PathSettings& settings) : settings_(settings), random_(settings.seed) {}
+
+  /// When a packet arrives that is sent now; none: it is lost.
+  std::optional<Clock::time_point> send(Clock::time_point now, std::size_t bytes) {
+    if (std::bernoulli_distribution(settings_.loss)(random_)) return std::nullopt;
+    free_ = std::max(free_, now);
+    if (free_ - now > settings_.queue) return std::nullopt;
+    if (settings_.rate > 0.0) {
+      constexpr double kBits = 8.0;
+      free_ += std::chrono::duration_cast<Clock::duration>(
+          std::chrono::duration<double>(kBits * static_cast<double>(bytes) / settings_.rate));
+    }
+    return free_ + settings_.delay;
+  }
+
+ private:
+  PathSettings settings_;
+  std::mt19937 random_;
+  Clock::time_point free_;  // when all that was sent before has left
+};
+
+}  // namespace lambent::stream_path

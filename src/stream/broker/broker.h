@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light through a broker: a server publishes it once, and any number of clients subscribe.
+// docs/protocol.md has the subjects and frames. In builds with LAMBENT_STREAM_NATS.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "stream/client/client.h"
+#include "stream/server/hub.h"
+
+namespace lambent::stream {
+
+/// Whether this build has a broker's client.
+bool has_broker();
+
+/// Whether an address is one of a broker's: nats://HOST[:PORT]/NAME, or tls://.
+bool is_broker_address(const std::string& text);
+/// Takes one apart. Fails, naming `option`, where it is none.
+Expected<BrokerAddress> parse_broker_address(const std::string& option, const std::string& text);
+
+/// Publishes the light of a hub's world, as one client of it, on a thread of its own.
+class BrokerPublisher {
+ public:
+  /// Refers to the hub, which must outlive it. `log` is told what goes wrong later. Fails where the
+  /// broker does not answer, the hub takes no more clients, or the build has none.
+  static Expected<std::unique_ptr<BrokerPublisher>> open(
+      const BrokerAddress& address, Hub& hub, std::function<void(const std::string&)> log);
+  virtual ~BrokerPublisher() = default;
+};
+
+/// Joins what a server publishes: a client of light alone, that may look. Fails where the broker or
+/// the server does not answer.
+Expected<Joined> join_through_broker(const ConnectSettings& settings, const Hello& hello);
+
+}  // namespace lambent::stream
