@@ -226,10 +226,22 @@ LAMBENT_FN float inverse_plane_tolerance(CameraRecord camera, vec3 position_ws) 
   return 1.0f / (kPlaneTolerance * pixel_width(camera, position_ws));
 }
 
+/// A coat as it is seen through what lies on it, which takes the same share of the light of all of
+/// its rays.
+LAMBENT_FN Reflectance coat_under_layers(Reflectance surface, float n_dot_v) {
+  if (!has_layers(surface.layers)) return surface;
+  float share = mean_coat_share(surface.layers, max(n_dot_v, 0.0f), surface.alpha);
+  Reflectance seen = surface;
+  seen.f0 *= share;
+  seen.f90 *= share;
+  seen.layers = no_layers();
+  return seen;
+}
+
 /// A pixel that reflects rays, its own and those around it.
 struct CoatReceiver {
   CoatLobe lobe;
-  Reflectance reflectance;
+  Reflectance reflectance;  ///< As of coat_under_layers().
   float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
   uint emitter_samples;     ///< Of its direct light.
   CoatRay own;              ///< Of density 0 where it has no ray.
@@ -263,12 +275,6 @@ LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction
                                  float weight, LAMBENT_INOUT(CoatSums) sums) {
   if (dot(at.lobe.geometric_normal_ws, direction_ws) <= 0.0f) return;
   vec3 reflected = weight * fresnel(at.reflectance, lobe.v_dot_h);
-  if (has_layers(at.reflectance.layers)) {
-    Frame frame = make_frame(at.lobe.normal_ws);
-    reflected *=
-        coat_share_under_layers(at.reflectance.layers, to_local(frame, at.lobe.to_viewer_ws),
-                                to_local(frame, direction_ws));
-  }
   sums.light += reflected * ray.radiance;
   sums.emission += reflected * (found_emitter_weight(lobe.pdf, at.emitter_samples) * ray.emission);
 }

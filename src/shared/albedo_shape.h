@@ -36,16 +36,16 @@ const float kMeanBaseSchlick = 0.00369f;
 const float kAlbedoShapeSteps = 255.0f;
 
 // Where layers lie on the surface, the highest of these is 0, which is no roughness of a coat; the
-// shape is then 1 + k2 (s^2 - 1/6) + k5 (s^5 - 1/21) with s = 1 - n_dot_l, of mean 1, and the two
+// shape is then 1 + k1 (s - 1/3) + k5 (s^5 - 1/21) with s = 1 - n_dot_l, of mean 1, and the two
 // numbers have 12 bits each.
 const float kLayeredShapeSteps = 4095.0f;
 const float kLeastShapeFactor = -8.0f;
 const float kShapeFactorRange = 32.0f;
-// Means of s^2 and s^5 over light from a uniform sky.
-const float kMeanSquare = 1.0f / 6.0f;
+// Means of s and s^5 over light from a uniform sky.
+const float kMeanFirst = 1.0f / 3.0f;
 const float kMeanFifth = 1.0f / 21.0f;
 
-/// The factors k2 and k5 that fit the albedo of a gray surface with layers best.
+/// The factors k1 and k5 that fit the albedo of a gray surface with layers best.
 LAMBENT_FN vec2 layered_shape_factors(Reflectance gray) {
   // Gauss's and Legendre's points in the cosine
   const float kPoints[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
@@ -63,7 +63,7 @@ LAMBENT_FN vec2 layered_shape_factors(Reflectance gray) {
   vec3 products = vec3(0.0f);
   for (int i = 0; i < 5; ++i) {
     float s = 1.0f - kPoints[i];
-    vec2 basis = vec2(s * s - kMeanSquare, s * s * s * s * s - kMeanFifth);
+    vec2 basis = vec2(s - kMeanFirst, s * s * s * s * s - kMeanFifth);
     float weight = kWeights[i] * kPoints[i];
     projected += basis * (weight * (albedos[i] / mean - 1.0f));
     products += weight * vec3(basis.x * basis.x, basis.x * basis.y, basis.y * basis.y);
@@ -90,7 +90,7 @@ LAMBENT_FN float layered_albedo_towards(uint shape, float n_dot_l) {
       vec2(kLeastShapeFactor);
   float s = 1.0f - clamp(n_dot_l, 0.0f, 1.0f);
   float s2 = s * s;
-  return max(1.0f + factors.x * (s2 - kMeanSquare) + factors.y * (s2 * s2 * s - kMeanFifth), 0.0f);
+  return max(1.0f + factors.x * (s - kMeanFirst) + factors.y * (s2 * s2 * s - kMeanFifth), 0.0f);
 }
 
 /// Packs the luminances of a surface's base and f0, its f90 and its roughness; of layers as above.

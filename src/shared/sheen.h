@@ -58,30 +58,38 @@ LAMBENT_FN float sheen_lobe(vec3 to_viewer, vec3 to_light, float roughness) {
 // Share of light from a uniform sky that a white sheen reflects: integrals for roughness
 // kMinSheenRoughness to 1 in equal steps (rows), and the square root of the cosine to the viewer
 // from 0 to 1.
-const int kSheenRows = 8;
+const int kSheenRows = 12;
 const int kSheenColumns = 16;
 // clang-format off
-const float kSheenAlbedo[128] = {
+const float kSheenAlbedo[192] = {
     0.9379f, 1.0000f, 0.9435f, 0.8008f, 0.6523f, 0.5146f, 0.3931f, 0.2893f,
     0.2036f, 0.1355f, 0.0839f, 0.0472f, 0.0234f, 0.0094f, 0.0025f, 0.0001f,
-    0.7667f, 0.8520f, 0.8111f, 0.7169f, 0.6137f, 0.5144f, 0.4227f, 0.3398f,
-    0.2660f, 0.2014f, 0.1461f, 0.1002f, 0.0644f, 0.0370f, 0.0171f, 0.0041f,
-    0.7139f, 0.8026f, 0.7783f, 0.7033f, 0.6184f, 0.5352f, 0.4570f, 0.3845f,
-    0.3178f, 0.2568f, 0.2014f, 0.1521f, 0.1104f, 0.0749f, 0.0446f, 0.0192f,
-    0.7183f, 0.8126f, 0.7966f, 0.7289f, 0.6508f, 0.5737f, 0.5009f, 0.4327f,
-    0.3689f, 0.3093f, 0.2535f, 0.2020f, 0.1570f, 0.1167f, 0.0798f, 0.0457f,
-    0.7535f, 0.8539f, 0.8416f, 0.7753f, 0.6981f, 0.6220f, 0.5502f, 0.4827f,
-    0.4193f, 0.3592f, 0.3024f, 0.2490f, 0.2016f, 0.1583f, 0.1174f, 0.0784f,
-    0.7999f, 0.9046f, 0.8930f, 0.8252f, 0.7464f, 0.6691f, 0.5963f, 0.5281f,
-    0.4639f, 0.4029f, 0.3448f, 0.2899f, 0.2409f, 0.1959f, 0.1530f, 0.1118f,
-    0.8341f, 0.9402f, 0.9283f, 0.8589f, 0.7789f, 0.7009f, 0.6277f, 0.5594f,
-    0.4950f, 0.4340f, 0.3757f, 0.3205f, 0.2712f, 0.2259f, 0.1828f, 0.1413f,
+    0.8095f, 0.8946f, 0.8434f, 0.7368f, 0.6218f, 0.5122f, 0.4122f, 0.3232f,
+    0.2456f, 0.1794f, 0.1245f, 0.0809f, 0.0485f, 0.0253f, 0.0101f, 0.0016f,
+    0.7443f, 0.8302f, 0.7951f, 0.7079f, 0.6114f, 0.5179f, 0.4311f, 0.3519f,
+    0.2805f, 0.2171f, 0.1616f, 0.1145f, 0.0767f, 0.0467f, 0.0235f, 0.0069f,
+    0.7159f, 0.8040f, 0.7787f, 0.7026f, 0.6166f, 0.5324f, 0.4534f, 0.3804f,
+    0.3132f, 0.2519f, 0.1965f, 0.1474f, 0.1061f, 0.0712f, 0.0417f, 0.0173f,
+    0.7112f, 0.8028f, 0.7838f, 0.7137f, 0.6335f, 0.5544f, 0.4799f, 0.4103f,
+    0.3457f, 0.2856f, 0.2301f, 0.1796f, 0.1359f, 0.0975f, 0.0632f, 0.0325f,
+    0.7229f, 0.8184f, 0.8034f, 0.7363f, 0.6587f, 0.5821f, 0.5096f, 0.4418f,
+    0.3782f, 0.3186f, 0.2627f, 0.2109f, 0.1654f, 0.1244f, 0.0866f, 0.0513f,
+    0.7457f, 0.8450f, 0.8323f, 0.7661f, 0.6890f, 0.6130f, 0.5411f, 0.4737f,
+    0.4104f, 0.3505f, 0.2938f, 0.2408f, 0.1938f, 0.1509f, 0.1106f, 0.0723f,
+    0.7745f, 0.8771f, 0.8655f, 0.7986f, 0.7209f, 0.6444f, 0.5721f, 0.5044f,
+    0.4407f, 0.3802f, 0.3227f, 0.2686f, 0.2203f, 0.1761f, 0.1341f, 0.0938f,
+    0.8039f, 0.9088f, 0.8973f, 0.8292f, 0.7503f, 0.6728f, 0.5999f, 0.5317f,
+    0.4674f, 0.4063f, 0.3481f, 0.2932f, 0.2441f, 0.1990f, 0.1560f, 0.1147f,
+    0.8275f, 0.9336f, 0.9217f, 0.8526f, 0.7727f, 0.6946f, 0.6213f, 0.5528f,
+    0.4884f, 0.4271f, 0.3687f, 0.3134f, 0.2641f, 0.2187f, 0.1754f, 0.1338f,
+    0.8382f, 0.9440f, 0.9321f, 0.8629f, 0.7832f, 0.7056f, 0.6329f, 0.5651f,
+    0.5013f, 0.4408f, 0.3829f, 0.3281f, 0.2792f, 0.2343f, 0.1915f, 0.1504f,
     0.8287f, 0.9329f, 0.9218f, 0.8545f, 0.7770f, 0.7016f, 0.6312f, 0.5655f,
     0.5038f, 0.4452f, 0.3891f, 0.3359f, 0.2886f, 0.2451f, 0.2036f, 0.1638f};
 // clang-format on
 
-/// Directional albedo of a white sheen. Read linearly the table is within 0.003 of integrals for
-/// cosines above 0.02; at the edge of the narrowest lobes it is 0.03 off.
+/// Directional albedo of a white sheen. Read linearly the table is within 0.005 of integrals for
+/// cosines above 0.03; at the edge of the narrowest lobes it is 0.03 off.
 LAMBENT_FN float sheen_albedo(float n_dot_v, float roughness) {
   float column = sqrt(clamp(n_dot_v, 0.0f, 1.0f)) * float(kSheenColumns - 1);
   float row = (clamp(roughness, kMinSheenRoughness, 1.0f) - kMinSheenRoughness) *
@@ -97,7 +105,7 @@ LAMBENT_FN float sheen_albedo(float n_dot_v, float roughness) {
 
 /// Its mean over light from a uniform sky: a polynomial fitted to the table within 0.0013.
 LAMBENT_FN float mean_sheen_albedo(float roughness) {
-  return cubic(vec4(0.038783f, -0.102069f, 0.88379f, -0.520938f), roughness);
+  return cubic(vec4(0.0405245f, -0.114617f, 0.90714f, -0.532938f), roughness);
 }
 
 LAMBENT_END

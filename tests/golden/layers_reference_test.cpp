@@ -9,8 +9,10 @@
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
 #include "reference/path_tracer.h"
+#include "scene/texture.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
+#include "shared/constants.h"
 #include "support/field_scenes.h"
 #include "support/hand_made.h"
 

@@ -276,14 +276,15 @@ void Glossy::reuse(const GlossySettings& settings, std::span<const GlossyRows> a
       if (pixels.coat_shares[i] <= 0.0f) continue;
       const Surface& surface = pixels.surfaces[i];
       const ivec2 pixel(i % width, band.first_row + static_cast<int>(i / width));
-      CoatReceiver at{lobe_of(pixels, i),
-                      surface.reflectance,
-                      inverse_plane_tolerance(settings.camera, surface.position_ws),
-                      static_cast<uint>(settings.frame.emissive_samples),
-                      fetch_ray(view, pixel),
-                      {},
-                      {},
-                      0.0f};
+      CoatReceiver at{
+          lobe_of(pixels, i),
+          coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[i])),
+          inverse_plane_tolerance(settings.camera, surface.position_ws),
+          static_cast<uint>(settings.frame.emissive_samples),
+          fetch_ray(view, pixel),
+          {},
+          {},
+          0.0f};
       find_lobe(at);
       light[i] =
           pixels.coat_shares[i] * reuse_rays(view, pixel, at, static_cast<uint>(settings.sample),
