@@ -102,6 +102,13 @@ std::vector<std::string> features_of(const Material& m) {
   add(m.specular_texture.texture >= 0, "specular map");
   add(m.specular_color_texture.texture >= 0, "specular color map");
   add(m.transmission_texture.texture >= 0, "transmission map");
+  add(m.clearcoat > 0.0f, "clearcoat");
+  add(m.clearcoat_texture.texture >= 0, "clearcoat map");
+  add(m.clearcoat_roughness_texture.texture >= 0, "clearcoat roughness map");
+  add(m.clearcoat_normal_texture.texture >= 0, "clearcoat normal map");
+  add(m.sheen_color != glm::vec3(0.0f), "sheen");
+  add(m.sheen_color_texture.texture >= 0, "sheen color map");
+  add(m.sheen_roughness_texture.texture >= 0, "sheen roughness map");
   add(may_emit(m) && !m.unlit, "emissive");
   add(m.alpha_mode == AlphaMode::mask, "alpha mask");
   add(m.alpha_mode == AlphaMode::blend, "alpha blend");

@@ -74,6 +74,13 @@ struct Material {
   /// straight (KHR_materials_volume).
   bool bounds_volume = false;
   glm::vec3 absorption{0.0f};  ///< Of that volume [1/m], 0 to 1e6: light falls by e^(-a d) over d.
+  /// Share of the surface that a clearcoat of index of refraction 1.5 lies on, 0 to 1
+  /// (KHR_materials_clearcoat). Pixels that see one cost a second ray of reflection.
+  float clearcoat = 0.0f;
+  float clearcoat_roughness = 0.0f;     ///< Perceptual roughness, 0 to 1.
+  float clearcoat_normal_scale = 1.0f;  ///< As normal_scale, of clearcoat_normal_texture.
+  glm::vec3 sheen_color{0.0f};          ///< Of the fibres of cloth, 0 to 1 (KHR_materials_sheen).
+  float sheen_roughness = 0.0f;  ///< Perceptual, 0 to 1: the less, the nearer to the silhouette.
   AlphaMode alpha_mode = AlphaMode::opaque;  ///< What base_color.a does.
   float alpha_cutoff = 0.5f;  ///< Coverage below which AlphaMode::mask lets rays through.
   /// A probe ray that meets the back of a single-sided surface brings no light.
@@ -81,13 +88,18 @@ struct Material {
   bool unlit = false;    ///< base_color is shown as emitted radiance; reflects nothing.
   bool lambert = false;  ///< Exact Lambert of albedo base_color * (1 - metallic); nothing specular.
 
-  TextureView base_color_texture;          ///< RGBA, sRGB.
-  TextureView metallic_roughness_texture;  ///< G roughness, B metallic.
-  TextureView normal_texture;              ///< Tangent space, +Y up.
-  TextureView emission_texture;            ///< RGB, sRGB.
-  TextureView specular_texture;            ///< A strength.
-  TextureView specular_color_texture;      ///< RGB, sRGB.
-  TextureView transmission_texture;        ///< R transmission.
+  TextureView base_color_texture;           ///< RGBA, sRGB.
+  TextureView metallic_roughness_texture;   ///< G roughness, B metallic.
+  TextureView normal_texture;               ///< Tangent space, +Y up.
+  TextureView emission_texture;             ///< RGB, sRGB.
+  TextureView specular_texture;             ///< A strength.
+  TextureView specular_color_texture;       ///< RGB, sRGB.
+  TextureView transmission_texture;         ///< R transmission.
+  TextureView clearcoat_texture;            ///< R clearcoat.
+  TextureView clearcoat_roughness_texture;  ///< G clearcoat roughness.
+  TextureView clearcoat_normal_texture;     ///< Tangent space, +Y up; none: the mesh's own normals.
+  TextureView sheen_color_texture;          ///< RGB, sRGB.
+  TextureView sheen_roughness_texture;      ///< A sheen roughness.
 
   bool operator==(const Material&) const = default;
 };

@@ -29,9 +29,12 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
   const Surface& surface = gbuffer.surfaces[pixel];
   const Frame frame = make_frame(surface.normal_ws);
   const vec3 to_viewer = to_local(frame, gbuffer.to_viewer_ws[pixel]);
-  const float coat_share = gbuffer.coat_shares.empty() ? 0.0f : gbuffer.coat_shares[pixel];
+  const auto share_of = [&](const std::vector<float>& shares) {
+    return shares.empty() ? 0.0f : shares[pixel];
+  };
+  const CoatShares shares{share_of(gbuffer.coat_shares), share_of(gbuffer.clearcoat_shares)};
   const auto samples = static_cast<uint>(draws.tree_samples);
-  const Reflector reflector{surface.reflectance, frame, to_viewer, coat_share, samples};
+  const Reflector reflector{surface.reflectance, frame, to_viewer, shares, samples};
   const LitPoint point{surface.position_ws, surface.normal_ws, surface.geometric_normal_ws};
   const LightReceiver receiver{point, &reflector};
   const uint slots = slot_count(draws);
@@ -40,7 +43,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
     const LightCandidate candidate = candidate_of_slot(draws, receiver, slot, picks, random);
     if (candidate.perpendicular_irradiance == vec3(0.0f)) continue;
     ReflectedPair pair = sampled_reflection(surface.reflectance, frame, to_viewer, point, candidate,
-                                            coat_share, samples);
+                                            shares, samples);
     if (!media.empty()) {
       const float passed =
           transmittance(media, point.position_ws, candidate.to_light, candidate.distance);

@@ -67,6 +67,7 @@ struct BandLight {
   bool is_filtered = false;             // it is gathered, and shown once it was filtered
   std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces coat_direction()
   std::vector<vec4> coats;              // light of coats by rays, and its share; none: no rays
+  std::vector<vec3> clearcoats;         // light of clearcoats; none: of mirror_irradiance
   std::vector<vec3> transmitted;        // light that comes through surfaces; none: no glass
   std::vector<vec4> fog;                // that pixels are seen through, as of fog_along; or none
 };
@@ -103,6 +104,9 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
         glossy += coat_light(reflectance, n_dot_v, surface.gi_share,
                              light.coats.empty() ? vec4(0.0f) : light.coats[i],
                              light.mirror_irradiance[i]);
+        glossy += light.clearcoats.empty() ? clearcoat_light(reflectance.layers, surface.gi_share,
+                                                             light.mirror_irradiance[i])
+                                           : light.clearcoats[i];
       }
 
       const float seen = share * passed;
@@ -238,7 +242,10 @@ class FramePassesCpu final : public FramePasses {
   }
 
   void glossy() override {
-    now_->frame.rays += reflect_band(request(), band_, sample_, gbuffer_, glossy_, light_.coats);
+    now_->frame.rays +=
+        reflect_clearcoats(request(), band_, sample_, gbuffer_, glossy_, light_.clearcoats);
+    now_->frame.rays +=
+        reflect_band(request(), band_, sample_, CoatKind::coat, gbuffer_, glossy_, light_.coats);
     look_up_coats(request(), gbuffer_, light_.coats, glossy_, light_.mirror_irradiance);
     finish_pass("glossy");
   }
@@ -257,6 +264,7 @@ class FramePassesCpu final : public FramePasses {
     if (alone) {
       light_.mirror_irradiance = light_.irradiance;
       light_.coats.clear();
+      light_.clearcoats.clear();
     }
     finish_pass("rsm.upsample");
   }

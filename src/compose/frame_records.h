@@ -79,6 +79,7 @@ const uint kHasFog = 4u;           ///< Pixels are seen through fog.
 const uint kHasIndirect = 8u;      ///< There is indirect light,
 const uint kIsLookedUp = 16u;      ///< which was looked up in the field; see indirect_share(),
 const uint kIsFiltered = 32u;      ///< and is added once it was filtered.
+const uint kHasClearcoats = 64u;   ///< Light of clearcoats is part of `specular`.
 
 /// Adds what pixels show to their layers.
 struct ComposeArguments {

@@ -25,6 +25,7 @@
 #include "rsm/vulkan/gather_vulkan.h"
 #include "shaders/add_filtered_comp.h"
 #include "shaders/camera_rays_comp.h"
+#include "shaders/clearcoat_light_comp.h"
 #include "shaders/coat_hits_comp.h"
 #include "shaders/coat_light_comp.h"
 #include "shaders/coat_rays_comp.h"
@@ -39,6 +40,7 @@
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
+#include "shaders/show_clearcoats_comp.h"
 #include "shaders/through_rays_comp.h"
 #include "shaders/view_geometry_comp.h"
 #include "temporal/taa_vulkan.h"
@@ -67,6 +69,8 @@ struct FrameKernels {
   vulkan::Kernel coat_hits{device, shaders::coat_hits_comp(), "coat hits"};
   vulkan::Kernel coat_light{device, shaders::coat_light_comp(), "coat light"};
   vulkan::Kernel coat_reuse{device, shaders::coat_reuse_comp(), "coat reuse"};
+  vulkan::Kernel show_clearcoats{device, shaders::show_clearcoats_comp(), "show clearcoats"};
+  vulkan::Kernel clearcoat_light{device, shaders::clearcoat_light_comp(), "clearcoat light"};
   vulkan::Kernel through_rays{device, shaders::through_rays_comp(), "rays through surfaces"};
   vulkan::Kernel fog_pixels{device, shaders::fog_pixels_comp(), "fog of pixels"};
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
@@ -176,9 +180,16 @@ class FramePassesVulkan final : public FramePasses {
   }
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, CorrectionUse use, const Buffer& irradiance);
-  /// Lights coats by rays, as Glossy::reflect.
-  void trace_coats();
+  /// Lights coats by rays, as Glossy::reflect: those of the rows around the band that were seen.
+  /// Returns whether there are any rays.
+  bool trace_coats(const Band& around, std::uint32_t seed);
+  /// The rows whose rays the band's coats reflect.
+  Band rows_around_band() const;
   void see_around_band(const Band& around);
+  /// Finds light of clearcoats, as reflect_clearcoats of glossy_frame.h.
+  void light_clearcoats();
+  /// Looks up the field's light of coats for the band's pixels, which lie at these addresses.
+  void look_up_coats(std::uint64_t points, std::uint64_t surfaces);
   void reserve_ways(std::size_t pixels);
   std::uint32_t count_ways();
   bool follow_all(std::uint32_t first_index, std::uint32_t salt);
@@ -213,8 +224,9 @@ class FramePassesVulkan final : public FramePasses {
   Band band_;
   std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
   std::uint32_t sample_ = 0;
-  uint rays_bring_ = 0;        // to the band's sample, see ComposeArguments
-  const char* way_pass_ = "";  // whose rays are being followed
+  uint rays_bring_ = 0;         // to the band's sample, see ComposeArguments
+  const char* way_pass_ = "";   // whose rays are being followed
+  std::uint32_t way_seed_ = 0;  // of their random numbers
 };
 
 }  // namespace lambent

@@ -50,6 +50,7 @@ struct GBuffer {
   /// Share of the coats' light that rays of their own bring, 0 to 1; see raytracing/coat_share.h.
   /// Empty: there are no such rays.
   std::vector<float> coat_shares;
+  std::vector<float> clearcoat_shares;  ///< The clearcoats'. Empty where no surface has one.
 
   std::size_t size() const { return hit.size(); }
 };

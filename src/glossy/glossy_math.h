@@ -83,6 +83,17 @@ const float kPlaneTolerance = 4.0f;
 const uint kCoatSalt = 0x434F4154u;
 const uint kCoatBounceSalt = 0x9E3779B9u;
 const uint kThroughSalt = 0x5448524Fu;
+const uint kClearcoatSalt = 0x434C5243u;
+
+/// The seed of the random numbers of clearcoats' rays, by the frame's.
+LAMBENT_FN uint clearcoat_seed(uint seed) {
+  return seed ^ kClearcoatSalt;
+}
+
+/// The normal of a clearcoat on a surface with this shading normal.
+LAMBENT_FN vec3 clearcoat_normal_ws(SurfaceLayers layers, vec3 normal_ws) {
+  return to_world(make_frame(normal_ws), layers.clearcoat_normal);
+}
 
 /// The salt of a sample's random numbers at what rays meet on their way's bounce 1, 2, ...
 LAMBENT_FN uint coat_salt(uint sample_index, uint bounce) {
@@ -137,6 +148,7 @@ LAMBENT_FN CoatDraw draw_coat_ray(Reflectance surface, Frame frame, vec3 to_view
   drawn.pdf =
       ggx_density(vec3(0.0f, 0.0f, 1.0f), h, surface.alpha) / (4.0f * v.z * (1.0f + lambda_v));
   drawn.weight = fresnel(surface, dot(v, h)) * ((1.0f + lambda_v) / (1.0f + lambda_v + lambda_l));
+  if (has_layers(surface.layers)) drawn.weight *= coat_share_under_layers(surface.layers, v, l);
   return drawn;
 }
 
@@ -148,6 +160,19 @@ LAMBENT_FN vec3 coat_direction(vec3 normal_ws, vec3 to_viewer_ws, float alpha) {
   float mirrored = sharpness * (sqrt(sharpness) + alpha);
   vec3 mirror = reflect(-to_viewer_ws, normal_ws);
   return normalize(normal_ws + (mirror - normal_ws) * mirrored);
+}
+
+/// Where the coat and the clearcoat of a surface have their light from on average, both together:
+/// each counts by what it reflects. Of the coat only the share counts that has no rays.
+LAMBENT_FN vec3 coats_direction(Reflectance surface, float coat_share, vec3 normal_ws,
+                                vec3 to_viewer_ws) {
+  vec3 of_coat = coat_direction(normal_ws, to_viewer_ws, surface.alpha);
+  if (!has_clearcoat(surface.layers)) return of_coat;
+  vec3 of_clearcoat = coat_direction(clearcoat_normal_ws(surface.layers, normal_ws), to_viewer_ws,
+                                     surface.layers.clearcoat_alpha);
+  vec3 reflected = specular_albedo(surface, dot(normal_ws, to_viewer_ws));
+  float coat = surface.f90 > 0.0f ? (1.0f - coat_share) * luminance(reflected) : 0.0f;
+  return normalize(of_coat * coat + of_clearcoat * clearcoat_albedo(surface.layers));
 }
 
 /// Radiance that a surface's base, under its coat, makes of indirect irradiance.
@@ -201,10 +226,22 @@ LAMBENT_FN float inverse_plane_tolerance(CameraRecord camera, vec3 position_ws) 
   return 1.0f / (kPlaneTolerance * pixel_width(camera, position_ws));
 }
 
+/// A coat as it is seen through what lies on it, which takes the same share of the light of all of
+/// its rays.
+LAMBENT_FN Reflectance coat_under_layers(Reflectance surface, float n_dot_v) {
+  if (!has_layers(surface.layers)) return surface;
+  float share = mean_coat_share(surface.layers, max(n_dot_v, 0.0f), surface.alpha);
+  Reflectance seen = surface;
+  seen.f0 *= share;
+  seen.f90 *= share;
+  seen.layers = no_layers();
+  return seen;
+}
+
 /// A pixel that reflects rays, its own and those around it.
 struct CoatReceiver {
   CoatLobe lobe;
-  Reflectance reflectance;
+  Reflectance reflectance;  ///< As of coat_under_layers().
   float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
   uint emitter_samples;     ///< Of its direct light.
   CoatRay own;              ///< Of density 0 where it has no ray.
@@ -319,6 +356,22 @@ LAMBENT_FN vec3 coat_light(Reflectance reflectance, float n_dot_v, float gi_shar
   if (gi_share <= 0.0f) return vec3(0.0f);
   return vec3(by_rays.x, by_rays.y, by_rays.z) +
          (1.0f - by_rays.w) * reflected_glossy(reflectance, n_dot_v, mirror_irradiance);
+}
+
+/// The same of a clearcoat without rays.
+LAMBENT_FN vec3 clearcoat_light(SurfaceLayers layers, float gi_share, vec3 mirror_irradiance) {
+  if (gi_share <= 0.0f || !has_clearcoat(layers)) return vec3(0.0f);
+  return clearcoat_albedo(layers) * mirror_irradiance * kInvPi;
+}
+
+/// All of that at a surface that a way met: of the coat, of whose light further rays bring
+/// `coat_share`, and of the clearcoat, which has all its light from the field, along
+/// coats_direction().
+LAMBENT_FN vec3 coats_light(Reflectance reflectance, float n_dot_v, float gi_share,
+                            float coat_share, vec3 mirror_irradiance) {
+  return coat_light(reflectance, n_dot_v, gi_share, vec4(0.0f, 0.0f, 0.0f, coat_share),
+                    mirror_irradiance) +
+         clearcoat_light(reflectance.layers, gi_share, mirror_irradiance);
 }
 
 LAMBENT_END

@@ -81,6 +81,25 @@ struct CoatLightArguments {
   uint padding;
 };
 
+/// Makes clearcoats coats.
+struct ShowClearcoatsArguments {
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  uint count;
+  uint padding;
+};
+
+/// Light of clearcoats of the band's pixels, which such surfaces have.
+struct ClearcoatLightArguments {
+  LitPointArray points;
+  PixelSurfaceArray surfaces;
+  Vec4Array coats;  ///< As of Glossy::reflect; read where has_rays is 1.
+  Vec3Array mirror_irradiance;
+  Vec3Array light;  ///< Is added to.
+  uint count;
+  uint has_rays;
+};
+
 /// Has the band's pixels reflect the rays around them.
 struct CoatReuseArguments {
   LitPointArray points;

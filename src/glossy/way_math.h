@@ -21,14 +21,15 @@ LAMBENT_FN float further_coat_share(Reflectance surface, float n_dot_v, vec3 thr
 
 /// Takes a coat that a way met: returns the share of its light that further rays bring, and widens
 /// its lobe to the widest on the way, which blurs it as much, and to some roughness where no
-/// further ray looks for the lamps that it mirrors. Narrower lobes would be found by hardly any
-/// ray, and be a spark where they are. Kaplanyan and Dachsbacher, "Path Space Regularization for
-/// Holistic and Robust Light Transport", Eurographics 2013.
+/// further ray looks for the lamps that it mirrors; none does for a clearcoat's. Narrower lobes
+/// would be found by hardly any ray, and be a spark where they are. Kaplanyan and Dachsbacher,
+/// "Path Space Regularization for Holistic and Robust Light Transport", Eurographics 2013.
 LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
                            LAMBENT_INOUT(Reflectance) coat, CoatPath path) {
   coat.alpha = max(coat.alpha, path.alpha);
   float share = gi_share > 0.0f ? further_coat_share(coat, n_dot_v, path.throughput, bounce) : 0.0f;
   if (share <= 0.0f) coat.alpha = max(coat.alpha, kLeastEndAlpha);
+  coat.layers.clearcoat_alpha = max(coat.layers.clearcoat_alpha, max(path.alpha, kLeastEndAlpha));
   return share;
 }
 

@@ -23,7 +23,14 @@ const float kFirstCachedRoughness = 0.95f;
 // samples see it in these. It decides over noise alone: the weights sum to 1 whatever it is.
 const float kEmitterDensity = 10.0f;
 
-/// Share of a coat's light that rays of its own bring, 0 to 1.
+/// Shares of the coat's and the clearcoat's light that rays of their own bring.
+struct CoatShares {
+  float coat;
+  float clearcoat;
+};
+
+/// Share of a coat's light that rays of its own bring, 0 to 1; of a clearcoat as of a coat, see
+/// clearcoat_alone()
 LAMBENT_FN float traced_coat_share(Reflectance surface) {
   if (surface.f90 <= 0.0f) return 0.0f;
   float roughness = sqrt(surface.alpha);
@@ -47,6 +54,14 @@ LAMBENT_FN float sampled_emitter_weight(Reflectance surface, vec3 to_viewer, vec
                                         float coat_share, uint emitter_samples) {
   if (coat_share <= 0.0f) return 1.0f;
   float pdf = pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
+  return 1.0f - coat_share * found_emitter_weight(pdf, emitter_samples);
+}
+
+/// The same of a surface's clearcoat.
+LAMBENT_FN float sampled_emitter_weight(SurfaceLayers layers, vec3 to_viewer, vec3 to_light,
+                                        float coat_share, uint emitter_samples) {
+  if (coat_share <= 0.0f) return 1.0f;
+  float pdf = pdf_clearcoat(layers, to_viewer, to_light);
   return 1.0f - coat_share * found_emitter_weight(pdf, emitter_samples);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "lambent/world.h"
+#include "raytracing/coat_share.h"
 #include "raytracing/emitter_sampling.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/world_access.h"
@@ -39,9 +40,9 @@ struct Reflector {
   const Reflectance& reflectance;
   Frame frame;          ///< Of the shading normal.
   glm::vec3 to_viewer;  ///< Unit, in the frame.
-  /// Share of the coat's light that rays of its own bring, and by how many samples lights are
+  /// Shares of the coats' light that rays of their own bring, and by how many samples lights are
   /// found; see sampled_reflection.
-  float coat_share = 0.0f;
+  CoatShares shares{};
   uint samples = 1;
 };
 
@@ -113,7 +114,7 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
   if (receiver.reflector == nullptr) return luminance(unoccluded_irradiance(receiver.point, light));
   const Reflector& to = *receiver.reflector;
   const ReflectedPair pair = sampled_reflection(to.reflectance, to.frame, to.to_viewer,
-                                                receiver.point, light, to.coat_share, to.samples);
+                                                receiver.point, light, to.shares, to.samples);
   return luminance(pair.diffuse + pair.specular);
 }
 

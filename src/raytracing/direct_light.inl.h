@@ -32,26 +32,27 @@ LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
 }
 
 /// What a surface makes of that for a viewer [W/(m^2 sr)]. `frame` is that of the point's normal,
-/// in which `to_viewer` is given.
-LAMBENT_FN ReflectedPair unoccluded_reflection(Reflectance reflectance, Frame frame, vec3 to_viewer,
-                                               LitPointRef point, LightCandidate light) {
-  ReflectedPair reflected = {vec3(0.0f), vec3(0.0f)};
-  if (dot(point.geometric_normal_ws, light.to_light) <= 0.0f) return reflected;
-  reflected = evaluate_reflectance(reflectance, to_viewer, to_local(frame, light.to_light));
-  reflected.diffuse *= light.perpendicular_irradiance;
-  reflected.specular *= light.perpendicular_irradiance;
-  return reflected;
-}
-
-/// The same of a surface of whose coat's light rays of its own bring `coat_share`: what they bring
-/// of emitters is left out here, where these are found by so many samples.
+/// in which `to_viewer` is given. What rays of coats bring of emitters is left out, where these are
+/// found by so many samples.
 LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame, vec3 to_viewer,
                                             LitPointRef point, LightCandidate light,
-                                            float coat_share, uint samples) {
-  ReflectedPair reflected = unoccluded_reflection(reflectance, frame, to_viewer, point, light);
-  if (light.from_emitter != 0u) {
-    reflected.specular *= sampled_emitter_weight(
-        reflectance, to_viewer, to_local(frame, light.to_light), coat_share, samples);
+                                            CoatShares shares, uint samples) {
+  ReflectedPair reflected = {vec3(0.0f), vec3(0.0f)};
+  if (dot(point.geometric_normal_ws, light.to_light) <= 0.0f) return reflected;
+  vec3 to_light = to_local(frame, light.to_light);
+  ReflectedLobes lobes = evaluate_lobes(reflectance, to_viewer, to_light);
+  reflected.diffuse = lobes.diffuse * light.perpendicular_irradiance;
+  reflected.specular = lobes.specular * light.perpendicular_irradiance;
+  bool of_emitter = light.from_emitter != 0u;
+  if (of_emitter) {
+    reflected.specular *=
+        sampled_emitter_weight(reflectance, to_viewer, to_light, shares.coat, samples);
+  }
+  if (lobes.clearcoat > 0.0f) {
+    float weight = of_emitter ? sampled_emitter_weight(reflectance.layers, to_viewer, to_light,
+                                                       shares.clearcoat, samples)
+                              : 1.0f;
+    reflected.specular += lobes.clearcoat * weight * light.perpendicular_irradiance;
   }
   return reflected;
 }

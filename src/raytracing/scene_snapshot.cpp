@@ -8,6 +8,7 @@
 
 #include "scene/animation/pose.h"
 #include "scene/attributes.h"
+#include "scene/texture.h"
 #include "scene/validate.h"
 
 namespace lambent {
@@ -43,9 +44,7 @@ std::size_t hash_of(const Placement& placement) {
 }
 
 bool uses_texture(const Material& m, const std::vector<std::uint8_t>& edited) {
-  for (const TextureView* view : {&m.base_color_texture, &m.metallic_roughness_texture,
-                                  &m.normal_texture, &m.emission_texture, &m.specular_texture,
-                                  &m.specular_color_texture, &m.transmission_texture}) {
+  for (const TextureView* view : texture_views(m)) {
     if (view->texture >= 0 && edited[view->texture] != 0) return true;
   }
   return false;

@@ -10,6 +10,7 @@
 //   bool receives_gi(InstanceRef instance)
 //   bool lets_light_through(MaterialRef material)
 //   bool bounds_volume(MaterialRef material)
+//   bool has_layers(MaterialRef material)
 
 /// Tangent with handedness, in object space, that a texture is laid out by.
 LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p, vec3 edge1,
@@ -23,15 +24,38 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
   return tangent_from_uvs(edge1, edge2, uvs.b - uvs.a, uvs.c - uvs.a);
 }
 
-/// The vector that the material's normal map holds, in tangent space. Where the footprint covers
-/// all of the map, it is the mean.
-LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+/// The vector that a normal map holds, in tangent space. Where the footprint covers all of the map,
+/// it is the mean.
+LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
                               TrianglePointRef p, float cone_share, bool mean_alone) {
-  TextureViewRef view = material.normal_texture;
   vec4 texel = mean_alone
                    ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
                    : precise_texture_at(scene, mesh, view, p, cone_share);
-  return map_vector(vec3(texel), material.normal_scale);
+  return map_vector(vec3(texel), scale);
+}
+
+/// A normal in object space, of any length, as a normal map bends it; and the length of the mean of
+/// the normals that the footprint covers.
+struct BentNormal {
+  vec3 normal;
+  float mean_length;
+};
+
+LAMBENT_FN BentNormal bent_normal_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
+                                     TrianglePointRef p, vec3 edge1, vec3 edge2, vec3 normal,
+                                     float cone_share) {
+  BentNormal bent = {normal, 1.0f};
+  if (view.texture < 0) return bent;
+  bool mean_alone = shows_mean_alone(scene, mesh, view, p, cone_share);
+  vec3 n = map_vector_at(scene, mesh, view, scale, p, cone_share, mean_alone);
+  bent.mean_length = length(n);
+  // Bumps that the footprint averages over leave the surface flat
+  if (mean_alone) return bent;
+  vec4 tangent = tangent_at(mesh, view, p, edge1, edge2);
+  bent.normal = normalize_or(normal, vec3(0.0f, 0.0f, 1.0f));
+  vec3 t = orthogonal_tangent(bent.normal, vec3(tangent));
+  if (t != vec3(0.0f)) bent.normal = mapped_normal(bent.normal, t, tangent.w, n);
+  return bent;
 }
 
 /// What a surface makes of light from outside, and the share of what enters that passes.
@@ -39,6 +63,29 @@ struct Optics {
   Reflectance reflectance;
   vec3 tint;
 };
+
+/// What lies on a surface.
+LAMBENT_FN SurfaceLayers layers_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                                   TrianglePointRef p, float cone_share) {
+  vec3 sheen = material.sheen_color;
+  if (material.sheen_color_texture.texture >= 0) {
+    sheen *= vec3(texture_at(scene, mesh, material.sheen_color_texture, p, cone_share));
+  }
+  float sheen_roughness = material.sheen_roughness;
+  if (material.sheen_roughness_texture.texture >= 0) {
+    sheen_roughness *= texture_at(scene, mesh, material.sheen_roughness_texture, p, cone_share).w;
+  }
+  float clearcoat = material.clearcoat;
+  if (material.clearcoat_texture.texture >= 0) {
+    clearcoat *= texture_at(scene, mesh, material.clearcoat_texture, p, cone_share).x;
+  }
+  float clearcoat_roughness = material.clearcoat_roughness;
+  if (material.clearcoat_roughness_texture.texture >= 0) {
+    clearcoat_roughness *=
+        precise_texture_at(scene, mesh, material.clearcoat_roughness_texture, p, cone_share).y;
+  }
+  return layers_of(sheen, sheen_roughness, clearcoat, clearcoat_roughness);
+}
 
 LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
                             float cone_share) {
@@ -69,6 +116,9 @@ LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
   }
   optics.reflectance =
       coated_reflectance(base, metallic, roughness, specular, specular_color, material.ior);
+  if (has_layers(material)) {
+    optics.reflectance.layers = layers_at(scene, mesh, material, p, cone_share);
+  }
   if (lets_light_through(material)) {
     float transmission = material.transmission;
     if (material.transmission_texture.texture >= 0) {
@@ -151,40 +201,38 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   vec3 normal = interpolate(fetch_normal(mesh, p.vertices.x), fetch_normal(mesh, p.vertices.y),
                             fetch_normal(mesh, p.vertices.z), p.weights);
   bool along_winding = dot(normal, face_normal) >= 0.0f;
-  float mean_length = 1.0f;
-  if (material.normal_texture.texture >= 0) {
-    bool mean_alone = shows_mean_alone(scene, mesh, material.normal_texture, p, cone_share);
-    vec3 n = map_vector_at(scene, mesh, material, p, cone_share, mean_alone);
-    mean_length = length(n);
-    // Bumps that the footprint averages over leave the surface flat
-    if (!mean_alone) {
-      vec4 tangent = tangent_at(mesh, material.normal_texture, p, edge1, edge2);
-      normal = normalize_or(normal, vec3(0.0f, 0.0f, 1.0f));
-      vec3 t = orthogonal_tangent(normal, vec3(tangent));
-      if (t != vec3(0.0f)) normal = mapped_normal(normal, t, tangent.w, n);
-    }
-  }
-  normal = normalize_or(normal_from_object * normal, surface.geometric_normal_ws);
+  BentNormal bent = bent_normal_at(scene, mesh, material.normal_texture, material.normal_scale, p,
+                                   edge1, edge2, normal, cone_share);
+  vec3 shading_normal = normalize_or(normal_from_object * bent.normal, surface.geometric_normal_ws);
 
   // Turn both normals to the side the ray came from
   bool from_front = dot(surface.geometric_normal_ws, direction_ws) <= 0.0f;
   if (!from_front) surface.geometric_normal_ws = -surface.geometric_normal_ws;
-  surface.normal_ws = normal_towards_viewer(normal, along_winding, from_front, direction_ws,
+  surface.normal_ws = normal_towards_viewer(shading_normal, along_winding, from_front, direction_ws,
                                             surface.geometric_normal_ws);
 
   Optics optics = optics_at(scene, mesh, material, p, cone_share);
   surface.reflectance = optics.reflectance;
+  if (has_clearcoat(surface.reflectance.layers)) {
+    BentNormal coat =
+        bent_normal_at(scene, mesh, material.clearcoat_normal_texture,
+                       material.clearcoat_normal_scale, p, edge1, edge2, normal, cone_share);
+    vec3 coat_normal = normalize_or(normal_from_object * coat.normal, surface.geometric_normal_ws);
+    coat_normal = normal_towards_viewer(coat_normal, along_winding, from_front, direction_ws,
+                                        surface.geometric_normal_ws);
+    place_clearcoat(surface.reflectance.layers, surface.normal_ws, coat_normal, direction_ws);
+  }
   surface.transmission = transmission_of(material, optics, bool(hit.front_face));
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   surface.material = uint(mesh.material);
   surface.gi_share =
       receives_gi(instance)
-          ? horizon_share(mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
+          ? horizon_share(bent.mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
           : 0.0f;
   if (surface.transmission.kind == kLeavesVolume) {
     // Inner reflection is a matter of rays that go on; no light of the room is in there
-    surface.reflectance.diffuse = surface.reflectance.f0 = vec3(0.0f);
-    surface.reflectance.f90 = surface.gi_share = 0.0f;
+    surface.reflectance = lambert_reflectance(vec3(0.0f));
+    surface.gi_share = 0.0f;
   }
   return surface;
 }

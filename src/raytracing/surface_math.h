@@ -104,6 +104,15 @@ LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from
   return normalize_or(n + (view_cosine - kMinViewCosine) * direction, geometric_normal);
 }
 
+/// Gives a clearcoat its normal, in the frame of the shading normal, for a ray along a direction.
+LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal_ws,
+                                vec3 clearcoat_normal_ws, vec3 direction_ws) {
+  if (clearcoat_normal_ws != normal_ws) {
+    layers.clearcoat_normal = to_local(make_frame(normal_ws), clearcoat_normal_ws);
+  }
+  layers.clearcoat_cosine = -dot(clearcoat_normal_ws, direction_ws);
+}
+
 /// Share of uniform light from all around that a surface receives although nothing arrives from
 /// below its geometric horizon: over the directions above both horizons, the integral of
 /// dot(n, w) is pi (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that for many normals
@@ -125,7 +134,9 @@ LAMBENT_FN bool lets_light_through(Transmission transmission) {
 /// Share of light that crosses a surface straight on, by color. Volumes are crossed straight by
 /// shadow rays and rays of probes: where light enters at this angle, it also leaves.
 LAMBENT_FN vec3 straight_share(vec3 tint, Reflectance from_outside, float cosine) {
-  return tint * (vec3(1.0f) - fresnel(from_outside, abs(cosine)));
+  vec3 share = tint * (vec3(1.0f) - fresnel(from_outside, abs(cosine)));
+  if (!has_layers(from_outside.layers)) return share;
+  return share * passes_layers(from_outside.layers, abs(cosine));
 }
 
 /// Probability with which a ray that crosses glass passes what lets this share through.
@@ -141,7 +152,7 @@ LAMBENT_FN float weight_of_stopped(vec3 share) {
 
 /// What reflects as Lambert says, exactly.
 LAMBENT_FN Reflectance lambert_reflectance(vec3 diffuse) {
-  Reflectance result = {diffuse, 1.0f, vec3(0.0f), 0.0f};
+  Reflectance result = {diffuse, 1.0f, vec3(0.0f), 0.0f, no_layers()};
   return result;
 }
 
@@ -152,8 +163,20 @@ LAMBENT_FN Reflectance coated_reflectance(vec3 base, float metallic, float rough
   float root_f0 = (ior - 1.0f) / (ior + 1.0f);
   vec3 dielectric_f0 = min(specular_color * (root_f0 * root_f0), vec3(1.0f)) * specular;
   Reflectance result = {base * (1.0f - metallic), max(roughness * roughness, kMinGgxAlpha),
-                        mix(dielectric_f0, base, metallic), mix(specular, 1.0f, metallic)};
+                        mix(dielectric_f0, base, metallic), mix(specular, 1.0f, metallic),
+                        no_layers()};
   return result;
+}
+
+/// KHR_materials_sheen and KHR_materials_clearcoat, whose normal is the shading normal for now.
+LAMBENT_FN SurfaceLayers layers_of(vec3 sheen, float sheen_roughness, float clearcoat,
+                                   float clearcoat_roughness) {
+  SurfaceLayers layers = no_layers();
+  layers.sheen = min(sheen, vec3(1.0f)) * narrow_sheen_factor(sheen_roughness);
+  layers.sheen_roughness = clamp(sheen_roughness, kMinSheenRoughness, 1.0f);
+  layers.clearcoat = clearcoat;
+  layers.clearcoat_alpha = max(clearcoat_roughness * clearcoat_roughness, kMinGgxAlpha);
+  return layers;
 }
 
 LAMBENT_END

@@ -287,7 +287,8 @@ PixelSample PathIntegrator::sample_seen(const Ray& ray, const Hit& hit, SobolSam
     sample.direct += reflected.diffuse * direct_weight;
     sample.indirect += reflected.diffuse * indirect_weight;
     sample.glossy += reflected.specular * (direct_weight + indirect_weight);
-    sample.irradiance += glm::dot(vertex.frame.normal, direction_ws) * indirect_weight;
+    sample.irradiance +=
+        std::max(glm::dot(vertex.frame.normal, direction_ws), 0.0f) * indirect_weight;
   };
 
   const Lighting lighting = sample_lights(vertex, random, rays);
@@ -313,7 +314,7 @@ IrradianceSample PathIntegrator::sample_irradiance(const glm::vec3& position_ws,
   surface.position_ws = position_ws;
   surface.normal_ws = normal_ws;
   surface.geometric_normal_ws = normal_ws;
-  surface.reflectance = {glm::vec3(1.0f), 1.0f, glm::vec3(0.0f), 0.0f};
+  surface.reflectance = lambert_reflectance(glm::vec3(1.0f));
   const Vertex vertex(surface, normal_ws, 0.0f);
 
   IrradianceSample sample;

@@ -21,7 +21,7 @@ struct PathIntegrator::Vertex {
   Frame frame;                    // around the shading normal, or the way of light to the viewer
   glm::vec3 to_viewer;            // in the frame
   Reflectance reflectance;        // in fog the diffuse part is the albedo
-  float specular_share;
+  LobeShares shares;
   float anisotropy = 0.0f;  // of fog
 
   Vertex(const Surface& surface, const glm::vec3& to_viewer_ws, float max_specular_share)
@@ -30,8 +30,7 @@ struct PathIntegrator::Vertex {
         frame(make_frame(surface.normal_ws)),
         to_viewer(to_local(frame, to_viewer_ws)),
         reflectance(surface.reflectance),
-        specular_share(
-            std::min(specular_probability(reflectance, to_viewer.z), max_specular_share)) {}
+        shares(limited_shares(lobe_shares(reflectance, to_viewer.z), max_specular_share)) {}
 
   // In fog, where a ray comes to an event.
   Vertex(const Ray& ray, const MediumEvent& event)
@@ -39,22 +38,25 @@ struct PathIntegrator::Vertex {
         geometric_normal_ws(0.0f),
         frame(make_frame(ray.direction)),
         to_viewer(0.0f, 0.0f, -1.0f),
-        reflectance{event.albedo, 1.0f, glm::vec3(0.0f), 0.0f},
-        specular_share(0.0f),
+        reflectance(lambert_reflectance(event.albedo)),
+        shares{0.0f, 0.0f},
         anisotropy(event.anisotropy) {}
 
   bool in_fog() const { return geometric_normal_ws == glm::vec3(0.0f); }
-  bool is_black() const {
-    return reflectance.diffuse == glm::vec3(0.0f) && reflectance.f90 <= 0.0f;
-  }
-  // Light reaches the surface only where both normals agree that it does.
+  bool is_black() const { return has_no_base(reflectance) && has_no_coat(reflectance); }
+  // Light reaches the surface only where both normals agree that it does; a clearcoat has a normal
+  // of its own.
   bool is_lit_from(const glm::vec3& direction_ws) const {
-    return in_fog() || (glm::dot(geometric_normal_ws, direction_ws) > 0.0f &&
-                        glm::dot(frame.normal, direction_ws) > 0.0f);
+    return in_fog() ||
+           (glm::dot(geometric_normal_ws, direction_ws) > 0.0f && cosine(direction_ws) > 0.0f);
   }
   // Share of light from a direction that counts, whatever the reflectance.
   float cosine(const glm::vec3& direction_ws) const {
-    return in_fog() ? 1.0f : glm::dot(frame.normal, direction_ws);
+    if (in_fog()) return 1.0f;
+    const float cosine = glm::dot(frame.normal, direction_ws);
+    if (!has_clearcoat(reflectance.layers)) return cosine;
+    return std::max(cosine,
+                    glm::dot(reflectance.layers.clearcoat_normal, to_local(frame, direction_ws)));
   }
   // BRDF times cosine, or the phase function times albedo.
   ReflectedPair evaluate(const glm::vec3& direction_ws) const {
@@ -62,14 +64,14 @@ struct PathIntegrator::Vertex {
     return evaluate_reflectance(reflectance, to_viewer, to_local(frame, direction_ws));
   }
   glm::vec3 sample(const glm::vec3& u) const {
-    if (!in_fog()) return to_world(frame, sample_lobes(reflectance, to_viewer, specular_share, u));
+    if (!in_fog()) return to_world(frame, sample_lobes(reflectance, to_viewer, shares, u));
     const float z = sample_phase(anisotropy, u.x);
     const float radius = std::sqrt(std::max(0.0f, 1.0f - z * z)), angle = kTwoPi * u.y;
     return to_world(frame, {radius * std::cos(angle), radius * std::sin(angle), z});
   }
   float pdf(const glm::vec3& direction_ws) const {
     if (in_fog()) return phase(anisotropy, glm::dot(frame.normal, direction_ws));
-    return pdf_lobes(reflectance, to_viewer, specular_share, to_local(frame, direction_ws));
+    return pdf_lobes(reflectance, to_viewer, shares, to_local(frame, direction_ws));
   }
   glm::vec3 ray_origin() const {
     return in_fog() ? position_ws : offset_ray_origin(position_ws, geometric_normal_ws);

@@ -12,12 +12,13 @@
 #include "core/files/atomic_file.h"
 #include "core/files/file_bytes.h"
 #include "core/little_endian.h"
+#include "scene/texture.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::string_view kMagic = "lambent prepared";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 template <class T>
 using Word = std::integral_constant<bool, std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0>;
@@ -215,12 +216,12 @@ void fields(File& file, typename File::template Of<Material>& material) {
   file.flag(material.double_sided);
   file.flag(material.unlit);
   file.flag(material.lambert);
-  for (auto* view :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emission_texture, &material.specular_texture,
-        &material.specular_color_texture, &material.transmission_texture}) {
-    fields(file, *view);
-  }
+  file.number(material.clearcoat);
+  file.number(material.clearcoat_roughness);
+  file.number(material.clearcoat_normal_scale);
+  file.number(material.sheen_color);
+  file.number(material.sheen_roughness);
+  for (auto* view : texture_views(material)) fields(file, *view);
 }
 
 template <class File>

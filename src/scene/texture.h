@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 
 #include "core/byte_decoding.h"
@@ -60,6 +61,23 @@ inline vec4 fetch_texel(const DecodedLevel& level, int x, int y) {
 /// A texture at full size, as its view says.
 inline vec4 sample_texture(const Scene& scene, const TextureView& view, vec2 uv) {
   return filtered_texel(scene, view, uv);
+}
+
+/// The views of a Material or const Material, as pointers to these.
+template <class AMaterial>
+auto texture_views(AMaterial& m) {
+  return std::array{
+      &m.base_color_texture,       &m.metallic_roughness_texture, &m.normal_texture,
+      &m.emission_texture,         &m.specular_texture,           &m.specular_color_texture,
+      &m.transmission_texture,     &m.clearcoat_texture,          &m.clearcoat_roughness_texture,
+      &m.clearcoat_normal_texture, &m.sheen_color_texture,        &m.sheen_roughness_texture};
+}
+
+/// Whether this is one of the views of the material's sheen or clearcoat.
+inline bool is_of_layers(const Material& m, const TextureView* view) {
+  return view == &m.clearcoat_texture || view == &m.clearcoat_roughness_texture ||
+         view == &m.clearcoat_normal_texture || view == &m.sheen_color_texture ||
+         view == &m.sheen_roughness_texture;
 }
 
 }  // namespace lambent

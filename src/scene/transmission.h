@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which materials stop rays, and which of them let light through.
+// Which materials stop rays, which of them let light through, and which have layers on them.
 #pragma once
 
 #include "lambent/scene.h"
@@ -11,6 +11,12 @@ inline bool lets_light_through(const Material& material) {
   const bool dielectric =
       material.metallic < 1.0f || material.metallic_roughness_texture.texture >= 0;
   return material.transmission > 0.0f && dielectric && !material.unlit && !material.lambert;
+}
+
+/// Whether some point of the material may have a sheen or a clearcoat.
+inline bool has_layers(const Material& material) {
+  const bool any = material.clearcoat > 0.0f || material.sheen_color != glm::vec3(0.0f);
+  return any && !material.unlit && !material.lambert;
 }
 
 /// Whether every ray that meets the material ends there.

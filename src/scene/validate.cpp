@@ -7,6 +7,7 @@
 
 #include "scene/animation/pose.h"
 #include "scene/limits.h"
+#include "scene/texture.h"
 #include "shared/constants.h"
 
 namespace lambent {
@@ -110,9 +111,14 @@ const char* flaw_of(const Material& m, std::size_t textures) {
   if (!in_unit_range(m.transmission)) return "transmission is not within 0 to 1";
   if (!within(m.absorption, 0.0f, kMaxFactor)) return "absorption is not within 0 to 1e6 1/m";
   if (!finite(m.alpha_cutoff)) return "alpha_cutoff is not finite";
-  for (const TextureView* view : {&m.base_color_texture, &m.metallic_roughness_texture,
-                                  &m.normal_texture, &m.emission_texture, &m.specular_texture,
-                                  &m.specular_color_texture, &m.transmission_texture}) {
+  if (!in_unit_range(m.clearcoat)) return "clearcoat is not within 0 to 1";
+  if (!in_unit_range(m.clearcoat_roughness)) return "clearcoat_roughness is not within 0 to 1";
+  if (!(std::abs(m.clearcoat_normal_scale) <= kMaxFactor)) {
+    return "clearcoat_normal_scale is not within -1e6 to 1e6";
+  }
+  if (!within(m.sheen_color, 0.0f, 1.0f)) return "sheen_color is not within 0 to 1";
+  if (!in_unit_range(m.sheen_roughness)) return "sheen_roughness is not within 0 to 1";
+  for (const TextureView* view : texture_views(m)) {
     if (const char* flaw = flaw_of(*view, textures)) return flaw;
   }
   return nullptr;

@@ -35,9 +35,68 @@ const float kMeanBaseSchlick = 0.00369f;
 // The shape is four numbers of 8 bits. Of f0 the square root is kept, which holds 0.04 to 2 %.
 const float kAlbedoShapeSteps = 255.0f;
 
-/// Packs the luminances of a surface's base and f0, its f90 and its roughness. 0 where there is no
-/// coat: the albedo is then the same for all directions.
+// Where layers lie on the surface, the highest of these is 0, which is no roughness of a coat; the
+// shape is then 1 + k1 (s - 1/3) + k5 (s^5 - 1/21) with s = 1 - n_dot_l, of mean 1, and the two
+// numbers have 12 bits each.
+const float kLayeredShapeSteps = 4095.0f;
+const float kLeastShapeFactor = -8.0f;
+const float kShapeFactorRange = 32.0f;
+// Means of s and s^5 over light from a uniform sky.
+const float kMeanFirst = 1.0f / 3.0f;
+const float kMeanFifth = 1.0f / 21.0f;
+
+/// The factors k1 and k5 that fit the albedo of a gray surface with layers best.
+LAMBENT_FN vec2 layered_shape_factors(Reflectance gray) {
+  // Gauss's and Legendre's points in the cosine
+  const float kPoints[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
+  const float kWeights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
+  float albedos[5];
+  float mean = 0.0f;
+  for (int i = 0; i < 5; ++i) {
+    gray.layers.clearcoat_cosine = kPoints[i];
+    albedos[i] = effective_albedo(gray, kPoints[i]).x;
+    mean += 2.0f * kWeights[i] * kPoints[i] * albedos[i];
+  }
+  if (mean <= 0.0f) return vec2(0.0f);
+  // Least squares over light from a uniform sky
+  vec2 projected = vec2(0.0f);
+  vec3 products = vec3(0.0f);
+  for (int i = 0; i < 5; ++i) {
+    float s = 1.0f - kPoints[i];
+    vec2 basis = vec2(s - kMeanFirst, s * s * s * s * s - kMeanFifth);
+    float weight = kWeights[i] * kPoints[i];
+    projected += basis * (weight * (albedos[i] / mean - 1.0f));
+    products += weight * vec3(basis.x * basis.x, basis.x * basis.y, basis.y * basis.y);
+  }
+  float determinant = products.x * products.z - products.y * products.y;
+  return vec2(projected.x * products.z - projected.y * products.y,
+              projected.y * products.x - projected.x * products.y) /
+         determinant;
+}
+
+LAMBENT_FN uint encode_layered_shape(Reflectance surface) {
+  Reflectance gray = surface;
+  gray.diffuse = vec3(luminance(surface.diffuse));
+  gray.f0 = vec3(luminance(surface.f0));
+  gray.layers.sheen = vec3(luminance(surface.layers.sheen));
+  vec2 factors = (layered_shape_factors(gray) - vec2(kLeastShapeFactor)) / kShapeFactorRange;
+  uvec2 steps = uvec2(clamp(factors, 0.0f, 1.0f) * kLayeredShapeSteps + vec2(0.5f));
+  return steps.x | (steps.y << 12u);
+}
+
+LAMBENT_FN float layered_albedo_towards(uint shape, float n_dot_l) {
+  vec2 factors =
+      vec2(uvec2(shape & 4095u, shape >> 12u)) * (kShapeFactorRange / kLayeredShapeSteps) +
+      vec2(kLeastShapeFactor);
+  float s = 1.0f - clamp(n_dot_l, 0.0f, 1.0f);
+  float s2 = s * s;
+  return max(1.0f + factors.x * (s - kMeanFirst) + factors.y * (s2 * s2 * s - kMeanFifth), 0.0f);
+}
+
+/// Packs the luminances of a surface's base and f0, its f90 and its roughness; of layers as above.
+/// 0 where there is no coat: the albedo is then the same for all directions.
 LAMBENT_FN uint encode_albedo_shape(Reflectance surface) {
+  if (has_layers(surface.layers)) return encode_layered_shape(surface);
   if (surface.f90 <= 0.0f) return 0u;
   vec4 parts = vec4(luminance(surface.diffuse), sqrt(max(luminance(surface.f0), 0.0f)), surface.f90,
                     sqrt(surface.alpha));
@@ -48,12 +107,14 @@ LAMBENT_FN uint encode_albedo_shape(Reflectance surface) {
 /// The directional albedo of light at this cosine to the normal, over its mean.
 LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
   if (shape == 0u) return 1.0f;
+  if ((shape >> 24u) == 0u) return layered_albedo_towards(shape, n_dot_l);
   vec4 parts =
       vec4(uvec4(shape & 255u, (shape >> 8u) & 255u, (shape >> 16u) & 255u, shape >> 24u)) *
       (1.0f / kAlbedoShapeSteps);
   float roughness = parts.w;
   float f0 = parts.y * parts.y;
-  Reflectance gray = {vec3(parts.x), max(roughness * roughness, kMinGgxAlpha), vec3(f0), parts.z};
+  Reflectance gray = {vec3(parts.x), max(roughness * roughness, kMinGgxAlpha), vec3(f0), parts.z,
+                      no_layers()};
   float edge = parts.z - f0;
   float mean = parts.x * (1.0f - f0 - edge * kMeanBaseSchlick) + f0 * mean_ggx_albedo(roughness) +
                edge * mean_ggx_schlick(roughness);

@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// Based on: Khronos Group, glTF 2.0 specification, Appendix B, "BRDF Implementation"; Heitz,
-// "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018.
+// How a surface reflects light.
+//
+// Based on: Khronos Group, glTF 2.0 specification, Appendix B, "BRDF Implementation".
 #ifndef LAMBENT_SHARED_BRDF_H
 #define LAMBENT_SHARED_BRDF_H
 
-#include "shared/color.h"
-#include "shared/sampling.h"
+#include "shared/layers.h"
 
 LAMBENT_BEGIN
 
-/// How a surface point reflects: a Lambert base under a GGX coat that shares one Fresnel term.
+/// How a surface point reflects: a Lambert base under a GGX coat that shares one Fresnel term, and
+/// what lies on both.
 struct Reflectance {
   vec3 diffuse;  ///< Albedo of the base, 0 to 1: base color * (1 - metallic).
   float alpha;   ///< GGX width, roughness squared; at least kMinGgxAlpha.
   vec3 f0;       ///< Specular reflectance at normal incidence.
   float f90;     ///< At grazing incidence; 0 with f0 = 0 makes an exact Lambert surface.
+  SurfaceLayers layers;
 };
-
-/// Narrower lobes are mirrors to float precision; alpha below this makes D overflow.
-const float kMinGgxAlpha = 1e-3f;
 
 /// Schlick 1994: the share reflected by the coat at the angle between direction and half vector.
 LAMBENT_FN vec3 fresnel(Reflectance surface, float v_dot_h) {
@@ -27,29 +26,22 @@ LAMBENT_FN vec3 fresnel(Reflectance surface, float v_dot_h) {
   return surface.f0 + (vec3(surface.f90) - surface.f0) * m5;
 }
 
-/// Walter et al. 2007, Eq. 33: density of microfacet normals [1/sr].
-LAMBENT_FN float ggx_distribution(float n_dot_h, float alpha) {
-  float a2 = alpha * alpha;
-  float d = n_dot_h * n_dot_h * (a2 - 1.0f) + 1.0f;
-  return a2 * kInvPi / (d * d);
-}
-
-/// Smith's Lambda for GGX, from the cosine to the normal.
-LAMBENT_FN float ggx_lambda(float cos_theta, float alpha) {
-  float c2 = cos_theta * cos_theta;
-  float tan2 = max(0.0f, 1.0f - c2) / max(c2, 1e-12f);
-  return 0.5f * (sqrt(1.0f + alpha * alpha * tan2) - 1.0f);
-}
-
-/// The two parts of the reflection function times cos(theta_l).
+/// The parts of the reflection function times cos(theta_l): of the base and a sheen, and of the
+/// coat and a clearcoat.
 struct ReflectedPair {
   vec3 diffuse;
   vec3 specular;
 };
 
-/// BRDF times cosine, for unit directions to the viewer and to the light in the frame whose normal
-/// is +Z. Zero where either is below the surface.
-LAMBENT_FN ReflectedPair evaluate_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
+/// The same with the clearcoat apart.
+struct ReflectedLobes {
+  vec3 diffuse;
+  vec3 specular;
+  float clearcoat;
+};
+
+/// BRDF times cosine of what lies under the layers, as if these were not there.
+LAMBENT_FN ReflectedPair evaluate_under_layers(Reflectance surface, vec3 to_viewer, vec3 to_light) {
   ReflectedPair result = {vec3(0.0f), vec3(0.0f)};
   float n_dot_v = to_viewer.z;
   float n_dot_l = to_light.z;
@@ -67,81 +59,36 @@ LAMBENT_FN ReflectedPair evaluate_reflectance(Reflectance surface, vec3 to_viewe
   return result;
 }
 
-/// A half vector seen from `to_viewer`. Heitz 2018, listing 1.
-LAMBENT_FN vec3 sample_ggx_visible_normal(vec3 to_viewer, float alpha, vec2 u) {
-  vec3 stretched = normalize(vec3(alpha * to_viewer.x, alpha * to_viewer.y, to_viewer.z));
-  float lensq = stretched.x * stretched.x + stretched.y * stretched.y;
-  vec3 t1 = lensq > 0.0f ? vec3(-stretched.y, stretched.x, 0.0f) * inversesqrt(lensq)
-                         : vec3(1.0f, 0.0f, 0.0f);
-  vec3 t2 = cross(stretched, t1);
-  float radius = sqrt(u.x);
-  float angle = kTwoPi * u.y;
-  float p1 = radius * cos(angle);
-  float p2 = radius * sin(angle);
-  float s = 0.5f * (1.0f + stretched.z);
-  p2 = (1.0f - s) * sqrt(max(0.0f, 1.0f - p1 * p1)) + s * p2;
-  vec3 n = p1 * t1 + p2 * t2 + sqrt(max(0.0f, 1.0f - p1 * p1 - p2 * p2)) * stretched;
-  return normalize(vec3(alpha * n.x, alpha * n.y, max(1e-6f, n.z)));
+/// BRDF times cosine, for unit directions to the viewer and to the light in the frame whose normal
+/// is +Z. Zero where either is below the surface.
+LAMBENT_FN ReflectedLobes evaluate_lobes(Reflectance surface, vec3 to_viewer, vec3 to_light) {
+  ReflectedPair under = evaluate_under_layers(surface, to_viewer, to_light);
+  ReflectedLobes lobes = {under.diffuse, under.specular, 0.0f};
+  SurfaceLayers layers = surface.layers;
+  if (!has_layers(layers)) return lobes;
+  lobes.diffuse *= even_share_under_layers(layers, to_viewer, to_light);
+  lobes.specular *= coat_share_under_layers(layers, to_viewer, to_light);
+  if (has_sheen(layers)) {
+    lobes.diffuse += layers.sheen * (sheen_lobe(to_viewer, to_light, layers.sheen_roughness) *
+                                     even_share_under_clearcoat(layers, to_viewer, to_light));
+  }
+  if (has_clearcoat(layers)) lobes.clearcoat = clearcoat_lobe(layers, to_viewer, to_light);
+  return lobes;
 }
-
-/// Density of the reflected direction that sample_ggx_visible_normal leads to [1/sr]. Heitz 2018,
-/// Eq. 17.
-LAMBENT_FN float pdf_ggx_reflection(vec3 to_viewer, vec3 to_light, float alpha) {
-  if (to_viewer.z <= 0.0f || to_light.z <= 0.0f) return 0.0f;
-  vec3 h = normalize(to_viewer + to_light);
-  float g1 = 1.0f / (1.0f + ggx_lambda(to_viewer.z, alpha));
-  return g1 * ggx_distribution(h.z, alpha) / (4.0f * to_viewer.z);
-}
-
-/// Value of a polynomial of the third degree.
-LAMBENT_FN float cubic(vec4 c, float x) {
-  return c.x + x * (c.y + x * (c.z + x * c.w));
-}
-
-// Share of light from a uniform sky that a GGX coat of reflectance 1 reflects once, its directional
-// albedo: a polynomial in the roughness and in t = n_dot_v / (n_dot_v + alpha), fitted to integrals
-// over visible normals (Heitz 2018) for roughness 0.03 to 1 and cosines 0.01 to 1, largest error
-// 0.005. The share is less than 1 because light that a microfacet sends into another one is lost,
-// as glTF's formulas and the reference have it.
-LAMBENT_FN float ggx_albedo(float n_dot_v, float alpha) {
-  float r = sqrt(alpha);
-  float t = n_dot_v / (n_dot_v + alpha);
-  float t0 = cubic(vec4(0.643397f, 1.81881f, -3.31849f, 2.58684f), r);
-  float t1 = cubic(vec4(2.75546f, -11.322f, 14.341f, -8.10613f), r);
-  float t2 = cubic(vec4(-8.31472f, 15.1522f, 20.1477f, -52.7755f), r);
-  float t3 = cubic(vec4(9.90489f, -2.35144f, -70.7335f, 102.767f), r);
-  float t4 = cubic(vec4(-4.00062f, -2.97278f, 36.5397f, -35.5672f), r);
-  // The fourth powers of the roughness
-  float r4 = alpha * alpha;
-  t0 -= 0.752007f * r4;
-  t1 -= 0.657047f * r4;
-  t2 += 33.2661f * r4;
-  t3 -= 51.8063f * r4;
-  t4 += 13.6328f * r4;
-  return clamp(t0 + t * (t1 + t * (t2 + t * (t3 + t * t4))), 0.0f, 1.0f);
-}
-
-/// Mean over that light of Schlick's (1 - v_dot_h)^5, fitted likewise: the largest error of the
-/// Fresnel term of a coat of f0 = 0.04 is 4 % of it.
-LAMBENT_FN float mean_schlick(float n_dot_v, float alpha) {
-  float r = sqrt(alpha);
-  float s = 1.0f - clamp(n_dot_v, 0.0f, 1.0f);
-  float s2 = s * s;
-  float s5 = s2 * s2 * s;
-  float t = n_dot_v / (n_dot_v + alpha);
-  float mean = cubic(vec4(0.000156805f, 0.00861857f, -0.0162152f, 0.00888212f), r);
-  mean += cubic(vec4(0.0256367f, -0.381701f, 0.69692f, -0.347128f), r) * s;
-  mean += cubic(vec4(-0.0850847f, 1.13927f, -1.73774f, 0.701174f), r) * s2;
-  mean += cubic(vec4(1.10564f, -3.91654f, 4.57996f, -1.73939f), r) * s5;
-  mean += cubic(vec4(-0.0137047f, 3.72759f, -9.52381f, 5.92496f), r) * s5 * t;
-  return clamp(mean, 0.0f, 1.0f);
+LAMBENT_FN ReflectedPair evaluate_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
+  ReflectedLobes lobes = evaluate_lobes(surface, to_viewer, to_light);
+  ReflectedPair pair = {lobes.diffuse, lobes.specular};
+  if (has_clearcoat(surface.layers)) pair.specular += vec3(lobes.clearcoat);
+  return pair;
 }
 
 /// Share of light from a uniform sky that the coat reflects: its directional albedo.
 LAMBENT_FN vec3 specular_albedo(Reflectance surface, float n_dot_v) {
   float cosine = max(n_dot_v, 0.0f);
   vec3 f = surface.f0 + (vec3(surface.f90) - surface.f0) * mean_schlick(cosine, surface.alpha);
-  return f * ggx_albedo(cosine, surface.alpha);
+  vec3 albedo = f * ggx_albedo(cosine, surface.alpha);
+  if (!has_layers(surface.layers)) return albedo;
+  return albedo * mean_coat_share(surface.layers, cosine, surface.alpha);
 }
 
 /// Mean of Schlick's (1 - v_dot_h)^5 over light from a uniform sky, in proportion to the cosine to
@@ -152,54 +99,115 @@ LAMBENT_FN float mean_base_schlick(float n_dot_v) {
   return s * cubic(vec4(0.00431124f, -0.00181278f, 0.0255616f, 0.0f), s);
 }
 
-/// Share of light from a uniform sky that the base reflects through the coat: the base's
-/// directional albedo.
+/// Share of light from a uniform sky that the base reflects through the coat, and a sheen: the
+/// directional albedo of both.
 LAMBENT_FN vec3 base_albedo(Reflectance surface, float n_dot_v) {
   vec3 reflected = surface.f0 + (vec3(surface.f90) - surface.f0) * mean_base_schlick(n_dot_v);
-  return surface.diffuse * (vec3(1.0f) - reflected);
+  vec3 albedo = surface.diffuse * (vec3(1.0f) - reflected);
+  if (!has_layers(surface.layers)) return albedo;
+  return albedo * mean_even_share(surface.layers, n_dot_v) +
+         layered_sheen_albedo(surface.layers, n_dot_v);
+}
+
+/// Whether a surface reflects no light but by its coats.
+LAMBENT_FN bool has_no_base(Reflectance surface) {
+  return surface.diffuse == vec3(0.0f) && !has_sheen(surface.layers);
+}
+
+/// Whether a surface reflects nothing as a mirror would, not even roughly.
+LAMBENT_FN bool has_no_coat(Reflectance surface) {
+  return surface.f90 <= 0.0f && !has_clearcoat(surface.layers);
+}
+
+/// The clearcoat of a surface, alone, as a coat of its own in the frame of its normal.
+LAMBENT_FN Reflectance clearcoat_alone(SurfaceLayers layers) {
+  Reflectance coat = {vec3(0.0f), layers.clearcoat_alpha, vec3(kClearcoatF0 * layers.clearcoat),
+                      layers.clearcoat, no_layers()};
+  return coat;
 }
 
 /// The share of light that a surface sends back, as if it did so evenly: its Lambert base under the
-/// coat, and the coat's own directional albedo, so that metals pass light on, too.
+/// coat, the coat's own directional albedo, so that metals pass light on, too, and the layers'.
 LAMBENT_FN vec3 effective_albedo(Reflectance surface, float n_dot_v) {
+  if (has_layers(surface.layers)) {
+    return base_albedo(surface, n_dot_v) + specular_albedo(surface, n_dot_v) +
+           vec3(clearcoat_albedo(surface.layers));
+  }
   if (surface.f90 <= 0.0f) return surface.diffuse;
   return base_albedo(surface, n_dot_v) + specular_albedo(surface, n_dot_v);
 }
 
-/// Probability with which importance sampling should pick the specular lobe.
-LAMBENT_FN float specular_probability(Reflectance surface, float n_dot_v) {
-  if (surface.f90 <= 0.0f) return 0.0f;
+/// Probabilities with which importance sampling should pick the coat and the clearcoat; else it
+/// takes the cosine lobe.
+struct LobeShares {
+  float specular;
+  float clearcoat;
+};
+
+LAMBENT_FN LobeShares lobe_shares(Reflectance surface, float n_dot_v) {
+  LobeShares shares = {0.0f, 0.0f};
+  if (has_no_coat(surface)) return shares;
   float specular = luminance(specular_albedo(surface, n_dot_v));
-  float diffuse = luminance(surface.diffuse);
-  return clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 1.0f);
+  float diffuse = luminance(surface.diffuse + surface.layers.sheen);
+  if (!has_clearcoat(surface.layers)) {
+    shares.specular = clamp(specular / max(specular + diffuse, 1e-6f), 0.1f, 1.0f);
+    return shares;
+  }
+  // Each of the coats has at least a quarter of what both have, for lights may be in either alone
+  float clearcoat = clearcoat_albedo(surface.layers);
+  float coats = specular + clearcoat;
+  float both = clamp(coats / max(coats + diffuse, 1e-6f), 0.1f, 1.0f);
+  shares.clearcoat = both;
+  if (surface.f90 > 0.0f) {
+    shares.clearcoat = both * clamp(clearcoat / max(coats, 1e-6f), 0.25f, 0.75f);
+  }
+  shares.specular = both - shares.clearcoat;
+  return shares;
 }
 
-/// A direction to reflect from: of the specular lobe with probability `specular_share` (u.z
+/// The same with coats that have at most this share together.
+LAMBENT_FN LobeShares limited_shares(LobeShares shares, float most) {
+  float both = shares.specular + shares.clearcoat;
+  if (both <= most) return shares;
+  if (shares.clearcoat <= 0.0f) {
+    shares.specular = most;
+    return shares;
+  }
+  shares.specular *= most / both;
+  shares.clearcoat *= most / both;
+  return shares;
+}
+
+/// A direction to reflect from: of the coat's lobe or the clearcoat's with their probabilities (u.z
 /// decides), else of the cosine lobe. May point below the surface, where the density is 0.
-LAMBENT_FN vec3 sample_lobes(Reflectance surface, vec3 to_viewer, float specular_share, vec3 u) {
-  if (u.z >= specular_share) return sample_cosine_hemisphere(vec2(u.x, u.y));
-  vec3 h = sample_ggx_visible_normal(to_viewer, surface.alpha, vec2(u.x, u.y));
+LAMBENT_FN vec3 sample_lobes(Reflectance surface, vec3 to_viewer, LobeShares shares, vec3 u) {
+  vec2 point = vec2(u.x, u.y);
+  if (u.z < shares.clearcoat) return sample_clearcoat(surface.layers, to_viewer, point);
+  if (u.z >= shares.specular + shares.clearcoat) return sample_cosine_hemisphere(point);
+  vec3 h = sample_ggx_visible_normal(to_viewer, surface.alpha, point);
   return reflect(-to_viewer, h);
 }
 
 /// Density of sample_lobes [1/sr].
-LAMBENT_FN float pdf_lobes(Reflectance surface, vec3 to_viewer, float specular_share,
-                           vec3 to_light) {
-  float pdf = (1.0f - specular_share) * pdf_cosine_hemisphere(to_light.z);
-  if (specular_share > 0.0f) {
-    pdf += specular_share * pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
+LAMBENT_FN float pdf_lobes(Reflectance surface, vec3 to_viewer, LobeShares shares, vec3 to_light) {
+  float pdf = (1.0f - (shares.specular + shares.clearcoat)) * pdf_cosine_hemisphere(to_light.z);
+  if (shares.specular > 0.0f) {
+    pdf += shares.specular * pdf_ggx_reflection(to_viewer, to_light, surface.alpha);
+  }
+  if (shares.clearcoat > 0.0f) {
+    pdf += shares.clearcoat * pdf_clearcoat(surface.layers, to_viewer, to_light);
   }
   return pdf;
 }
 
-/// A direction to reflect from, drawn from the mix of both lobes that suits the surface.
+/// A direction to reflect from, drawn from the mix of lobes that suits the surface.
 LAMBENT_FN vec3 sample_reflectance(Reflectance surface, vec3 to_viewer, vec3 u) {
-  return sample_lobes(surface, to_viewer, specular_probability(surface, to_viewer.z), u);
+  return sample_lobes(surface, to_viewer, lobe_shares(surface, to_viewer.z), u);
 }
 
 /// Density of sample_reflectance [1/sr].
 LAMBENT_FN float pdf_reflectance(Reflectance surface, vec3 to_viewer, vec3 to_light) {
-  return pdf_lobes(surface, to_viewer, specular_probability(surface, to_viewer.z), to_light);
+  return pdf_lobes(surface, to_viewer, lobe_shares(surface, to_viewer.z), to_light);
 }
 
 LAMBENT_END

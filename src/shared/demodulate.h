@@ -13,7 +13,7 @@ const float kLeastFilteredAlbedo = 1e-3f;
 
 /// The albedo without which a surface's direct light of emitters is filtered.
 LAMBENT_FN vec3 filtered_albedo(Reflectance reflectance) {
-  return max(reflectance.diffuse, vec3(kLeastFilteredAlbedo));
+  return max(reflectance.diffuse + reflectance.layers.sheen, vec3(kLeastFilteredAlbedo));
 }
 
 // Light that few rays found may be this many times what arrives where nothing is in the way, which

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 // A triangle, a spot light and a camera; its mesh is named with a terminal escape.
 constexpr const char* kScene = R"({
   "asset": {"version": "2.0", "generator": "by \u001b[31mhand"},
-  "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_sheen"],
+  "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_iridescence"],
   "extensions": {"KHR_lights_punctual": {"lights": [
     {"type": "spot", "name": "lamp", "intensity": 5, "spot": {}}]}},
   "buffers": [{"byteLength": 36, "uri":
@@ -46,9 +46,10 @@ class Info : public testing::Test {
 TEST_F(Info, SummarizesForPeople) {
   const ProgramResult outcome = run_program("info " + file());
   EXPECT_EQ(outcome.status, 0);
-  for (const char* part : {"scene.gltf", "KHR_lights_punctual", "2 (2 triangles)", "glow",
-                           "spot 5 5 5 W/sr, at 0 4 0 m", "2 emissive triangles", "front",
-                           "ior 1.33", "at 0 0 3 m", "0 0 -2 to 1 1 0 m", "KHR_materials_sheen"}) {
+  for (const char* part :
+       {"scene.gltf", "KHR_lights_punctual", "2 (2 triangles)", "glow",
+        "spot 5 5 5 W/sr, at 0 4 0 m", "2 emissive triangles", "front", "ior 1.33", "at 0 0 3 m",
+        "0 0 -2 to 1 1 0 m", "KHR_materials_iridescence"}) {
     EXPECT_THAT(outcome.output, HasSubstr(part));
   }
 }

@@ -11,9 +11,8 @@
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
-#include "scenes/mesh_builder.h"
-#include "scenes/parts.h"
 #include "support/field_scenes.h"
+#include "support/furnace_ball.h"
 
 namespace lambent {
 namespace {
@@ -38,33 +37,13 @@ struct Case {
   float metallic;
 };
 
-/// A ball with a coat, within black walls that shine or under a sky: nothing else reflects.
+/// A ball with a coat.
 Scene ball(const Case& c) {
-  Scene scene;
-  scenes::MeshBuilder builder;
-  if (c.source == Source::emitters) {
-    const int wall = scenes::add_lambert(scene, "wall", glm::vec3(0.0f), glm::vec3(1.0f));
-    builder.room(glm::vec3(-3.0f), glm::vec3(3.0f));
-    scenes::add_object(scene, builder.take("room", wall));
-  } else {
-    scene.environment.radiance = glm::vec3(1.0f);
-  }
   Material coat;
   coat.base_color = c.metallic > 0.0f ? glm::vec4(1.0f) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   coat.metallic = c.metallic;
   coat.roughness = c.roughness;
-  scene.materials.push_back(coat);
-  std::vector<glm::vec2> profile;
-  constexpr int kSteps = 64;
-  for (int i = 0; i <= kSteps; ++i) {
-    const float angle = kPi * static_cast<float>(i) / kSteps;
-    const bool pole = i == 0 || i == kSteps;
-    profile.emplace_back(pole ? 0.0f : std::sin(angle), -std::cos(angle));
-  }
-  builder.lathe(glm::vec3(0.0f), profile, 2 * kSteps);
-  scenes::add_object(scene, builder.take("ball", static_cast<int>(scene.materials.size()) - 1));
-  scenes::add_camera(scene, "ball", {0.0f, 0.4f, 2.9f}, glm::vec3(0.0f), 0.9f, 1.0f);
-  return scene;
+  return test::furnace_ball(coat, c.source == Source::sky);
 }
 
 /// Share of light from everywhere that a surface's coat reflects; none comes from below either of

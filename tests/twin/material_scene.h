@@ -81,6 +81,12 @@ inline Scene material_scene() {
     m.specular_color_texture = colors;
     m.metallic = 0.0f;
     m.ior = 1.8f;
+    m.clearcoat = 0.8f;
+    m.clearcoat_texture = view(kData, Wrap::repeat, Wrap::repeat);
+    m.clearcoat_roughness = 0.7f;
+    m.clearcoat_roughness_texture = view(kData, Wrap::repeat, Wrap::clamp_to_edge);
+    m.clearcoat_normal_texture = view(kBumps, Wrap::mirrored_repeat, Wrap::repeat);
+    m.clearcoat_normal_scale = 0.5f;
   });
   Mesh ball = sphere(0.8f, 10, coated);
   for (const glm::vec3& n : ball.normals) {
@@ -105,6 +111,10 @@ inline Scene material_scene() {
     m.base_color_texture = colors;
     m.alpha_mode = AlphaMode::mask;
     m.alpha_cutoff = 0.45f;
+    m.sheen_color = {0.9f, 0.8f, 0.6f};
+    m.sheen_color_texture = view(kStripes, Wrap::repeat, Wrap::repeat);
+    m.sheen_roughness = 0.9f;
+    m.sheen_roughness_texture = view(kData, Wrap::repeat, Wrap::repeat);
   });
   add(scene, quad({-2.0f, -0.5f, 1.5f}, {1.5f, 0.0f, 0.0f}, {0.0f, 1.5f, 0.0f}, mask));
   const int veil = material([&](Material& m) {

@@ -23,7 +23,7 @@ vec3 direction_at(float cosine) {
 }
 
 Reflectance plastic(float roughness) {
-  return {vec3(0.8f, 0.4f, 0.2f), roughness * roughness, vec3(0.04f), 1.0f};
+  return {vec3(0.8f, 0.4f, 0.2f), roughness * roughness, vec3(0.04f), 1.0f, no_layers()};
 }
 
 TEST(BaseAlbedo, IsTheIntegralOfTheBase) {
@@ -45,8 +45,8 @@ TEST(AlbedoTowards, HasAMeanOfOne) {
   for (const float roughness : {0.05f, 0.2f, 0.5f, 0.8f, 1.0f}) {
     const std::array<Reflectance, 3> surfaces = {
         plastic(roughness),
-        Reflectance{vec3(0.0f), roughness * roughness, vec3(0.9f, 0.7f, 0.3f), 1.0f},
-        Reflectance{vec3(0.02f), roughness * roughness, vec3(0.02f), 0.5f}};
+        Reflectance{vec3(0.0f), roughness * roughness, vec3(0.9f, 0.7f, 0.3f), 1.0f, no_layers()},
+        Reflectance{vec3(0.02f), roughness * roughness, vec3(0.02f), 0.5f, no_layers()}};
     for (const Reflectance& surface : surfaces) {
       const uint shape = encode_albedo_shape(surface);
       double mean = 0.0;
@@ -66,7 +66,7 @@ TEST(AlbedoTowards, SendsMoreOfGrazingLightBack) {
 }
 
 TEST(AlbedoTowards, IsOneWithoutACoat) {
-  const uint shape = encode_albedo_shape({vec3(0.7f), 1.0f, vec3(0.0f), 0.0f});
+  const uint shape = encode_albedo_shape({vec3(0.7f), 1.0f, vec3(0.0f), 0.0f, no_layers()});
   EXPECT_EQ(shape, 0u);
   EXPECT_EQ(albedo_towards(shape, 0.2f), 1.0f);
 }

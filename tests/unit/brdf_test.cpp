@@ -29,10 +29,10 @@ vec3 viewer(float degrees) {
 }
 
 Reflectance dielectric(float roughness, const vec3& albedo = vec3(0.6f)) {
-  return {albedo, std::max(roughness * roughness, kMinGgxAlpha), vec3(0.04f), 1.0f};
+  return {albedo, std::max(roughness * roughness, kMinGgxAlpha), vec3(0.04f), 1.0f, no_layers()};
 }
 Reflectance metal(float roughness) {
-  return {vec3(0.0f), std::max(roughness * roughness, kMinGgxAlpha), vec3(1.0f), 1.0f};
+  return {vec3(0.0f), std::max(roughness * roughness, kMinGgxAlpha), vec3(1.0f), 1.0f, no_layers()};
 }
 
 vec3 reflected_share(const Reflectance& surface, const vec3& to_viewer) {
@@ -64,7 +64,7 @@ TEST(Brdf, SmoothMetalReflectsEverything) {
 }
 
 TEST(Brdf, LambertReflectsExactlyItsAlbedo) {
-  const Reflectance surface = {vec3(0.2f, 0.5f, 0.8f), 1.0f, vec3(0.0f), 0.0f};
+  const Reflectance surface = {vec3(0.2f, 0.5f, 0.8f), 1.0f, vec3(0.0f), 0.0f, no_layers()};
   const vec3 share = reflected_share(surface, viewer(60.0f));
   EXPECT_NEAR(share.x, 0.2f, 1e-5f);
   EXPECT_NEAR(share.y, 0.5f, 1e-5f);
@@ -109,6 +109,7 @@ struct SamplerCase {
   float roughness;
   float degrees;
   bool is_metal;
+  float clearcoat_roughness = -1.0f;  // less than 0: there is no clearcoat
 };
 
 class BrdfSampling : public testing::TestWithParam<SamplerCase> {};
@@ -116,8 +117,13 @@ class BrdfSampling : public testing::TestWithParam<SamplerCase> {};
 // Counts samples a cell beside what the density, integrated over the cell, promises. The rest of
 // the samples, below the horizon, counts as one more cell.
 TEST_P(BrdfSampling, FollowsItsDensity) {
-  const Reflectance surface =
+  Reflectance surface =
       GetParam().is_metal ? metal(GetParam().roughness) : dielectric(GetParam().roughness);
+  if (GetParam().clearcoat_roughness >= 0.0f) {
+    surface.layers.clearcoat = 1.0f;
+    surface.layers.clearcoat_alpha = std::pow(GetParam().clearcoat_roughness, 2.0f);
+    surface.layers.clearcoat_normal = normalize(vec3(0.2f, -0.1f, 1.0f));
+  }
   const vec3 to_viewer = viewer(GetParam().degrees);
   std::vector<double> observed(kCellsZ * kCellsAngle + 1), expected(observed.size());
 
@@ -125,7 +131,8 @@ TEST_P(BrdfSampling, FollowsItsDensity) {
   for (int i = 0; i < kSamples; ++i) {
     const vec2 u = next_uniform2(random);
     const vec3 w = sample_reflectance(surface, to_viewer, vec3(u, next_uniform(random)));
-    if (w.z <= 0.0f) {
+    // A clearcoat has a horizon of its own
+    if (w.z <= 0.0f || pdf_reflectance(surface, to_viewer, w) <= 0.0f) {
       observed.back() += 1.0;
       continue;
     }
@@ -152,12 +159,12 @@ TEST_P(BrdfSampling, FollowsItsDensity) {
   EXPECT_LT(test::chi_squared_deviation(observed, expected), test::kMaxChiSquaredDeviation);
 }
 
-INSTANTIATE_TEST_SUITE_P(Brdf, BrdfSampling,
-                         testing::Values(SamplerCase{1.0f, 0.0f, false},
-                                         SamplerCase{1.0f, 70.0f, true},
-                                         SamplerCase{0.6f, 45.0f, false},
-                                         SamplerCase{0.6f, 80.0f, true},
-                                         SamplerCase{0.5f, 20.0f, true}));
+INSTANTIATE_TEST_SUITE_P(
+    Brdf, BrdfSampling,
+    testing::Values(SamplerCase{1.0f, 0.0f, false}, SamplerCase{1.0f, 70.0f, true},
+                    SamplerCase{0.6f, 45.0f, false}, SamplerCase{0.6f, 80.0f, true},
+                    SamplerCase{0.5f, 20.0f, true}, SamplerCase{0.6f, 45.0f, false, 0.5f},
+                    SamplerCase{0.8f, 30.0f, true, 0.6f}));
 
 }  // namespace
 }  // namespace lambent

@@ -50,6 +50,45 @@ TEST(GltfMaterials, HaveTheDefaultsOfTheSpecification) {
   EXPECT_FALSE(m.unlit);
 }
 
+TEST(GltfMaterials, ReadLayersAndTheirTextures) {
+  GltfBuilder builder = with_image(test::png_of(1, 1, kGrey));
+  builder.append("materials", Json::parse(R"({"extensions": {
+    "KHR_materials_clearcoat": {
+      "clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25,
+      "clearcoatTexture": {"index": 0, "texCoord": 1},
+      "clearcoatRoughnessTexture": {"index": 0},
+      "clearcoatNormalTexture": {"index": 0, "scale": 0.75}},
+    "KHR_materials_sheen": {
+      "sheenColorFactor": [0.125, 0.25, 2], "sheenRoughnessFactor": 0.375,
+      "sheenColorTexture": {"index": 0}, "sheenRoughnessTexture": {"index": 0}}}})"));
+  builder.append("materials", Json::parse(R"({"extensions": {
+    "KHR_materials_clearcoat": {}, "KHR_materials_sheen": {}}})"));
+  const Expected<Scene> scene = builder.load();
+  ASSERT_TRUE(scene) << error_of(scene);
+  const Material& m = scene->materials.at(0);
+  EXPECT_EQ(m.clearcoat, 0.5f);
+  EXPECT_EQ(m.clearcoat_roughness, 0.25f);
+  EXPECT_EQ(m.clearcoat_normal_scale, 0.75f);
+  EXPECT_EQ(m.sheen_color, glm::vec3(0.125f, 0.25f, 1.0f));
+  EXPECT_EQ(m.sheen_roughness, 0.375f);
+  EXPECT_EQ(m.clearcoat_texture.uv_set, 1);
+  // Colors are read as sRGB, all else as numbers
+  const int data = m.clearcoat_texture.texture;
+  ASSERT_GE(data, 0);
+  EXPECT_FALSE(scene->textures.at(data).srgb);
+  EXPECT_EQ(m.clearcoat_roughness_texture.texture, data);
+  EXPECT_EQ(m.clearcoat_normal_texture.texture, data);
+  EXPECT_EQ(m.sheen_roughness_texture.texture, data);
+  ASSERT_GE(m.sheen_color_texture.texture, 0);
+  EXPECT_TRUE(scene->textures.at(m.sheen_color_texture.texture).srgb);
+  EXPECT_THAT(scene->source.warnings, Contains(HasSubstr("sheen colors were clamped")));
+  const Material& none = scene->materials.at(1);
+  EXPECT_EQ(none.clearcoat, 0.0f);
+  EXPECT_EQ(none.clearcoat_roughness, 0.0f);
+  EXPECT_EQ(none.sheen_color, glm::vec3(0.0f));
+  EXPECT_EQ(none.sheen_roughness, 0.0f);
+}
+
 TEST(GltfMaterials, ReadEveryFactor) {
   const Material m = only_material(Json::parse(R"({
     "name": "m", "doubleSided": true, "alphaMode": "MASK", "alphaCutoff": 0.25,
@@ -281,6 +320,10 @@ TEST(GltfMaterials, FactorsOutOfRangeNameTheirPlace) {
   const std::pair<const char*, const char*> cases[] = {
       {R"({"normalTexture": {"index": 0, "scale": 1e30}})",
        "materials[0].normalTexture.scale: is 1e+30, which is not within -1000000 to 1000000"},
+      {R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1.5}}})",
+       "KHR_materials_clearcoat.clearcoatFactor: is 1.5, which is not within 0 to 1"},
+      {R"({"extensions": {"KHR_materials_sheen": {"sheenRoughnessFactor": -1}}})",
+       "KHR_materials_sheen.sheenRoughnessFactor: is -1, which is not within 0 to 1"},
       {R"({"extensions": {"KHR_materials_ior": {"ior": 1e38}}})",
        "KHR_materials_ior.ior: is 1e+38"},
       {R"({"emissiveTexture": {"index": 0, "extensions": {

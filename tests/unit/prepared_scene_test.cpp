@@ -51,6 +51,16 @@ Material every_number_its_own() {
   m.emission_texture.uv_offset.x = 4.0f;
   m.specular_texture.uv_offset.x = 5.0f;
   m.specular_color_texture.uv_offset.x = 6.0f;
+  m.clearcoat = 0.21f;
+  m.clearcoat_roughness = 0.22f;
+  m.clearcoat_normal_scale = 2.3f;
+  m.sheen_color = {0.24f, 0.25f, 0.26f};
+  m.sheen_roughness = 0.27f;
+  m.clearcoat_texture.uv_offset.x = 7.0f;
+  m.clearcoat_roughness_texture.uv_offset.x = 8.0f;
+  m.clearcoat_normal_texture.uv_offset.x = 9.0f;
+  m.sheen_color_texture.uv_offset.x = 10.0f;
+  m.sheen_roughness_texture.uv_offset.x = 11.0f;
   return m;
 }
 

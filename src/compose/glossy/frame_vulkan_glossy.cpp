@@ -20,22 +20,38 @@ bool has_coats(const Scene& scene) {
 }  // namespace
 
 void FramePassesVulkan::glossy() {
-  if (traces_coats(*request_) && has_coats(request_->world.scene())) trace_coats();
+  light_clearcoats();
+  if (traces_coats(*request_) && has_coats(request_->world.scene())) {
+    const Band around = rows_around_band();
+    see_around_band(around);
+    if (trace_coats(around, request_->settings.seed)) rays_bring_ |= kHasCoats;
+  }
+  look_up_coats(memory_.points.address(), memory_.surfaces.address());
+}
+
+void FramePassesVulkan::look_up_coats(std::uint64_t points, std::uint64_t surfaces) {
   reserve<vec3>(pixels_, "mirror irradiance", memory_.mirror_irradiance);
-  add("glossy", [this](Recorder& to) {
-    const PixelQueriesArguments arguments = {{memory_.points.address()},
-                                             {memory_.surfaces.address()},
-                                             {memory_.queries.address()},
-                                             pixels_,
-                                             1u};
+  add("glossy", [=, this](Recorder& to) {
+    const PixelQueriesArguments arguments = {
+        {points}, {surfaces}, {memory_.queries.address()}, pixels_, 1u};
     to.run(kernels_.pixel_queries, arguments, pixels_);
   });
   look_up("glossy", *request_->sources.field, memory_.queries, pixels_, CorrectionUse::smooth,
           memory_.mirror_irradiance);
 }
 
+Band FramePassesVulkan::rows_around_band() const {
+  const FrameSettings& settings = request_->settings;
+  const int halo = glossy_halo(settings.glossy_rows);
+  const int first_row = std::max(0, band_.first_row - halo);
+  const int end_row = std::min(settings.height, band_.first_row + band_.rows + halo);
+  return {first_row, end_row - first_row};
+}
+
 /// Puts the pixels of the band and of the rows around it one after the other.
 void FramePassesVulkan::see_around_band(const Band& around) {
+  reserve_ways(static_cast<std::size_t>(around.rows) *
+               static_cast<std::size_t>(request_->settings.width));
   const auto width = static_cast<std::uint32_t>(request_->settings.width);
   const std::uint32_t before =
       static_cast<std::uint32_t>(band_.first_row - around.first_row) * width;
@@ -100,17 +116,11 @@ std::uint32_t FramePassesVulkan::count_ways() {
   return length;
 }
 
-void FramePassesVulkan::trace_coats() {
-  const FrameSettings& settings = request_->settings;
-  const int halo = glossy_halo(settings.glossy_rows);
-  const int first_row = std::max(0, band_.first_row - halo);
-  const int end_row = std::min(settings.height, band_.first_row + band_.rows + halo);
-  const Band around{first_row, end_row - first_row};
-  const auto width = static_cast<std::uint32_t>(settings.width);
+bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
+  const auto width = static_cast<std::uint32_t>(request_->settings.width);
+  const int first_row = around.first_row;
   const std::uint32_t pixels = static_cast<std::uint32_t>(around.rows) * width;
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
-  reserve_ways(pixels);
-  see_around_band(around);
   add("glossy", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
     to.fill(m.way_length, 0u);
@@ -127,13 +137,14 @@ void FramePassesVulkan::trace_coats() {
                                      width,
                                      static_cast<uint>(request_->settings.glossy_rows),
                                      sample_,
-                                     request_->settings.seed};
+                                     seed};
     to.run(kernels_.coat_rays, drawn, pixels);
   });
   way_pass_ = "glossy";
-  if (!follow_all(first_index, sample_)) return;
+  way_seed_ = seed;
+  if (!follow_all(first_index, sample_)) return false;
   reuse_coat_rays(around);
-  rays_bring_ |= kHasCoats;
+  return true;
 }
 
 /// Follows all ways until they have ended; returns whether there were any.
@@ -171,6 +182,7 @@ void FramePassesVulkan::transmission() {
     to.run(kernels_.through_rays, drawn, pixels_);
   });
   way_pass_ = "transmission";
+  way_seed_ = request_->settings.seed;
   if (follow_all(first_pixel_, salt)) rays_bring_ |= kHasTransmission;
 }
 
@@ -212,7 +224,7 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
     ShadeHitsSettings lighting;
     lighting.emissive_samples = request_->settings.emissive_samples;
     lighting.salt = salt;
-    lighting.seed = request_->settings.seed;
+    lighting.seed = way_seed_;
     m.gather_shading.reflected_light(to, stage(), met, ways, lighting,
                                      {{m.way_diffuse.address()}, {m.way_specular.address()}});
   });
@@ -240,7 +252,7 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
                                     ways,
                                     first_index,
                                     salt,
-                                    request_->settings.seed,
+                                    way_seed_,
                                     bounce,
                                     0u};
     to.run(kernels_.coat_light, lit, ways);

@@ -69,9 +69,14 @@ Ray ray_from(const Surface& surface, const NextRay& next) {
 
 void find_coat_shares(GBuffer& pixels) {
   pixels.coat_shares.resize(pixels.size());
+  pixels.clearcoat_shares.clear();
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const bool shines = pixels.hit[i] != 0 && pixels.surfaces[i].gi_share > 0.0f;
     pixels.coat_shares[i] = shines ? traced_coat_share(pixels.surfaces[i].reflectance) : 0.0f;
+    if (!shines || !has_clearcoat(pixels.surfaces[i].reflectance.layers)) continue;
+    pixels.clearcoat_shares.resize(pixels.size());
+    pixels.clearcoat_shares[i] =
+        traced_coat_share(clearcoat_alone(pixels.surfaces[i].reflectance.layers));
   }
 }
 
@@ -209,7 +214,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     asked_.push_back(i);
   };
   const auto asks_for_base = [&](const Surface& surface) {
-    return surface.gi_share > 0.0f && surface.reflectance.diffuse != vec3(0.0f);
+    return surface.gi_share > 0.0f && !has_no_base(surface.reflectance);
   };
   for (std::size_t i = 0; i < met_.size(); ++i) {
     if (met_.hit[i] == 0) continue;
@@ -219,9 +224,10 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   for (std::size_t i = 0; i < met_.size(); ++i) {
     if (met_.hit[i] == 0) continue;
     const Surface& surface = met_.surfaces[i];
-    if (surface.gi_share <= 0.0f || surface.reflectance.f90 <= 0.0f) continue;
-    if (met_.coat_shares[i] >= 1.0f) continue;
-    ask(i, coat_direction(surface.normal_ws, met_.to_viewer_ws[i], surface.reflectance.alpha));
+    if (surface.gi_share <= 0.0f || has_no_coat(surface.reflectance)) continue;
+    if (met_.coat_shares[i] >= 1.0f && !has_clearcoat(surface.reflectance.layers)) continue;
+    ask(i, coats_direction(surface.reflectance, met_.coat_shares[i], surface.normal_ws,
+                           met_.to_viewer_ws[i]));
   }
   answers_.assign(queries_.size(), vec3(0.0f));
   if (settings.field != nullptr) settings.field->irradiance(queries_, answers_, &settings.world);
@@ -230,11 +236,10 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     const std::size_t i = asked_[k];
     const Surface& surface = met_.surfaces[i];
     const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
-    const vec3 light =
-        k < of_bases
-            ? reflected_indirect(surface.reflectance, n_dot_v, surface.gi_share * answers_[k])
-            : coat_light(surface.reflectance, n_dot_v, surface.gi_share,
-                         vec4(0.0f, 0.0f, 0.0f, met_.coat_shares[i]), answers_[k]);
+    const vec3 light = k < of_bases ? reflected_indirect(surface.reflectance, n_dot_v,
+                                                         surface.gi_share * answers_[k])
+                                    : coats_light(surface.reflectance, n_dot_v, surface.gi_share,
+                                                  met_.coat_shares[i], answers_[k]);
     rays_[i].radiance += paths_[i].throughput * light;
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
@@ -271,14 +276,15 @@ void Glossy::reuse(const GlossySettings& settings, std::span<const GlossyRows> a
       if (pixels.coat_shares[i] <= 0.0f) continue;
       const Surface& surface = pixels.surfaces[i];
       const ivec2 pixel(i % width, band.first_row + static_cast<int>(i / width));
-      CoatReceiver at{lobe_of(pixels, i),
-                      surface.reflectance,
-                      inverse_plane_tolerance(settings.camera, surface.position_ws),
-                      static_cast<uint>(settings.frame.emissive_samples),
-                      fetch_ray(view, pixel),
-                      {},
-                      {},
-                      0.0f};
+      CoatReceiver at{
+          lobe_of(pixels, i),
+          coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[i])),
+          inverse_plane_tolerance(settings.camera, surface.position_ws),
+          static_cast<uint>(settings.frame.emissive_samples),
+          fetch_ray(view, pixel),
+          {},
+          {},
+          0.0f};
       find_lobe(at);
       light[i] =
           pixels.coat_shares[i] * reuse_rays(view, pixel, at, static_cast<uint>(settings.sample),
@@ -317,7 +323,7 @@ std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const Gl
   return traced;
 }
 
-std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample,
+std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
                            const GBuffer& pixels, GlossyMemory& memory,
                            std::vector<glm::vec4>& light) {
   light.clear();
@@ -326,6 +332,8 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const auto shines = [](float share) { return share > 0.0f; };
   if (std::none_of(shares.begin(), shares.end(), shines)) return 0;
   const FrameSettings& settings = request.settings;
+  FrameSettings drawing = settings;
+  if (kind == CoatKind::clearcoat) drawing.seed = clearcoat_seed(settings.seed);
   const int halo = glossy_halo(settings.glossy_rows);
   const int end_row = band.first_row + band.rows;
   const Band above{std::max(0, band.first_row - halo), std::min(halo, band.first_row)};
@@ -333,6 +341,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   std::uint64_t traced = 0;
   const auto see = [&](const Band& rows, GBuffer& seen) {
     trace_gbuffer(request.world, request.camera, settings, rows, sample, seen, request.jitter());
+    if (kind == CoatKind::clearcoat) show_clearcoats(seen);
     find_coat_shares(seen);
     traced += seen.size();
   };
@@ -341,7 +350,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const GlossyRows own{pixels, band.first_row};
   const GlossyRows around[] = {
       {memory.above, above.first_row}, own, {memory.below, below.first_row}};
-  const GlossySettings glossy{request.world, request.sources.field, settings,
+  const GlossySettings glossy{request.world, request.sources.field, drawing,
                               camera_record(request.camera, settings.width, settings.height),
                               sample};
   return traced + memory.coats.reflect(glossy, around, own, light);

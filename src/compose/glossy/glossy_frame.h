@@ -80,17 +80,33 @@ class Glossy {
 /// Memory of the pass, kept from band to band.
 struct GlossyMemory {
   Glossy coats;
-  GBuffer above, below;  ///< The band.
+  GBuffer above, below;                   ///< The band.
+  GBuffer clearcoats;                     ///< The band's pixels as show_clearcoats leaves them, and
+  std::vector<glm::vec4> clearcoat_rays;  ///< their light of rays,
+  std::vector<glm::vec3> clearcoat_irradiance;  ///< and of the field.
   std::vector<FieldQuery> queries;
   std::vector<std::size_t> asked;  ///< Pixels of the queries, and what is answered.
   std::vector<glm::vec3> answers;
 };
 
-/// Has the coats of a band's pixels reflect rays; `light` as of Glossy::reflect, empty where no
-/// pixel does. Rows above and below the band are seen for that once more. Returns the rays traced.
-std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample,
+/// Which of a surface's coats.
+enum class CoatKind : std::uint8_t { coat, clearcoat };
+
+/// Makes the clearcoats of surfaces their coats, with nothing under them.
+void show_clearcoats(GBuffer& pixels);
+
+/// Has the coats of a band's pixels reflect rays; where these are clearcoats, they are shown so;
+/// `light` as of Glossy::reflect, empty where no pixel does. Rows above and below the band are seen
+/// for that once more. Returns the rays traced.
+std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
                            const GBuffer& pixels, GlossyMemory& memory,
                            std::vector<glm::vec4>& light);
+
+/// Light that the clearcoats of a band's pixels reflect but for what lights sent them straight: by
+/// rays and by the field. Empty where no pixel has one. Returns the rays traced.
+std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, int sample,
+                                 const GBuffer& pixels, GlossyMemory& memory,
+                                 std::vector<glm::vec3>& light);
 
 /// Light that comes through the surfaces of a band's pixels. Returns the rays traced.
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,

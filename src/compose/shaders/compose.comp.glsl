@@ -44,6 +44,10 @@ void main() {
     vec4 coats = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
     glossy += coat_light(surface.reflectance, n_dot_v, surface.gi_share, coats,
                          args.mirror_irradiance.at[i]);
+    if ((args.has & kHasClearcoats) == 0u) {
+      glossy += clearcoat_light(surface.reflectance.layers, surface.gi_share,
+                                args.mirror_irradiance.at[i]);
+    }
   }
   vec3 transmitted = vec3(0.0f);
   if ((args.has & kHasTransmission) != 0u) transmitted = args.transmitted.at[i].radiance;

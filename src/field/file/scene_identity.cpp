@@ -7,6 +7,8 @@
 
 #include "core/checksum.h"
 #include "core/little_endian.h"
+#include "scene/texture.h"
+#include "scene/transmission.h"
 
 namespace lambent {
 namespace {
@@ -81,11 +83,17 @@ void add_material(const Material& material, Checksum& sum) {
   sum.add(material.double_sided);
   sum.add(material.unlit);
   sum.add(material.lambert);
-  for (const TextureView* view :
-       {&material.base_color_texture, &material.metallic_roughness_texture,
-        &material.normal_texture, &material.emission_texture, &material.specular_texture,
-        &material.specular_color_texture, &material.transmission_texture}) {
-    add_view(*view, sum);
+  // Files of scenes without layers are to be known by what they were known by before there were any
+  const bool layered = has_layers(material);
+  if (layered) {
+    sum.add(material.clearcoat);
+    sum.add(material.clearcoat_roughness);
+    sum.add(material.clearcoat_normal_scale);
+    sum.add(material.sheen_color);
+    sum.add(material.sheen_roughness);
+  }
+  for (const TextureView* view : texture_views(material)) {
+    if (layered || !is_of_layers(material, view)) add_view(*view, sum);
   }
 }
 

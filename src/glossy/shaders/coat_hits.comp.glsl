@@ -34,9 +34,11 @@ void main() {
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
   surface.coat_share = meet_coat(n_dot_v, gi_share, args.bounce, surface.reflectance, path);
+  surface.clearcoat_share = 0.0f;
   args.paths.at[k] = path;
   args.surfaces.at[k] = surface;
   args.points.at[k].random_index = args.first_index + i;
   args.queries.at[2u * k + 1u].normal_ws =
-      coat_direction(point.normal_ws, surface.to_viewer_ws, surface.reflectance.alpha);
+      coats_direction(surface.reflectance, surface.coat_share, point.normal_ws,
+                      surface.to_viewer_ws);
 }

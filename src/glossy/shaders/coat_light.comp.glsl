@@ -21,8 +21,8 @@ void main() {
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   vec3 light = reflected_indirect(surface.reflectance, n_dot_v,
                                   surface.gi_share * args.field.at[2u * k]) +
-               coat_light(surface.reflectance, n_dot_v, surface.gi_share,
-                          vec4(vec3(0.0f), surface.coat_share), args.field.at[2u * k + 1u]) +
+               coats_light(surface.reflectance, n_dot_v, surface.gi_share, surface.coat_share,
+                           args.field.at[2u * k + 1u]) +
                args.diffuse.at[k] + args.specular.at[k];
   args.coat_rays.at[i].radiance += path.throughput * light;
 

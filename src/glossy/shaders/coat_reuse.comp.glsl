@@ -47,7 +47,8 @@ void main() {
   camera.orthographic = args.orthographic;
   CoatReceiver at;
   at.lobe = fetch_lobe(args, pixel);
-  at.reflectance = surface.reflectance;
+  at.reflectance = coat_under_layers(surface.reflectance,
+                                     dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
   at.inverse_tolerance = inverse_plane_tolerance(camera, at.lobe.position_ws);
   at.emitter_samples = args.emitter_samples;
   at.own = fetch_ray(args, pixel);

@@ -13,7 +13,7 @@ struct ReflectingReceiver {
   Reflectance reflectance;
   Frame frame;
   vec3 to_viewer;  ///< In the frame.
-  float coat_share;  ///< As in sampled_reflection, as are:
+  vec2 coat_shares;  ///< Of the coat and the clearcoat, as in sampled_reflection, as are:
   uint samples;
 };
 #define ReceiverRef ReflectingReceiver
@@ -21,8 +21,8 @@ struct ReflectingReceiver {
 #include "raytracing/shaders/direct_light.glsl"
 
 ReflectedPair reflection(ReflectingReceiver to, LightCandidate light) {
-  return sampled_reflection(to.reflectance, to.frame, to.to_viewer, to.point, light, to.coat_share,
-                            to.samples);
+  return sampled_reflection(to.reflectance, to.frame, to.to_viewer, to.point, light,
+                            CoatShares(to.coat_shares.x, to.coat_shares.y), to.samples);
 }
 
 float target_of(ReflectingReceiver receiver, LightCandidate light) {
@@ -53,7 +53,7 @@ void main() {
   Frame frame = make_frame(point.normal_ws);
   ReflectingReceiver receiver =
       ReflectingReceiver(point, surface.reflectance, frame, to_local(frame, surface.to_viewer_ws),
-                         surface.coat_share, args.tree_samples);
+                         vec2(surface.coat_share, surface.clearcoat_share), args.tree_samples);
   bool asks = point.random_index != kAsksForNoLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);

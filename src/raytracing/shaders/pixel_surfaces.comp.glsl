@@ -21,7 +21,7 @@ void main() {
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
                                                 -ray.direction_ws, no_transmission(),
-                                                kSurfaceMissed, 0.0f, 0.0f);
+                                                kSurfaceMissed, 0.0f, 0.0f, 0.0f);
   if (missed(hit)) {
     pixel.emission = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
   } else {
@@ -35,6 +35,7 @@ void main() {
     pixel.gi_share = surface.gi_share;
     if (args.traces_coats != 0u && surface.gi_share > 0.0f) {
       pixel.coat_share = traced_coat_share(surface.reflectance);
+      pixel.clearcoat_share = traced_coat_share(clearcoat_alone(surface.reflectance.layers));
     }
   }
   args.points.at[i] = point;

@@ -46,7 +46,8 @@ MaterialRecord record_of(const Scene& scene, const Material& m) {
   record.flags = (m.double_sided ? kMaterialDoubleSided : 0) | (m.unlit ? kMaterialUnlit : 0) |
                  (m.lambert ? kMaterialLambert : 0) | (may_emit(m) ? kMaterialMayEmit : 0) |
                  (m.bounds_volume ? kMaterialBoundsVolume : 0) |
-                 (lets_light_through(m) ? kMaterialLetsThrough : 0);
+                 (lets_light_through(m) ? kMaterialLetsThrough : 0) |
+                 (has_layers(m) ? kMaterialHasLayers : 0);
   record.base_color_texture = record_of(scene, m.base_color_texture);
   record.metallic_roughness_texture = record_of(scene, m.metallic_roughness_texture);
   record.normal_texture = record_of(scene, m.normal_texture);
@@ -54,6 +55,16 @@ MaterialRecord record_of(const Scene& scene, const Material& m) {
   record.specular_texture = record_of(scene, m.specular_texture);
   record.specular_color_texture = record_of(scene, m.specular_color_texture);
   record.transmission_texture = record_of(scene, m.transmission_texture);
+  record.clearcoat = m.clearcoat;
+  record.clearcoat_roughness = m.clearcoat_roughness;
+  record.clearcoat_normal_scale = m.clearcoat_normal_scale;
+  record.sheen_roughness = m.sheen_roughness;
+  record.sheen_color = m.sheen_color;
+  record.clearcoat_texture = record_of(scene, m.clearcoat_texture);
+  record.clearcoat_roughness_texture = record_of(scene, m.clearcoat_roughness_texture);
+  record.clearcoat_normal_texture = record_of(scene, m.clearcoat_normal_texture);
+  record.sheen_color_texture = record_of(scene, m.sheen_color_texture);
+  record.sheen_roughness_texture = record_of(scene, m.sheen_roughness_texture);
   return record;
 }
 

@@ -44,6 +44,7 @@ const uint kMaterialLambert = 4u;
 const uint kMaterialMayEmit = 8u;  ///< Some point of it may.
 const uint kMaterialBoundsVolume = 16u;
 const uint kMaterialLetsThrough = 32u;  ///< Light; see lets_light_through().
+const uint kMaterialHasLayers = 64u;    ///< See has_layers().
 
 /// As struct Material of scene.h.
 struct MaterialRecord {
@@ -67,6 +68,17 @@ struct MaterialRecord {
   TextureViewRecord specular_texture;
   TextureViewRecord specular_color_texture;
   TextureViewRecord transmission_texture;
+  // Read where the material has layers:
+  float clearcoat;
+  float clearcoat_roughness;
+  float clearcoat_normal_scale;
+  float sheen_roughness;
+  vec3 sheen_color;
+  TextureViewRecord clearcoat_texture;
+  TextureViewRecord clearcoat_roughness_texture;
+  TextureViewRecord clearcoat_normal_texture;
+  TextureViewRecord sheen_color_texture;
+  TextureViewRecord sheen_roughness_texture;
 };
 
 // MeshRecord::attributes: which arrays there are besides positions, normals and triangles.

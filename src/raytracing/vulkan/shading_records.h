@@ -30,8 +30,9 @@ struct PixelSurfaceRecord {
   vec3 to_viewer_ws;  ///< Unit; back along the ray.
   Transmission transmission;
   uint flags;
-  float gi_share;    ///< As in Surface.
-  float coat_share;  ///< As in GBuffer; 0: no rays bring the coat's light.
+  float gi_share;         ///< As in Surface.
+  float coat_share;       ///< As in GBuffer; 0: no rays bring the coat's light.
+  float clearcoat_share;  ///< ... or the clearcoat's.
 };
 
 LAMBENT_DEVICE_ARRAY(LitPointArray, LitPointRecord, 4)

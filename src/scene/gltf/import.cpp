@@ -18,6 +18,7 @@
 #include "scene/gltf/textures.h"
 #include "scene/gltf/volumes.h"
 #include "scene/limits.h"
+#include "scene/texture.h"
 
 namespace lambent {
 namespace gltf {
@@ -148,7 +149,9 @@ class Importer {
     for (int i = 0; i < static_cast<int>(primitives.size()); ++i) {
       const int default_material = static_cast<int>(scene_.materials.size()) - 1;
       const int material = primitives[i].material >= 0 ? primitives[i].material : default_material;
-      const TextureView& normal_map = scene_.materials[material].normal_texture;
+      const TextureView& base_map = scene_.materials[material].normal_texture;
+      const TextureView& normal_map =
+          base_map.texture >= 0 ? base_map : scene_.materials[material].clearcoat_normal_texture;
       const int tangent_uv_set = normal_map.texture >= 0 ? normal_map.uv_set : -1;
       RigMesh rig;
       LAMBENT_TRY(imported, import_primitive(document_, mesh, i, deformation, tangent_uv_set,
@@ -166,9 +169,7 @@ class Importer {
 
   void warn_of_missing_uvs(const Mesh& mesh, const std::string& place) {
     const Material& m = scene_.materials[mesh.material];
-    for (const TextureView* view : {&m.base_color_texture, &m.metallic_roughness_texture,
-                                    &m.normal_texture, &m.emission_texture, &m.specular_texture,
-                                    &m.specular_color_texture, &m.transmission_texture}) {
+    for (const TextureView* view : texture_views(m)) {
       if (view->texture < 0 || !mesh.uvs[view->uv_set].empty()) continue;
       document_.repaired("textured primitives lack texture coordinates and read (0, 0)", 1, place);
       return;

@@ -32,6 +32,8 @@ class MaterialReader {
     LAMBENT_CHECK(read_specular());
     LAMBENT_CHECK(read_transmission());
     read_volume();
+    LAMBENT_CHECK(read_clearcoat(options));
+    LAMBENT_CHECK(read_sheen());
     if (options.normal_maps) {
       LAMBENT_CHECK(take(source_.normalTexture, kData, material_.normal_texture));
       material_.normal_scale = static_cast<float>(source_.normalTexture.scale);
@@ -144,6 +146,39 @@ class MaterialReader {
     }
     document_.repaired("volumes of attenuation distance 0 were taken for clear", limited ? 1 : 0,
                        place_);
+  }
+
+  Expected<void> read_clearcoat(const LoadOptions& options) {
+    const auto* clearcoat = find_extension(source_.extensions, "KHR_materials_clearcoat");
+    if (!clearcoat) return {};
+    material_.clearcoat = static_cast<float>(number_or(*clearcoat, "clearcoatFactor", 0.0));
+    material_.clearcoat_roughness =
+        static_cast<float>(number_or(*clearcoat, "clearcoatRoughnessFactor", 0.0));
+    LAMBENT_CHECK(take(*clearcoat, "clearcoatTexture", kData, material_.clearcoat_texture));
+    LAMBENT_CHECK(take(*clearcoat, "clearcoatRoughnessTexture", kData,
+                       material_.clearcoat_roughness_texture));
+    if (!options.normal_maps || !clearcoat->Has("clearcoatNormalTexture")) return {};
+    material_.clearcoat_normal_scale =
+        static_cast<float>(number_or(clearcoat->Get("clearcoatNormalTexture"), "scale", 1.0));
+    return take(*clearcoat, "clearcoatNormalTexture", kData, material_.clearcoat_normal_texture);
+  }
+
+  Expected<void> read_sheen() {
+    const auto* sheen = find_extension(source_.extensions, "KHR_materials_sheen");
+    if (!sheen) return {};
+    if (sheen->Has("sheenColorFactor")) {
+      const tinygltf::Value& color = sheen->Get("sheenColorFactor");
+      bool clamped = false;
+      for (int k = 0; k < 3; ++k) {
+        const double factor = color.Get(k).GetNumberAsDouble();
+        material_.sheen_color[k] = static_cast<float>(std::clamp(factor, 0.0, 1.0));
+        clamped = clamped || factor < 0.0 || factor > 1.0;
+      }
+      document_.repaired("sheen colors were clamped to 0 to 1", clamped ? 1 : 0, place_);
+    }
+    material_.sheen_roughness = static_cast<float>(number_or(*sheen, "sheenRoughnessFactor", 0.0));
+    LAMBENT_CHECK(take(*sheen, "sheenColorTexture", kColor, material_.sheen_color_texture));
+    return take(*sheen, "sheenRoughnessTexture", kData, material_.sheen_roughness_texture);
   }
 
   Expected<void> read_alpha() {

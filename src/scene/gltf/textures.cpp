@@ -7,6 +7,7 @@
 #include <array>
 
 #include "scene/image_decode.h"
+#include "scene/texture.h"
 
 namespace lambent::gltf {
 namespace {
@@ -63,15 +64,6 @@ Expected<Texture> decode_use(const Document& document, int image, bool srgb) {
   return texture;
 }
 
-// Material or const Material; likewise their views.
-template <class AMaterial>
-auto views_of(AMaterial& m) {
-  return std::array{&m.base_color_texture,  &m.metallic_roughness_texture,
-                    &m.normal_texture,      &m.emission_texture,
-                    &m.specular_texture,    &m.specular_color_texture,
-                    &m.transmission_texture};
-}
-
 // Things named one by one in a warning, few enough to be read; the rest is counted.
 constexpr std::size_t kNamed = 3;
 
@@ -81,7 +73,7 @@ std::string users_of(const std::vector<Material>& materials, Reads reads_texture
   std::size_t users = 0;
   std::string named;
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const auto views = views_of(materials[i]);
+    const auto views = texture_views(materials[i]);
     const bool reads = std::any_of(views.begin(), views.end(), [&](const TextureView* view) {
       return view->texture >= 0 && reads_texture(view->texture);
     });
@@ -157,7 +149,7 @@ std::vector<Texture> TextureLibrary::decode(std::vector<Material>& materials) {
   }
   for (Material& material : materials) {
     const bool had_emission_map = material.emission_texture.texture >= 0;
-    for (TextureView* view : views_of(material)) {
+    for (TextureView* view : texture_views(material)) {
       if (view->texture < 0) continue;
       view->texture = index_of[view->texture];
       if (view->texture < 0) *view = TextureView{};
