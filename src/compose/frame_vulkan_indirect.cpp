@@ -192,6 +192,7 @@ void FramePassesVulkan::rsm() {
     const std::uint32_t count = std::min(kViewPixels, pixels - first);
     add("rsm.view", [=, this](Recorder& to) {
       trace_pixels(to, {{memory_.rays.address()},
+                        {memory_.cones.address()},
                         camera_record(request_->camera, width, height),
                         static_cast<uint>(width),
                         first,

@@ -8,7 +8,7 @@
 #ifndef LAMBENT_GLOSSY_GLOSSY_MATH_H
 #define LAMBENT_GLOSSY_GLOSSY_MATH_H
 
-#include "raytracing/camera_math.h"
+#include "raytracing/ray_cone.h"
 #include "raytracing/coat_share.h"
 #include "raytracing/ray_records.h"
 #include "shared/cross_bilateral.h"
@@ -300,6 +300,11 @@ LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
   float n_dot_v = dot(at.lobe.normal_ws, at.lobe.to_viewer_ws);
   float albedo = ggx_albedo(n_dot_v, at.lobe.alpha);
   return sums.light * ((1.0f - known) / sums.pixels + mean * albedo) + sums.emission / sums.pixels;
+}
+
+/// Light of reflected_rays() and 1; all 0 where there is no ray.
+LAMBENT_FN vec4 light_by_rays(vec3 reflected) {
+  return reflected.x < 0.0f ? vec4(0.0f) : vec4(reflected, 1.0f);
 }
 
 /// All that a pixel's coat reflects but for what lights sent it straight: by rays, if any reached

@@ -26,7 +26,7 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
 /// The vector that the material's normal map holds, in tangent space. Where the footprint covers
 /// all of the map, it is the mean.
 LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                              TrianglePointRef p, float cone_share, bool mean_alone) {
+                              TrianglePointRef p, ConeShare cone_share, bool mean_alone) {
   TextureViewRef view = material.normal_texture;
   vec4 texel = mean_alone
                    ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
@@ -41,7 +41,7 @@ struct Optics {
 };
 
 LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
-                            float cone_share) {
+                            ConeShare cone_share) {
   Optics optics = {lambert_reflectance(vec3(0.0f)), vec3(0.0f)};
   if (is_unlit(material)) return optics;
   vec3 base = clamp(base_color_at(scene, mesh, material, p, cone_share), 0.0f, 1.0f);
@@ -93,7 +93,7 @@ LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint tria
   vec3 face_normal =
       cross(fetch_position(mesh, p.vertices.y) - p0, fetch_position(mesh, p.vertices.z) - p0);
   vec3 normal_ws = normalize_or(cofactors(instance.world_from_object) * face_normal, -direction_ws);
-  Optics optics = optics_at(scene, mesh, material, p, 0.0f);
+  Optics optics = optics_at(scene, mesh, material, p, full_resolution());
   if (bounds_volume(material) && !from_front) return optics.tint;
   return straight_share(optics.tint, optics.reflectance, dot(normal_ws, direction_ws));
 }
@@ -126,9 +126,20 @@ LAMBENT_FN Transmission transmission_of(MaterialRef material, Optics optics, boo
   return through;
 }
 
-/// The surface at a hit (not a miss) of a ray along a direction. `footprint` is the width that the
-/// ray's cone has there [m]; 0 reads textures at full resolution.
-LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, float footprint) {
+/// Variance of the slopes of the bumps that a footprint averages over; 0 where it averages over
+/// none.
+LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef material,
+                                 TrianglePointRef p, ConeShare cone_share, vec3 mean) {
+  if (cone_share.blended == 0u || cone_share.of_triangle <= 0.0f) return 0.0f;
+  CornerUvs uvs = corner_uvs(mesh, material.normal_texture, p);
+  if (!uvs.present) return 0.0f;
+  float level = blended_level(scene, material.normal_texture, uvs, cone_share);
+  return level > 0.0f ? slope_variance(mean, material.normal_scale) : 0.0f;
+}
+
+/// The surface at a hit (not a miss) of a ray along a direction, whose footprint there has a width
+/// [m]; 0 reads textures at full resolution.
+LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Footprint footprint) {
   InstanceRef instance = fetch_instance(scene, hit.instance);
   MeshRef mesh = fetch_mesh(scene, instance.mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
@@ -142,7 +153,8 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   mat3 normal_from_object = cofactors(instance.world_from_object);
   vec3 face_normal = cross(edge1, edge2);
   vec3 area_normal = normal_from_object * face_normal;
-  float cone_share = share_of_triangle(footprint, length(area_normal));
+  ConeShare cone_share = {share_of_triangle(footprint.width, length(area_normal)),
+                          footprint.blended};
   Surface surface;
   surface.position_ws = transform_point(instance.world_from_object, position);
   surface.geometric_normal_ws = normalize_or(area_normal, -direction_ws);
@@ -152,10 +164,12 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
                             fetch_normal(mesh, p.vertices.z), p.weights);
   bool along_winding = dot(normal, face_normal) >= 0.0f;
   float mean_length = 1.0f;
+  float slopes = 0.0f;
   if (material.normal_texture.texture >= 0) {
     bool mean_alone = shows_mean_alone(scene, mesh, material.normal_texture, p, cone_share);
     vec3 n = map_vector_at(scene, mesh, material, p, cone_share, mean_alone);
     mean_length = length(n);
+    slopes = averaged_slopes(scene, mesh, material, p, cone_share, n);
     // Bumps that the footprint averages over leave the surface flat
     if (!mean_alone) {
       vec4 tangent = tangent_at(mesh, material.normal_texture, p, edge1, edge2);
@@ -173,6 +187,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
                                             surface.geometric_normal_ws);
 
   Optics optics = optics_at(scene, mesh, material, p, cone_share);
+  optics.reflectance.alpha = widened_alpha(optics.reflectance.alpha, slopes);
   surface.reflectance = optics.reflectance;
   surface.transmission = transmission_of(material, optics, bool(hit.front_face));
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
