@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <atomic>
-#include <numeric>
-#include <span>
-#include <vector>
 
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
@@ -22,43 +18,7 @@ constexpr std::size_t kPixelsPerTask = 1024;
 struct PendingLight {
   std::size_t pixel;
   ReflectedPair light;
-  uint slot;  // of the candidates of direct_light.inl.h
-};
-
-/// Shadow rays, those of each light that all pixels ask together: these go about alike.
-class SortedShadows {
- public:
-  /// `place`s of these rays among the sorted ones are asked for afterwards.
-  void trace(const World& world, const LightDraws& draws, std::span<const Ray> rays,
-             std::span<const PendingLight> pending) {
-    const uint asked = asked_lights(draws);
-    firsts_.assign(asked + 2, 0);
-    const auto group = [&](std::size_t k) { return std::min(pending[k].slot, asked); };
-    for (std::size_t k = 0; k < rays.size(); ++k) ++firsts_[group(k) + 1];
-    std::partial_sum(firsts_.begin(), firsts_.end(), firsts_.begin());
-    places_.resize(rays.size());
-    sorted_.resize(rays.size());
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      places_[k] = firsts_[group(k)]++;
-      sorted_[places_[k]] = rays[k];
-    }
-    // What samples of the light tree ask goes anywhere
-    const std::size_t alike = asked > 0 ? firsts_[asked - 1] : 0;
-    of_lights_.trace(tracer_of(world), std::span(sorted_).first(alike), true);
-    of_samples_.trace(tracer_of(world), std::span(sorted_).subspan(alike));
-    alike_ = alike;
-  }
-  /// Share of the light that arrives by a ray, by color.
-  vec3 share(std::size_t ray) const {
-    const std::size_t place = places_[ray];
-    return place < alike_ ? of_lights_.share(place) : of_samples_.share(place - alike_);
-  }
-
- private:
-  std::vector<std::size_t> firsts_, places_;
-  std::vector<Ray> sorted_;
-  std::size_t alike_ = 0;
-  ShadowRays of_lights_, of_samples_;
+  bool of_emitter;
 };
 
 /// Draws the candidates of a pixel's direct light, as far as fog lets it through, and queues their
@@ -88,7 +48,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
       pair.specular *= passed;
     }
     if (pair.diffuse + pair.specular == vec3(0.0f)) continue;
-    pending.push_back({pixel, pair, slot});
+    pending.push_back({pixel, pair, slot >= asked_lights(draws)});
     shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, candidate));
   }
 }
@@ -137,15 +97,15 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                                             static_cast<uint>(sample), settings.seed),
                          shadows, pending);
     }
-    SortedShadows arriving;
-    arriving.trace(world, draws, shadows, pending);
+    ShadowRays arriving;
+    arriving.trace(tracer_of(world), shadows);
     for (std::size_t k = 0; k < pending.size(); ++k) {
       const vec3 share = arriving.share(k);
       if (share == vec3(0.0f)) continue;
       const std::size_t pixel = pending[k].pixel;
       light.specular[pixel] += share * pending[k].light.specular;
       const vec3 diffuse = share * pending[k].light.diffuse;
-      if (emitters == 0 || pending[k].slot < asked_lights(draws)) {
+      if (emitters == 0 || !pending[k].of_emitter) {
         light.diffuse[pixel] += diffuse;
         continue;
       }

@@ -83,9 +83,9 @@ void FramePassesVulkan::trace_pixels(Recorder& to, const CameraRaysArguments& ar
   to.barrier();
   world_.tracer().closest_hits(to, {arguments.rays, arguments.count}, hits);
   to.barrier();
-  memory_.pixel_shading.pixel_surfaces(to, stage(), {arguments.rays, hits, arguments.cones, arguments.count},
-                                       arguments.first_pixel, traces_coats(*request_),
-                                       {{memory_.points.address()}, {memory_.surfaces.address()}});
+  memory_.pixel_shading.pixel_surfaces(
+      to, stage(), {arguments.rays, hits, arguments.cones, arguments.count}, arguments.first_pixel,
+      traces_coats(*request_), {{memory_.points.address()}, {memory_.surfaces.address()}});
 }
 
 void FramePassesVulkan::reserve_pixels(std::size_t pixels) {

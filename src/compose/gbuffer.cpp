@@ -36,8 +36,7 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
       const CameraRay ray = camera_ray(record, sample_position(settings, x, row, sample, jitter));
       rays[x] = {ray.origin_ws, 0.0f, ray.direction_ws};
     }
-    // Packets of one row have the same rays whichever rows are rendered
-    tracer_of(world).coherent_hits(rays, hits);
+    tracer_of(world).closest_hits(rays, hits);
     prefetch_surfaces(world.scene(), hits);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = begin * width + x;

@@ -8,8 +8,8 @@
 #ifndef LAMBENT_GLOSSY_GLOSSY_MATH_H
 #define LAMBENT_GLOSSY_GLOSSY_MATH_H
 
-#include "raytracing/ray_cone.h"
 #include "raytracing/coat_share.h"
+#include "raytracing/ray_cone.h"
 #include "raytracing/ray_records.h"
 #include "shared/cross_bilateral.h"
 #include "shared/pixel_points.h"

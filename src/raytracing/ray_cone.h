@@ -43,8 +43,8 @@ LAMBENT_FN float width_at(RayCone cone, float distance) {
 }
 
 /// The cone of a ray that was drawn with density `pdf` [1/sr] where another one ends, which has
-/// this width there. Surfaces are taken to be flat: curved ones widen cones, and textures seen in them are read finer
-/// than they need be.
+/// this width there. Surfaces are taken to be flat: curved ones widen cones, and textures seen in
+/// them are read finer than they need be.
 LAMBENT_FN RayCone reflected_cone(RayCone at_end, float pdf) {
   RayCone cone = {at_end.width, sqrt(at_end.spread * at_end.spread + kLobeShare / pdf)};
   return cone;

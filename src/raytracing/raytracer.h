@@ -85,16 +85,6 @@ class RayTracer {
   /// 0.
   virtual void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const = 0;
 
-  /// The same as closest_hits() and occlusions(), faster where rays that follow each other in the
-  /// list start and go about alike. Not for rays that cross glass.
-  virtual void coherent_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
-    closest_hits(rays, hits);
-  }
-  virtual void coherent_occlusions(std::span<const Ray> rays,
-                                   std::span<std::uint8_t> occluded) const {
-    occlusions(rays, occluded);
-  }
-
   /// Share of the light along each ray, between t_min and t_max, that passes straight through what
   /// it meets there, by color; 0 where something lets none through. Of rays that cross glass: over
   /// the probability with which they do, so that t_max may end just before their hits.
@@ -133,8 +123,8 @@ class RayTracer {
 /// What reaches the ends of shadow rays; kept between calls to save allocations.
 class ShadowRays {
  public:
-  /// Traces them. `coherent`: as of coherent_occlusions().
-  void trace(const RayTracer& tracer, std::span<const Ray> rays, bool coherent = false) {
+  /// Traces them.
+  void trace(const RayTracer& tracer, std::span<const Ray> rays) {
     occluded_.clear();
     through_.clear();
     if (tracer.has_glass()) {
@@ -142,7 +132,7 @@ class ShadowRays {
       tracer.transmittances(rays, through_);
     } else {
       occluded_.resize(rays.size());
-      coherent ? tracer.coherent_occlusions(rays, occluded_) : tracer.occlusions(rays, occluded_);
+      tracer.occlusions(rays, occluded_);
     }
   }
   /// Share of the light that arrives by a ray, by color.

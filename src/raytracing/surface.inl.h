@@ -126,6 +126,12 @@ LAMBENT_FN Transmission transmission_of(MaterialRef material, Optics optics, boo
   return through;
 }
 
+/// The cross section of a footprint over the area of a triangle, of which the double is given.
+LAMBENT_FN ConeShare cone_share_of(Footprint footprint, float double_area) {
+  ConeShare share = {share_of_triangle(footprint.width, double_area), footprint.blended};
+  return share;
+}
+
 /// Variance of the slopes of the bumps that a footprint averages over; 0 where it averages over
 /// none.
 LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef material,
@@ -135,6 +141,18 @@ LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef mater
   if (!uvs.present) return 0.0f;
   float level = blended_level(scene, material.normal_texture, uvs, cone_share);
   return level > 0.0f ? slope_variance(mean, material.normal_scale) : 0.0f;
+}
+
+/// optics_at(), of a coat that is rougher where its bumps are averaged over; `mean` is their
+/// map_vector().
+LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                                  TrianglePointRef p, ConeShare cone_share, vec3 mean) {
+  Optics optics = optics_at(scene, mesh, material, p, cone_share);
+  if (material.normal_texture.texture >= 0) {
+    float slopes = averaged_slopes(scene, mesh, material, p, cone_share, mean);
+    optics.reflectance.alpha = widened_alpha(optics.reflectance.alpha, slopes);
+  }
+  return optics;
 }
 
 /// The surface at a hit (not a miss) of a ray along a direction, whose footprint there has a width
@@ -153,8 +171,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   mat3 normal_from_object = cofactors(instance.world_from_object);
   vec3 face_normal = cross(edge1, edge2);
   vec3 area_normal = normal_from_object * face_normal;
-  ConeShare cone_share = {share_of_triangle(footprint.width, length(area_normal)),
-                          footprint.blended};
+  ConeShare cone_share = cone_share_of(footprint, length(area_normal));
   Surface surface;
   surface.position_ws = transform_point(instance.world_from_object, position);
   surface.geometric_normal_ws = normalize_or(area_normal, -direction_ws);
@@ -163,13 +180,10 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   vec3 normal = interpolate(fetch_normal(mesh, p.vertices.x), fetch_normal(mesh, p.vertices.y),
                             fetch_normal(mesh, p.vertices.z), p.weights);
   bool along_winding = dot(normal, face_normal) >= 0.0f;
-  float mean_length = 1.0f;
-  float slopes = 0.0f;
+  vec3 n = vec3(0.0f, 0.0f, 1.0f);
   if (material.normal_texture.texture >= 0) {
     bool mean_alone = shows_mean_alone(scene, mesh, material.normal_texture, p, cone_share);
-    vec3 n = map_vector_at(scene, mesh, material, p, cone_share, mean_alone);
-    mean_length = length(n);
-    slopes = averaged_slopes(scene, mesh, material, p, cone_share, n);
+    n = map_vector_at(scene, mesh, material, p, cone_share, mean_alone);
     // Bumps that the footprint averages over leave the surface flat
     if (!mean_alone) {
       vec4 tangent = tangent_at(mesh, material.normal_texture, p, edge1, edge2);
@@ -186,15 +200,14 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   surface.normal_ws = normal_towards_viewer(normal, along_winding, from_front, direction_ws,
                                             surface.geometric_normal_ws);
 
-  Optics optics = optics_at(scene, mesh, material, p, cone_share);
-  optics.reflectance.alpha = widened_alpha(optics.reflectance.alpha, slopes);
+  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, n);
   surface.reflectance = optics.reflectance;
   surface.transmission = transmission_of(material, optics, bool(hit.front_face));
   surface.emission = emission_at(scene, mesh, material, p, cone_share);
   surface.material = uint(mesh.material);
   surface.gi_share =
       receives_gi(instance)
-          ? horizon_share(mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
+          ? horizon_share(length(n), dot(surface.normal_ws, surface.geometric_normal_ws))
           : 0.0f;
   if (surface.transmission.kind == kLeavesVolume) {
     // Inner reflection is a matter of rays that go on; no light of the room is in there

@@ -106,8 +106,8 @@ LAMBENT_FN float slope_variance(vec3 mean, float normal_scale) {
 }
 
 /// GGX width of a coat over bumps whose slopes have this variance. Toksvig, "Mipmapping Normal
-/// Maps", 2004; Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing", HPG
-/// 2016, Eq. 6: lobes of slopes add up by their squares.
+/// Maps", 2004; Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing",
+/// HPG 2016, Eq. 6: lobes of slopes add up by their squares.
 LAMBENT_FN float widened_alpha(float alpha, float slope_variance) {
   if (slope_variance <= 0.0f) return alpha;
   return min(sqrt(alpha * alpha + 2.0f * slope_variance), max(alpha, 1.0f));

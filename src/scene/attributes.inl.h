@@ -113,8 +113,8 @@ LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef 
   return blended_texel(scene, view, uv, blended_level(scene, view, uvs, cone_share));
 }
 
-/// Whether a footprint that is not looked at covers so much of a texture that what it shows of it is
-/// all but its mean.
+/// Whether a footprint that is not looked at covers so much of a texture that what it shows of it
+/// is all but its mean.
 LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view,
                                  TrianglePointRef p, ConeShare cone_share) {
   CornerUvs uvs = corner_uvs(mesh, view, p);

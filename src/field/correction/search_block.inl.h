@@ -16,4 +16,3 @@ LAMBENT_FN uint search_block(CorrectionsRef table, CorrectionKey key) {
   }
   return kNoCorrectionBlock;
 }
-

@@ -47,33 +47,4 @@ inline void occluded(RTCScene scene, Context& context, RTCRay& ray) {
 #endif
 }
 
-/// Rays that are traced together; those that start and go about alike gain most.
-inline constexpr unsigned kPacket = 16;
-
-inline void intersect(RTCScene scene, Context& context, const int* valid, RTCRayHit16& ray_hits) {
-#if LAMBENT_EMBREE_MAJOR >= 4
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  arguments.context = &context;
-  rtcIntersect16(valid, scene, &ray_hits, &arguments);
-#else
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcIntersect16(valid, scene, &context, &ray_hits);
-#endif
-}
-
-inline void occluded(RTCScene scene, Context& context, const int* valid, RTCRay16& rays) {
-#if LAMBENT_EMBREE_MAJOR >= 4
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  arguments.context = &context;
-  rtcOccluded16(valid, scene, &rays, &arguments);
-#else
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  rtcOccluded16(valid, scene, &context, &rays);
-#endif
-}
-
 }  // namespace lambent::embree

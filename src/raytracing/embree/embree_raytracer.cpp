@@ -9,7 +9,6 @@
 
 #include "core/stopwatch.h"
 #include "raytracing/embree/geometry.h"
-#include "raytracing/embree/packets.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/refit.h"
 #include "raytracing/surface_math.h"
@@ -36,9 +35,6 @@ class EmbreeRayTracer final : public RayTracer {
 
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
-  void coherent_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
-  void coherent_occlusions(std::span<const Ray> rays,
-                           std::span<std::uint8_t> occluded) const override;
   void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
   bool has_glass() const override { return has_glass_; }
   AccelerationStatistics statistics() const override { return statistics_; }
@@ -316,6 +312,20 @@ void EmbreeRayTracer::refit(const GeometryEdits& edits, const std::vector<std::u
   rtcCommitScene(world_.get());
 }
 
+RTCRay to_embree(const Ray& ray) {
+  RTCRay result{};
+  result.org_x = ray.origin.x;
+  result.org_y = ray.origin.y;
+  result.org_z = ray.origin.z;
+  result.tnear = ray.t_min;
+  result.dir_x = ray.direction.x;
+  result.dir_y = ray.direction.y;
+  result.dir_z = ray.direction.z;
+  result.tfar = ray.t_max;
+  result.mask = ray.mask;
+  return result;
+}
+
 Hit EmbreeRayTracer::hit_of(const Ray& ray, const RTCRayHit& found) const {
   Hit hit;
   if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
@@ -340,7 +350,7 @@ void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
   assert(rays.size() == hits.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     RTCRayHit query{};
-    query.ray = embree::to_embree(rays[i]);
+    query.ray = to_embree(rays[i]);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::Query asked(embree::Query::Kind::closest, rays[i]);
@@ -349,21 +359,11 @@ void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
   }
 }
 
-void EmbreeRayTracer::coherent_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
-  embree::find_hits(world_.get(), rays, hits,
-                    [&](const Ray& ray, const RTCRayHit& found) { return hit_of(ray, found); });
-}
-
-void EmbreeRayTracer::coherent_occlusions(std::span<const Ray> rays,
-                                          std::span<std::uint8_t> occluded) const {
-  embree::find_occlusions(world_.get(), rays, occluded);
-}
-
 void EmbreeRayTracer::occlusions(std::span<const Ray> rays,
                                  std::span<std::uint8_t> occluded) const {
   assert(rays.size() == occluded.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRay query = embree::to_embree(rays[i]);
+    RTCRay query = to_embree(rays[i]);
     embree::Query asked(embree::Query::Kind::occlusion, rays[i]);
     embree::occluded(world_.get(), asked, query);
     // Embree marks an occluded ray by a far end of minus infinity.
@@ -375,7 +375,7 @@ void EmbreeRayTracer::transmittances(std::span<const Ray> rays,
                                      std::span<glm::vec3> through) const {
   assert(rays.size() == through.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRay query = embree::to_embree(rays[i]);
+    RTCRay query = to_embree(rays[i]);
     embree::Query asked(embree::Query::Kind::transmittance, rays[i]);
     embree::occluded(world_.get(), asked, query);
     const bool stopped = query.tfar < 0.0f;
