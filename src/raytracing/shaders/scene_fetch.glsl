@@ -95,9 +95,10 @@ bool may_emit(MaterialRecord material) {
 vec4 sample_texture(SceneArray scene, TextureViewRecord view, vec2 uv, float level) {
   if (is_nearest(view)) return nearest_texel(scene, view, uv, int(level + 0.5f));
   uint wraps = wrap_u(view) + kWraps * wrap_v(view);
+  float finer = floor(level);
   return textureLod(nonuniformEXT(sampler2D(scene_textures[nonuniformEXT(view.texture)],
                                             scene_samplers[nonuniformEXT(wraps)])),
-                    wrap_uv(view, uv), level);
+                    wrap_uv(view, uv), finer + level_share(level - finer));
 }
 
 #include "scene/attributes.inl.h"
