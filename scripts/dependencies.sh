@@ -6,8 +6,8 @@
 lambent_packages=(
   # Tools
   g++ cmake ninja-build ccache git glslc
-  # Ray tracing, threads, mathematics
-  libembree-dev libtbb-dev libglm-dev libeigen3-dev
+  # Ray tracing, threads, lanes, mathematics
+  libembree-dev libtbb-dev libhwy-dev libglm-dev libeigen3-dev
   # Images and scenes
   libopenexr-dev libpng-dev libjpeg-dev zlib1g-dev libstb-dev libwebp-dev libtinygltf-dev libdraco-dev
   libmeshoptimizer-dev

@@ -5,7 +5,7 @@
 
 #include "field/vulkan/device_records.h"
 #include "glossy/glossy_math.h"
-#include "raytracing/camera_math.h"
+#include "raytracing/ray_cone.h"
 #include "raytracing/vulkan/shading_records.h"
 
 LAMBENT_BEGIN
@@ -30,6 +30,7 @@ LAMBENT_DEVICE_ARRAY(PixelLayersArray, PixelLayers, 4)
 /// A ray through each pixel of a band of rows.
 struct CameraRaysArguments {
   RayArray rays;
+  RayConeArray cones;
   CameraRecord camera;
   uint width;        ///< Of the picture [pixels].
   uint first_pixel;  ///< Of the band.

@@ -83,13 +83,14 @@ void FramePassesVulkan::trace_pixels(Recorder& to, const CameraRaysArguments& ar
   to.barrier();
   world_.tracer().closest_hits(to, {arguments.rays, arguments.count}, hits);
   to.barrier();
-  memory_.pixel_shading.pixel_surfaces(to, stage(), {arguments.rays, hits, arguments.count},
-                                       arguments.first_pixel, traces_coats(*request_),
-                                       {{memory_.points.address()}, {memory_.surfaces.address()}});
+  memory_.pixel_shading.pixel_surfaces(
+      to, stage(), {arguments.rays, hits, arguments.cones, arguments.count}, arguments.first_pixel,
+      traces_coats(*request_), {{memory_.points.address()}, {memory_.surfaces.address()}});
 }
 
 void FramePassesVulkan::reserve_pixels(std::size_t pixels) {
   reserve<RayRecord>(pixels, "camera rays", memory_.rays);
+  reserve<RayCone>(pixels, "cones of camera rays", memory_.cones);
   reserve<HitRecord>(pixels, "camera hits", memory_.hits);
   reserve<LitPointRecord>(pixels, "pixel points", memory_.points);
   reserve<PixelSurfaceRecord>(pixels, "pixel surfaces", memory_.surfaces);
@@ -107,6 +108,7 @@ void FramePassesVulkan::gbuffer(const Band& band, int sample) {
   add("gbuffer", [this](Recorder& to) {
     const FrameSettings& s = request_->settings;
     trace_pixels(to, {{memory_.rays.address()},
+                      {memory_.cones.address()},
                       camera_record(request_->camera, s.width, s.height),
                       static_cast<uint>(s.width),
                       first_pixel_,

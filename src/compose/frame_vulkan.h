@@ -107,7 +107,7 @@ struct FrameMemory {
   TaaVulkan antialiasing;
 
   // Of a band's pixels
-  vulkan::Buffer rays, hits, points, surfaces, diffuse, specular;
+  vulkan::Buffer rays, cones, hits, points, surfaces, diffuse, specular;
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
   vulkan::Buffer gathered_variance, emitters, emitter_squares;
   // Of the rays that gather some pixels' light
@@ -122,7 +122,7 @@ struct FrameMemory {
   // Of the rows around a band whose coats rays light: pixels, rays, and lists of ways; those of one
   // bounce and of the next take turns
   vulkan::Buffer coats, coat_points, coat_surfaces, coat_rays;
-  vulkan::Buffer way_rays[2], way_paths[2], way_pixels[2], way_length;
+  vulkan::Buffer way_rays[2], way_cones[2], way_paths[2], way_pixels[2], way_length;
   vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
   vulkan::Buffer way_queries, way_answers;
   // Fog: its froxels, and what it does to a band's pixels

@@ -133,6 +133,7 @@ void FramePassesVulkan::gather() {
                                         : m.gathered_variance.address()};
       const Vec3Array excess{filters ? kept.excess.address + at * sizeof(vec3) : 0};
       const GatherSumArguments summed = {{m.points.address()},
+                                         {m.surfaces.address()},
                                          {m.gathering_rays.address()},
                                          {m.gathered.address()},
                                          {m.gathered_direct.address()},
@@ -189,6 +190,7 @@ void FramePassesVulkan::rsm() {
     const std::uint32_t count = std::min(kViewPixels, pixels - first);
     add("rsm.view", [=, this](Recorder& to) {
       trace_pixels(to, {{memory_.rays.address()},
+                        {memory_.cones.address()},
                         camera_record(request_->camera, width, height),
                         static_cast<uint>(width),
                         first,

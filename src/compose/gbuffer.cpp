@@ -7,6 +7,7 @@
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "raytracing/camera_rays.h"
+#include "raytracing/ray_cone.h"
 #include "raytracing/world_access.h"
 
 namespace lambent {
@@ -36,11 +37,16 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
       rays[x] = {ray.origin_ws, 0.0f, ray.direction_ws};
     }
     tracer_of(world).closest_hits(rays, hits);
+    prefetch_surfaces(world.scene(), hits);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = begin * width + x;
       gbuffer.to_viewer_ws[i] = -rays[x].direction;
       gbuffer.hit[i] = hits[x].missed() ? 0 : 1;
-      if (!hits[x].missed()) gbuffer.surfaces[i] = surface_at(world.scene(), rays[x], hits[x]);
+      if (hits[x].missed()) continue;
+      const RayCone cone =
+          camera_cone(record, rays[x].direction, static_cast<uint>(settings.samples), jitter);
+      gbuffer.surfaces[i] =
+          seen_surface_at(world.scene(), rays[x], hits[x], width_at(cone, hits[x].distance));
     }
   });
 }

@@ -66,25 +66,29 @@ class GatherChunk {
     look_up_irradiance(field, queries, CorrectionUse::picked, from_field, world_);
     const std::span<const vec3> known = request_.known;
     for (std::size_t p = 0; p < pixels_.size(); ++p) {
-      const vec3 geometric_normal_ws = request_.surfaces[pixels_[p]].geometric_normal_ws;
-      vec3 sum(0.0f), above(0.0f);
+      const Surface& surface = request_.surfaces[pixels_[p]];
+      const vec3& geometric_normal_ws = surface.geometric_normal_ws;
+      const float above =
+          above_horizon(surface.gi_share, dot(surface.normal_ws, geometric_normal_ws));
+      vec3 sum(0.0f), excess(0.0f);
       float luminances = 0.0f, squares = 0.0f;
       for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
         // A bent normal's hemisphere reaches below the surface, where no light comes from
         if (dot(geometric_normal_ws, rays_[r].direction) <= 0.0f) continue;
         // Rays are drawn in proportion to the cosine: irradiance is pi times their mean radiance
-        const vec3 brought = kPi * gathered_radiance(shaded_[r].surface,
-                                                     shaded_[r].direct_irradiance, from_field[r]);
+        const vec3 brought =
+            (kPi * above) *
+            gathered_radiance(shaded_[r].surface, shaded_[r].direct_irradiance, from_field[r]);
         const vec3 kept = known.empty() ? brought : kept_of_ray(brought, known[pixels_[p]]);
         const float level = luminance(kept);
         sum += kept;
-        above += brought - kept;
+        excess += brought - kept;
         luminances += level;
         squares += level * level;
       }
       const float share = 1.0f / static_cast<float>(rays_per_pixel_);
       light.irradiance[pixels_[p]] = share * sum;
-      if (!known.empty()) light.excess[pixels_[p]] = share * above;
+      if (!known.empty()) light.excess[pixels_[p]] = share * excess;
       if (light.variance.empty()) continue;
       light.variance[pixels_[p]] =
           share * share * variance_of_sum(luminances, squares, static_cast<uint>(rays_per_pixel_));

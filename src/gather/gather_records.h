@@ -36,7 +36,8 @@ struct RayQueriesArguments {
 
 /// Irradiance of pixels from what their rays gathered.
 struct GatherSumArguments {
-  LitPointArray points;  ///< Of the band's pixels.
+  LitPointArray points;        ///< Of the band's pixels,
+  PixelSurfaceArray surfaces;  ///< and what these show.
   RayArray rays;
   ShadedHitArray shaded;
   Vec3Array direct;  ///< Irradiance of what the rays met, from lights,

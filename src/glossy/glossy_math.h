@@ -8,8 +8,8 @@
 #ifndef LAMBENT_GLOSSY_GLOSSY_MATH_H
 #define LAMBENT_GLOSSY_GLOSSY_MATH_H
 
-#include "raytracing/camera_math.h"
 #include "raytracing/coat_share.h"
+#include "raytracing/ray_cone.h"
 #include "raytracing/ray_records.h"
 #include "shared/cross_bilateral.h"
 #include "shared/pixel_points.h"
@@ -347,6 +347,11 @@ LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
   float albedo = ggx_albedo(dot(at.lobe.normal_ws, at.lobe.to_viewer_ws), at.lobe.alpha);
   vec3 mean = sums.light * (albedo / weight) + sums.emission / sums.pixels;
   return mix(unknown, mean, known);
+}
+
+/// Light of reflected_rays() and 1; all 0 where there is no ray.
+LAMBENT_FN vec4 light_by_rays(vec3 reflected) {
+  return reflected.x < 0.0f ? vec4(0.0f) : vec4(reflected, 1.0f);
 }
 
 /// All that a pixel's coat reflects but for what lights sent it straight: by rays, if any reached

@@ -16,6 +16,7 @@ struct CoatRaysArguments {
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
   RayArray rays;  ///< A list, as are:
+  RayConeArray cones;
   CoatPathArray paths;
   UintArray pixels;  ///< Of the ways.
   UintArray ways;    ///< How many these are: one number.
@@ -33,6 +34,7 @@ struct ThroughRaysArguments {
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
   RayArray rays;  ///< A list, as are:
+  RayConeArray cones;
   CoatPathArray paths;
   UintArray pixels;  ///< Of the ways.
   UintArray ways;    ///< How many these are: one number.
@@ -69,6 +71,7 @@ struct CoatLightArguments {
   CoatPathArray paths;
   UintArray pixels;
   RayArray next_rays;
+  RayConeArray next_cones;
   CoatPathArray next_paths;
   UintArray next_pixels;
   UintArray next_ways;

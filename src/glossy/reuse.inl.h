@@ -28,6 +28,5 @@ LAMBENT_FN vec4 reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at, uint 
       add_coat_ray(at, fetch_lobe(view, ivec2(x, y)), ray, weight, sums);
     }
   }
-  vec3 light = reflected_rays(at, sums);
-  return light.x < 0.0f ? vec4(0.0f) : vec4(light, 1.0f);
+  return light_by_rays(reflected_rays(at, sums));
 }

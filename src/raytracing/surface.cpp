@@ -33,7 +33,11 @@ bool bounds_volume(const Material& material) {
 }  // namespace
 
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint) {
-  return surface_at(scene, ray.direction, hit, footprint);
+  return surface_at(scene, ray.direction, hit, Footprint{footprint, 0u});
+}
+
+Surface seen_surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint) {
+  return surface_at(scene, ray.direction, hit, Footprint{footprint, 1u});
 }
 
 vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen, const vec3& direction_ws) {

@@ -11,8 +11,12 @@
 namespace lambent {
 
 /// The surface at a hit (not a miss) of `ray`. `footprint` is the width that the ray's cone has
-/// there [m] and picks the textures' nearest MIP level, read bilinearly; 0 reads full resolution.
+/// there [m] and picks the nearest texel of one MIP level; 0 reads full resolution, filtered.
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint = 0.0f);
+
+/// The same for rays whose surfaces are looked at: texels and levels are blended, and where the
+/// footprint averages over a normal map, the coat is as much rougher.
+Surface seen_surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint);
 
 /// A point of a triangle.
 struct SeenTriangle {

@@ -27,34 +27,33 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
 /// The vector that a normal map holds, in tangent space. Where the footprint covers all of the map,
 /// it is the mean.
 LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
-                              TrianglePointRef p, float cone_share, bool mean_alone) {
+                              TrianglePointRef p, ConeShare cone_share, bool mean_alone) {
   vec4 texel = mean_alone
                    ? fetch_texel(fetch_level(scene, view, level_count(scene, view) - 1), 0, 0)
                    : precise_texture_at(scene, mesh, view, p, cone_share);
   return map_vector(vec3(texel), scale);
 }
 
-/// A normal in object space, of any length, as a normal map bends it; and the length of the mean of
-/// the normals that the footprint covers.
+/// A normal in object space, of any length, as a normal map bends it; and the mean of the normals
+/// that the footprint covers, in tangent space, as map_vector_at() finds it.
 struct BentNormal {
   vec3 normal;
-  float mean_length;
+  vec3 mean;
 };
 
 LAMBENT_FN BentNormal bent_normal_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
                                      TrianglePointRef p, vec3 edge1, vec3 edge2, vec3 normal,
-                                     float cone_share) {
-  BentNormal bent = {normal, 1.0f};
+                                     ConeShare cone_share) {
+  BentNormal bent = {normal, vec3(0.0f, 0.0f, 1.0f)};
   if (view.texture < 0) return bent;
   bool mean_alone = shows_mean_alone(scene, mesh, view, p, cone_share);
-  vec3 n = map_vector_at(scene, mesh, view, scale, p, cone_share, mean_alone);
-  bent.mean_length = length(n);
+  bent.mean = map_vector_at(scene, mesh, view, scale, p, cone_share, mean_alone);
   // Bumps that the footprint averages over leave the surface flat
   if (mean_alone) return bent;
   vec4 tangent = tangent_at(mesh, view, p, edge1, edge2);
   bent.normal = normalize_or(normal, vec3(0.0f, 0.0f, 1.0f));
   vec3 t = orthogonal_tangent(bent.normal, vec3(tangent));
-  if (t != vec3(0.0f)) bent.normal = mapped_normal(bent.normal, t, tangent.w, n);
+  if (t != vec3(0.0f)) bent.normal = mapped_normal(bent.normal, t, tangent.w, bent.mean);
   return bent;
 }
 
@@ -66,7 +65,7 @@ struct Optics {
 
 /// What lies on a surface.
 LAMBENT_FN SurfaceLayers layers_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                                   TrianglePointRef p, float cone_share) {
+                                   TrianglePointRef p, ConeShare cone_share) {
   vec3 sheen = material.sheen_color;
   if (material.sheen_color_texture.texture >= 0) {
     sheen *= vec3(texture_at(scene, mesh, material.sheen_color_texture, p, cone_share));
@@ -88,7 +87,7 @@ LAMBENT_FN SurfaceLayers layers_at(SceneRef scene, MeshRef mesh, MaterialRef mat
 }
 
 LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
-                            float cone_share) {
+                            ConeShare cone_share) {
   Optics optics = {lambert_reflectance(vec3(0.0f)), vec3(0.0f)};
   if (is_unlit(material)) return optics;
   vec3 base = clamp(base_color_at(scene, mesh, material, p, cone_share), 0.0f, 1.0f);
@@ -143,7 +142,7 @@ LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint tria
   vec3 face_normal =
       cross(fetch_position(mesh, p.vertices.y) - p0, fetch_position(mesh, p.vertices.z) - p0);
   vec3 normal_ws = normalize_or(cofactors(instance.world_from_object) * face_normal, -direction_ws);
-  Optics optics = optics_at(scene, mesh, material, p, 0.0f);
+  Optics optics = optics_at(scene, mesh, material, p, full_resolution());
   if (bounds_volume(material) && !from_front) return optics.tint;
   return straight_share(optics.tint, optics.reflectance, dot(normal_ws, direction_ws));
 }
@@ -176,9 +175,38 @@ LAMBENT_FN Transmission transmission_of(MaterialRef material, Optics optics, boo
   return through;
 }
 
-/// The surface at a hit (not a miss) of a ray along a direction. `footprint` is the width that the
-/// ray's cone has there [m]; 0 reads textures at full resolution.
-LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, float footprint) {
+/// The cross section of a footprint over the area of a triangle, of which the double is given.
+LAMBENT_FN ConeShare cone_share_of(Footprint footprint, float double_area) {
+  ConeShare share = {share_of_triangle(footprint.width, double_area), footprint.blended};
+  return share;
+}
+
+/// Variance of the slopes of the bumps that a footprint averages over; 0 where it averages over
+/// none.
+LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef material,
+                                 TrianglePointRef p, ConeShare cone_share, vec3 mean) {
+  if (cone_share.blended == 0u || cone_share.of_triangle <= 0.0f) return 0.0f;
+  CornerUvs uvs = corner_uvs(mesh, material.normal_texture, p);
+  if (!uvs.present) return 0.0f;
+  float level = blended_level(scene, material.normal_texture, uvs, cone_share);
+  return level > 0.0f ? slope_variance(mean, material.normal_scale) : 0.0f;
+}
+
+/// optics_at(), of a coat that is rougher where its bumps are averaged over; `mean` is their
+/// map_vector().
+LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                                  TrianglePointRef p, ConeShare cone_share, vec3 mean) {
+  Optics optics = optics_at(scene, mesh, material, p, cone_share);
+  if (material.normal_texture.texture >= 0) {
+    float slopes = averaged_slopes(scene, mesh, material, p, cone_share, mean);
+    optics.reflectance.alpha = widened_alpha(optics.reflectance.alpha, slopes);
+  }
+  return optics;
+}
+
+/// The surface at a hit (not a miss) of a ray along a direction, whose footprint there has a width
+/// [m]; 0 reads textures at full resolution.
+LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Footprint footprint) {
   InstanceRef instance = fetch_instance(scene, hit.instance);
   MeshRef mesh = fetch_mesh(scene, instance.mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
@@ -192,7 +220,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   mat3 normal_from_object = cofactors(instance.world_from_object);
   vec3 face_normal = cross(edge1, edge2);
   vec3 area_normal = normal_from_object * face_normal;
-  float cone_share = share_of_triangle(footprint, length(area_normal));
+  ConeShare cone_share = cone_share_of(footprint, length(area_normal));
   Surface surface;
   surface.position_ws = transform_point(instance.world_from_object, position);
   surface.geometric_normal_ws = normalize_or(area_normal, -direction_ws);
@@ -211,7 +239,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   surface.normal_ws = normal_towards_viewer(shading_normal, along_winding, from_front, direction_ws,
                                             surface.geometric_normal_ws);
 
-  Optics optics = optics_at(scene, mesh, material, p, cone_share);
+  Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.mean);
   surface.reflectance = optics.reflectance;
   if (has_clearcoat(surface.reflectance.layers)) {
     BentNormal coat =
@@ -227,7 +255,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, flo
   surface.material = uint(mesh.material);
   surface.gi_share =
       receives_gi(instance)
-          ? horizon_share(bent.mean_length, dot(surface.normal_ws, surface.geometric_normal_ws))
+          ? horizon_share(length(bent.mean), dot(surface.normal_ws, surface.geometric_normal_ws))
           : 0.0f;
   if (surface.transmission.kind == kLeavesVolume) {
     // Inner reflection is a matter of rays that go on; no light of the room is in there

@@ -46,6 +46,12 @@ LAMBENT_FN vec3 normalize_or(vec3 v, vec3 fallback) {
   return squared > kMinSquaredLength ? v * (1.0f / sqrt(squared)) : fallback;
 }
 
+/// What a ray covers of a surface, by which its textures are read.
+struct Footprint {
+  float width;   ///< Across the ray [m]; 0: textures are read at full resolution.
+  uint blended;  ///< As of ConeShare.
+};
+
 /// A point given in object space.
 LAMBENT_FN vec3 transform_point(mat4 world_from_object, vec3 position) {
   return vec3(world_from_object * vec4(position, 1.0f));
@@ -87,6 +93,26 @@ LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
 }
 
+// Vectors of maps are of 8 bits a component: their means are shorter than 1 by up to so much where
+// all normals are the same.
+const float kLengthRounding = 1.0f / 255.0f;
+
+/// Variance of the slopes, along each axis, of the bumps whose mean map_vector() is this. Of small
+/// slopes p the normals' mean is shorter than 1 by their mean of |p|^2 / 2.
+LAMBENT_FN float slope_variance(vec3 mean, float normal_scale) {
+  float scale = max(abs(normal_scale), kLengthRounding);
+  float mean_length = length(vec3(mean.x / scale, mean.y / scale, mean.z));
+  return max(1.0f - kLengthRounding - mean_length, 0.0f) * normal_scale * normal_scale;
+}
+
+/// GGX width of a coat over bumps whose slopes have this variance. Toksvig, "Mipmapping Normal
+/// Maps", 2004; Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing",
+/// HPG 2016, Eq. 6: lobes of slopes add up by their squares.
+LAMBENT_FN float widened_alpha(float alpha, float slope_variance) {
+  if (slope_variance <= 0.0f) return alpha;
+  return min(sqrt(alpha * alpha + 2.0f * slope_variance), max(alpha, 1.0f));
+}
+
 /// The normal that a map's vector says, in the space of the unit vectors normal and tangent.
 LAMBENT_FN vec3 mapped_normal(vec3 normal, vec3 tangent, float handedness, vec3 n) {
   vec3 b = cross(normal, tangent) * (handedness < 0.0f ? -1.0f : 1.0f);
@@ -119,6 +145,17 @@ LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal
 /// their mean does, with its length: `length` is that of the mean, `cosine` dot(n, n_g).
 LAMBENT_FN float horizon_share(float length, float cosine) {
   return 0.5f + 0.5f * min(length, 1.0f) * cosine;
+}
+
+// The share of the hemisphere about a normal that is above the surface is taken to be at least
+// this, which bounds above_horizon().
+const float kLeastAbove = 0.1f;
+
+/// By how much irradiance from rays above the geometric horizon exceeds what a surface with this
+/// share of indirect light receives. Rays about a MIP's mean normal leave out less than those about
+/// the normals that it is the mean of.
+LAMBENT_FN float above_horizon(float gi_share, float cosine_of_normals) {
+  return gi_share / max(kLeastAbove, 0.5f + 0.5f * cosine_of_normals);
 }
 
 /// Of a surface that lets no light through.

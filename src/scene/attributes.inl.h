@@ -16,7 +16,8 @@
 //   vec2 fetch_uv(MeshRef mesh, TextureViewRef view, uint vertex)
 //   bool is_unlit(MaterialRef material)
 //   bool may_emit(MaterialRef material)
-//   vec4 sample_texture(SceneRef scene, TextureViewRef view, vec2 uv)   full size, filtered
+//   vec4 sample_texture(SceneRef scene, TextureViewRef view, vec2 uv, float level)
+//       as blended_texel(), with the device's filter
 
 /// A point of a triangle: its three vertices and their weights, which sum to 1.
 struct TrianglePoint {
@@ -70,21 +71,31 @@ LAMBENT_FN CornerUvs corner_uvs(MeshRef mesh, TextureViewRef view, TrianglePoint
   return uvs;
 }
 
-/// The MIP level at which a cone covers about one texel. `cone_share` is the cone's cross section
-/// over the triangle's area, here and below; 0: full resolution.
-LAMBENT_FN int mip_level(SceneRef scene, TextureViewRef view, CornerUvs uvs, float cone_share) {
+/// The MIP level at which a cone covers about one texel.
+LAMBENT_FN int mip_level(SceneRef scene, TextureViewRef view, CornerUvs uvs, ConeShare cone_share) {
   TextureLevelRef base = fetch_level(scene, view, 0);
   return mip_level(uvs.b - uvs.a, uvs.c - uvs.a, view.uv_scale, base.width, base.height,
-                   cone_share);
+                   cone_share.of_triangle);
+}
+
+/// The same without rounding.
+LAMBENT_FN float blended_level(SceneRef scene, TextureViewRef view, CornerUvs uvs,
+                               ConeShare cone_share) {
+  TextureLevelRef base = fetch_level(scene, view, 0);
+  return blended_level(uvs.b - uvs.a, uvs.c - uvs.a, view.uv_scale, base.width, base.height,
+                       cone_share.of_triangle);
 }
 
 /// A texture of a mesh at a point; white where the view is empty.
 LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, TrianglePointRef p,
-                           float cone_share) {
+                           ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
   CornerUvs uvs = corner_uvs(mesh, view, p);
   vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
-  if (!uvs.present || cone_share <= 0.0f) return sample_texture(scene, view, uv);
+  if (!uvs.present || cone_share.of_triangle <= 0.0f) return sample_texture(scene, view, uv, 0.0f);
+  if (cone_share.blended != 0u) {
+    return sample_texture(scene, view, uv, blended_level(scene, view, uvs, cone_share));
+  }
   return nearest_texel(scene, view, uv, mip_level(scene, view, uvs, cone_share));
 }
 
@@ -92,24 +103,28 @@ LAMBENT_FN vec4 texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view, Tr
 /// bits, and with some 8 bits in the result, too): for what directions of rays hang on. A mirror
 /// would show the steps.
 LAMBENT_FN vec4 precise_texture_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
-                                   TrianglePointRef p, float cone_share) {
+                                   TrianglePointRef p, ConeShare cone_share) {
   if (view.texture < 0) return vec4(1.0f);
-  if (cone_share > 0.0f) return texture_at(scene, mesh, view, p, cone_share);
+  bool cone = cone_share.of_triangle > 0.0f;
+  if (cone && cone_share.blended == 0u) return texture_at(scene, mesh, view, p, cone_share);
   CornerUvs uvs = corner_uvs(mesh, view, p);
-  return filtered_texel(scene, view, interpolate(uvs.a, uvs.b, uvs.c, p.weights));
+  vec2 uv = interpolate(uvs.a, uvs.b, uvs.c, p.weights);
+  if (!cone || !uvs.present) return filtered_texel(scene, view, uv);
+  return blended_texel(scene, view, uv, blended_level(scene, view, uvs, cone_share));
 }
 
-/// Whether a footprint covers so much of a texture that what it shows of it is all but its mean.
+/// Whether a footprint that is not looked at covers so much of a texture that what it shows of it
+/// is all but its mean.
 LAMBENT_FN bool shows_mean_alone(SceneRef scene, MeshRef mesh, TextureViewRef view,
-                                 TrianglePointRef p, float cone_share) {
+                                 TrianglePointRef p, ConeShare cone_share) {
   CornerUvs uvs = corner_uvs(mesh, view, p);
-  if (!uvs.present || cone_share <= 0.0f) return false;
+  if (!uvs.present || cone_share.of_triangle <= 0.0f || cone_share.blended != 0u) return false;
   return shows_mean_alone(mip_level(scene, view, uvs, cone_share), level_count(scene, view) - 1);
 }
 
 /// Linear base colour: factor, texture and vertex colour.
 LAMBENT_FN vec3 base_color_at(SceneRef scene, MeshRef mesh, MaterialRef material,
-                              TrianglePointRef p, float cone_share) {
+                              TrianglePointRef p, ConeShare cone_share) {
   vec3 color = vec3(material.base_color);
   if (material.base_color_texture.texture >= 0) {
     color *= vec3(texture_at(scene, mesh, material.base_color_texture, p, cone_share));
@@ -120,7 +135,7 @@ LAMBENT_FN vec3 base_color_at(SceneRef scene, MeshRef mesh, MaterialRef material
 
 /// Emitted radiance [W/(m^2 sr)]; an unlit surface emits its base colour.
 LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, TrianglePointRef p,
-                            float cone_share) {
+                            ConeShare cone_share) {
   if (!may_emit(material)) return vec3(0.0f);
   if (is_unlit(material)) return base_color_at(scene, mesh, material, p, cone_share);
   vec3 emission = material.emission;

@@ -8,7 +8,7 @@ LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 bar
   MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, emitter.instance).mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
   TrianglePoint p = triangle_point(mesh, emitter.triangle, barycentrics);
-  vec3 radiance = emission_at(scene, mesh, material, p, 0.0f);
+  vec3 radiance = emission_at(scene, mesh, material, p, full_resolution());
   if (uint(material.alpha_mode) != kAlphaOpaque) {
     radiance *= stopping_probability(uint(material.alpha_mode), material.alpha_cutoff,
                                      coverage_at(scene, mesh, material, p));

@@ -58,9 +58,10 @@ inline vec4 fetch_texel(const DecodedLevel& level, int x, int y) {
 
 #include "scene/texture.inl.h"
 
-/// A texture at full size, as its view says.
-inline vec4 sample_texture(const Scene& scene, const TextureView& view, vec2 uv) {
-  return filtered_texel(scene, view, uv);
+/// A texture as its view says, at a MIP level; 0: at full size.
+inline vec4 sample_texture(const Scene& scene, const TextureView& view, vec2 uv,
+                           float level = 0.0f) {
+  return blended_texel(scene, view, uv, level);
 }
 
 /// The views of a Material or const Material, as pointers to these.

@@ -34,16 +34,32 @@ LAMBENT_FN vec4 nearest_texel(SceneRef scene, TextureViewRef view, vec2 uv, int 
                      nearest_index(wrapped.y, level.height, wrap_v(view)));
 }
 
-/// The texel at full size as the view says, nearest or bilinear, with weights to float precision.
-LAMBENT_FN vec4 filtered_texel(SceneRef scene, TextureViewRef view, vec2 uv) {
-  if (is_nearest(view)) return nearest_texel(scene, view, uv, 0);
-  TextureLevelRef level = fetch_level(scene, view, 0);
-  vec2 wrapped = wrap_uv(view, uv);
-  // Blend the four texels whose centres surround the point
+/// The blend of the four texels whose centres surround a place that wrap_uv() gave, with weights to
+/// float precision.
+LAMBENT_FN vec4 bilinear_texel(TextureViewRef view, TextureLevelRef level, vec2 wrapped) {
   TexelPair x = texels_around(wrapped.x, level.width, wrap_u(view));
   TexelPair y = texels_around(wrapped.y, level.height, wrap_v(view));
   return ((1.0f - x.fraction) * (1.0f - y.fraction)) * fetch_texel(level, x.first, y.first) +
          (x.fraction * (1.0f - y.fraction)) * fetch_texel(level, x.second, y.first) +
          ((1.0f - x.fraction) * y.fraction) * fetch_texel(level, x.first, y.second) +
          (x.fraction * y.fraction) * fetch_texel(level, x.second, y.second);
+}
+
+/// The texel at full size as the view says, nearest or bilinear, with weights to float precision.
+LAMBENT_FN vec4 filtered_texel(SceneRef scene, TextureViewRef view, vec2 uv) {
+  if (is_nearest(view)) return nearest_texel(scene, view, uv, 0);
+  return bilinear_texel(view, fetch_level(scene, view, 0), wrap_uv(view, uv));
+}
+
+/// The texel at a level of blended_level(), clamped to what exists: of views that are not point
+/// samples the blend of the levels around it, each bilinear.
+LAMBENT_FN vec4 blended_texel(SceneRef scene, TextureViewRef view, vec2 uv, float wanted_level) {
+  if (is_nearest(view)) return nearest_texel(scene, view, uv, int(wanted_level + 0.5f));
+  float between = min(wanted_level, float(level_count(scene, view) - 1));
+  int finer = int(between);
+  float share = level_share(between - float(finer));
+  vec2 wrapped = wrap_uv(view, uv);
+  vec4 texel = bilinear_texel(view, fetch_level(scene, view, finer), wrapped);
+  if (share <= 0.0f) return texel;
+  return mix(texel, bilinear_texel(view, fetch_level(scene, view, finer + 1), wrapped), share);
 }

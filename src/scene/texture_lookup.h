@@ -24,6 +24,7 @@ LAMBENT_FN vec2 transform_uv(vec2 uv, vec2 scale, vec2 rotation, vec2 offset) {
 
 const float kAllFloatsAreIntegers = 8388608.0f;  // from 2^23 on
 const uint kFloatExponentMask = 0x7F800000u;
+const uint kOneBits = 0x3F800000u;  // of 1.0
 
 /// The library's floor is a call on a baseline processor.
 LAMBENT_FN float fast_floor(float value) {
@@ -90,6 +91,43 @@ LAMBENT_FN int mip_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width,
   if (!(cone_texels > 1.0f)) return 0;
   // round(log2(t) / 2) = floor(log2(2 t) / 2), and the exponent is the logarithm's floor
   return (int(floatBitsToUint(2.0f * cone_texels) >> 23u) - 127) / 2;
+}
+
+/// How much of a triangle the cone of a ray covers, by which textures are read there.
+struct ConeShare {
+  float of_triangle;  ///< The cone's cross section over the triangle's area; 0: full resolution.
+  uint blended;  ///< 1: texels and MIP levels are blended, for what is looked at; 0: one texel is
+                 ///< enough, since many such rays are averaged.
+};
+
+LAMBENT_FN ConeShare full_resolution() {
+  ConeShare none = {0.0f, 0u};
+  return none;
+}
+
+/// The same as mip_level() without rounding: how many times the texture is halved where a cone
+/// covers one texel. Between powers of two the logarithm is taken to be linear, which is off by at
+/// most 0.05.
+LAMBENT_FN float blended_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int width, int height,
+                               float share_of_triangle) {
+  float triangle_texels =
+      0.5f * abs((uv_edge1.x * uv_edge2.y - uv_edge1.y * uv_edge2.x) * uv_scale.x * uv_scale.y) *
+      float(width) * float(height);
+  float cone_texels = triangle_texels * share_of_triangle;
+  if (!(cone_texels > 1.0f)) return 0.0f;
+  const uint kMantissa = 0x007FFFFFu;
+  uint bits = floatBitsToUint(cone_texels);
+  float mantissa = uintBitsToFloat((bits & kMantissa) | kOneBits);
+  return 0.5f * (float(int(bits >> 23u) - 127) + (mantissa - 1.0f));
+}
+
+// Two levels are blended over half of the way from one to the next, so that half of all reads need
+// one alone: nobody sees the difference.
+const float kLevelBlend = 2.0f;
+
+/// Share of the coarser of two levels where the level that is wanted is so far between them.
+LAMBENT_FN float level_share(float between) {
+  return clamp((between - 0.5f) * kLevelBlend + 0.5f, 0.0f, 1.0f);
 }
 
 // Details are averaged over from this level on, and few such averages fit into a texture that has

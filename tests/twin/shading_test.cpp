@@ -315,6 +315,12 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   const vulkan::Buffer surfaces = room(sizeof(PixelSurfaceRecord));
   const vulkan::Buffer diffuse = room(sizeof(glm::vec3)), specular = room(sizeof(glm::vec3));
   const DevicePixels pixels = {{points.address()}, {surfaces.address()}};
+  std::vector<RayCone> widths;
+  for (const glm::vec3& to_viewer : gbuffer.to_viewer_ws) {
+    widths.push_back(
+        camera_cone(camera_record(camera, frame.width, frame.height), -to_viewer, 1u, 0u));
+  }
+  const vulkan::Buffer cones = vulkan::upload(device, widths, "cones");
   ShadeHitsSettings settings;
   settings.emissive_samples = frame.emissive_samples;
   settings.salt = 0;
@@ -323,7 +329,9 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   HitShading& shading = shading_on(device);
   tracer.run([&](vulkan::Recorder& to) {
     const DeviceStage stage = {twin.on_device, tracer};
-    shading.pixel_surfaces(to, stage, hits.view, 0, false, pixels);
+    shading.pixel_surfaces(to, stage,
+                           {hits.view.rays, hits.view.hits, {cones.address()}, hits.view.count}, 0,
+                           false, pixels);
     shading.reflected_light(to, stage, pixels, count, settings,
                             {{diffuse.address()}, {specular.address()}});
   });

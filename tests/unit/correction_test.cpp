@@ -98,6 +98,21 @@ TEST(Corrections, ReadFromSingleCellsHaveTheMeanOfInterpolatedOnes) {
   EXPECT_NEAR(picked / smooth, 1.0, 0.005);
 }
 
+TEST(Corrections, AreTheSameWhereBlocksAreRemembered) {
+  const CorrectionTable table =
+      taught(samples_on_floor(20000, [](float x) { return 1.0f + 0.2f * x; }));
+  RecentBlocks recent;
+  for (const CorrectionUse use : {CorrectionUse::smooth, CorrectionUse::picked}) {
+    for (int i = 0; i < 5000; ++i) {
+      // There and back, so that blocks are asked for again and places are shared
+      const float x = 3.5f * std::sin(0.37f * static_cast<float>(i));
+      const vec3 place(x, 0.02f, 0.5f * x), normal = normalize(vec3(0.3f * x, 1.0f, 0.2f));
+      EXPECT_EQ(table.at(grid(), 0, place, normal, use, &recent),
+                table.at(grid(), 0, place, normal, use));
+    }
+  }
+}
+
 TEST(Corrections, LearnTheSameInAnyOrder) {
   std::vector<CorrectionSample> samples =
       samples_on_floor(5000, [](float x) { return 1.0f + 0.3f * x / 3.0f; });

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -138,6 +139,34 @@ TEST(BuildMips, KeepEverySingleColor) {
   for (int grey = 0; grey < 256; ++grey) {
     const auto byte = static_cast<std::uint8_t>(grey);
     EXPECT_EQ(row_of({byte, byte, byte}, true).textures[0].levels.at(1).rgba[0], byte);
+  }
+}
+
+TEST(SampleTexture, BlendsLevelsWhereTheOneIsHalfOfTheOther) {
+  const Scene scene = row_of({0, 0, 0, 0, 255, 255, 255, 255});
+  const TextureView view = view_of(Wrap::clamp_to_edge);
+  const auto at_level = [&](float level) {
+    return sample_texture(scene, view, {0.4375f, 0.5f}, level).r;
+  };
+  // The middle of the last dark texel: dark, and half a texel of the next level from its edge
+  EXPECT_NEAR(at_level(0.0f), 0.0f, kTolerance);
+  EXPECT_NEAR(at_level(1.0f), 0.25f, kTolerance);
+  EXPECT_NEAR(at_level(0.5f), 0.125f, kTolerance);
+  // The coarsest level is the mean, and there is none beyond
+  EXPECT_NEAR(at_level(3.0f), 0.5f, 0.01f);
+  EXPECT_NEAR(at_level(30.0f), 0.5f, 0.01f);
+}
+
+TEST(BlendedLevel, IsNearTheLogarithmAndNeverJumps) {
+  const vec2 edge1(1.0f, 0.0f), edge2(0.0f, 1.0f), scale(1.0f);
+  float last = 0.0f;
+  for (float texels = 0.25f; texels < 1e6f; texels *= 1.01f) {
+    // The triangle has 1024 x 512 / 2 texels
+    const float share = texels / (0.5f * 1024.0f * 512.0f);
+    const float level = blended_level(edge1, edge2, scale, 1024, 512, share);
+    EXPECT_NEAR(level, std::max(0.0f, 0.5f * std::log2(texels)), 0.05f);
+    EXPECT_LT(level - last, 0.02f);
+    last = level;
   }
 }
 

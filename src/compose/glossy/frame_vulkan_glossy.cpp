@@ -70,6 +70,7 @@ void FramePassesVulkan::see_around_band(const Band& around) {
           static_cast<std::uint32_t>(around.first_row) * width + first;
       const CameraRaysArguments arguments = {
           {m.way_rays[0].address() + first * sizeof(RayRecord)},
+          {m.way_cones[0].address() + first * sizeof(RayCone)},
           camera_record(request_->camera, settings.width, settings.height),
           width,
           first_pixel,
@@ -85,7 +86,7 @@ void FramePassesVulkan::see_around_band(const Band& around) {
       world_.tracer().closest_hits(to, {arguments.rays, count}, hits);
       to.barrier();
       m.gather_shading.pixel_surfaces(
-          to, stage(), {arguments.rays, hits, count}, first_pixel, true,
+          to, stage(), {arguments.rays, hits, arguments.cones, count}, first_pixel, true,
           {{m.coat_points.address() + first * sizeof(LitPointRecord)},
            {m.coat_surfaces.address() + first * sizeof(PixelSurfaceRecord)}});
     };
@@ -101,6 +102,7 @@ void FramePassesVulkan::reserve_ways(std::size_t pixels) {
   reserve<CoatRay>(pixels, "coats' rays", m.coat_rays);
   for (int i = 0; i < 2; ++i) {
     reserve<RayRecord>(pixels, "rays of ways", m.way_rays[i]);
+    reserve<RayCone>(pixels, "cones of ways", m.way_cones[i]);
     reserve<CoatPath>(pixels, "ways", m.way_paths[i]);
     reserve<uint>(pixels, "pixels of ways", m.way_pixels[i]);
   }
@@ -129,6 +131,7 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
                                      {m.coat_surfaces.address()},
                                      {m.coat_rays.address()},
                                      {m.way_rays[0].address()},
+                                     {m.way_cones[0].address()},
                                      {m.way_paths[0].address()},
                                      {m.way_pixels[0].address()},
                                      {m.way_length.address()},
@@ -172,6 +175,7 @@ void FramePassesVulkan::transmission() {
                                         {m.surfaces.address()},
                                         {m.coat_rays.address()},
                                         {m.way_rays[0].address()},
+                                        {m.way_cones[0].address()},
                                         {m.way_paths[0].address()},
                                         {m.way_pixels[0].address()},
                                         {m.way_length.address()},
@@ -201,7 +205,8 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
   const uint salt = coat_salt(salt_of_pass, bounce);
   const bool has_field = request_->sources.field != nullptr;
   add(way_pass_, [=, this, &m](Recorder& to) {
-    const DeviceHits hits = {{m.way_rays[from].address()}, {m.way_hits.address()}, ways};
+    const DeviceSeenHits hits = {
+        {m.way_rays[from].address()}, {m.way_hits.address()}, {m.way_cones[from].address()}, ways};
     const DevicePixels met = {{m.way_points.address()}, {m.way_surfaces.address()}};
     world_.tracer().closest_hits(to, {hits.rays, ways}, hits.hits);
     to.barrier();
@@ -245,6 +250,7 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
                                     {m.way_paths[from].address()},
                                     {m.way_pixels[from].address()},
                                     {m.way_rays[next].address()},
+                                    {m.way_cones[next].address()},
                                     {m.way_paths[next].address()},
                                     {m.way_pixels[next].address()},
                                     {m.way_length.address()},

@@ -16,53 +16,21 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 1024;
 
-/// The pixels of the rows around a band and their rays, as reuse.inl.h reads them.
-struct CoatView {
-  std::span<const GlossyRows> around;
-  const std::vector<CoatRay>& rays;
-  int first_row;
-  int width, height;
-
-  std::size_t index(const ivec2& pixel) const {
-    return static_cast<std::size_t>(pixel.y - first_row) * width + pixel.x;
-  }
-};
-
-using CoatViewRef = const CoatView&;
-
-CoatLobe lobe_of(const GBuffer& pixels, std::size_t i) {
-  const Surface& surface = pixels.surfaces[i];
-  return {surface.position_ws, surface.geometric_normal_ws, surface.normal_ws,
-          pixels.to_viewer_ws[i], surface.reflectance.alpha};
-}
-
-CoatLobe fetch_lobe(CoatViewRef view, ivec2 pixel) {
-  for (const GlossyRows& rows : view.around) {
-    const std::size_t first = static_cast<std::size_t>(std::max(0, pixel.y - rows.first_row)) *
-                              static_cast<std::size_t>(view.width);
-    if (pixel.y < rows.first_row || first >= rows.pixels.size()) continue;
-    return lobe_of(rows.pixels, first + static_cast<std::size_t>(pixel.x));
-  }
-  assert(false);  // all rows in reach are there
-  return {};
-}
-
-CoatRay fetch_ray(CoatViewRef view, ivec2 pixel) {
-  return view.rays[view.index(pixel)];
-}
-
-ivec2 view_size(CoatViewRef view) {
-  return {view.width, view.height};
-}
-
-#include "glossy/reuse.inl.h"
-
 /// The ray that leaves a surface.
 Ray ray_from(const Surface& surface, const NextRay& next) {
   Ray ray;
   ray.origin = offset_ray_origin(surface.position_ws, next.side * surface.geometric_normal_ws);
   ray.direction = next.direction_ws;
   return ray;
+}
+
+/// The cone of a pixel's ray where it ends.
+RayCone pixel_cone(const GlossySettings& settings, const Surface& surface,
+                   const vec3& to_viewer_ws) {
+  RayCone cone = camera_cone(settings.camera, -to_viewer_ws,
+                             static_cast<uint>(settings.frame.samples), settings.jitter);
+  cone.width = width_at(cone, length(surface.position_ws - settings.camera.position_ws));
+  return cone;
 }
 
 }  // namespace
@@ -87,6 +55,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
   paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f});
   next_.resize(pixels);
+  cones_.resize(pixels);
 }
 
 /// Draws the rays of pixels whose surfaces let light through.
@@ -104,6 +73,7 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
                                        seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
     next_[i] = ray_from(surface, next);
+    cones_[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
     sent += path.pdf > 0.0f ? 1 : 0;
   }
   return sent;
@@ -143,6 +113,8 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         rays_[first + i].pdf = drawn.pdf;
         paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha};
         next_[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
+        cones_[first + i] =
+            reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
         ++count;
       }
       sent += count;
@@ -184,7 +156,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
         path.pdf = 0.0f;
         continue;
       }
-      const Surface surface = surface_at(scene, rays[k], hits[k]);
+      cones_[i].width = width_at(cones_[i], hits[k].distance);
+      const Surface surface = seen_surface_at(scene, rays[k], hits[k], cones_[i].width);
       path.throughput *= left_of_light(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
@@ -258,39 +231,12 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
                 surface.geometric_normal_ws, met_.to_viewer_ws[i], bounce, random, path);
       if (path.pdf <= 0.0f) continue;
       next_[i] = ray_from(surface, next);
+      cones_[i] = reflected_cone(cones_[i], path.pdf);
       ++going;
     }
     going_on += going;
   });
   return going_on;
-}
-
-void Glossy::reuse(const GlossySettings& settings, std::span<const GlossyRows> around,
-                   const GlossyRows& band, std::vector<glm::vec4>& light) const {
-  const CoatView view{around, rays_, first_row_, settings.frame.width, settings.frame.height};
-  const GBuffer& pixels = band.pixels;
-  const auto width = static_cast<std::size_t>(settings.frame.width);
-  light.assign(pixels.size(), vec4(0.0f));
-  parallel_chunks(pixels.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (pixels.coat_shares[i] <= 0.0f) continue;
-      const Surface& surface = pixels.surfaces[i];
-      const ivec2 pixel(i % width, band.first_row + static_cast<int>(i / width));
-      CoatReceiver at{
-          lobe_of(pixels, i),
-          coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[i])),
-          inverse_plane_tolerance(settings.camera, surface.position_ws),
-          static_cast<uint>(settings.frame.emissive_samples),
-          fetch_ray(view, pixel),
-          {},
-          {},
-          0.0f};
-      find_lobe(at);
-      light[i] =
-          pixels.coat_shares[i] * reuse_rays(view, pixel, at, static_cast<uint>(settings.sample),
-                                             static_cast<uint>(settings.frame.glossy_rows));
-    }
-  });
 }
 
 /// Follows rays until all their ways have ended; returns the rays traced.
@@ -319,7 +265,7 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
 std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                               const GlossyRows& band, std::vector<glm::vec4>& light) {
   const std::uint64_t traced = follow_all(settings, send_rays(settings, around));
-  reuse(settings, around, band, light);
+  reuse_.reflect(settings, around, band, rays_, light);
   return traced;
 }
 
@@ -350,9 +296,10 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   const GlossyRows own{pixels, band.first_row};
   const GlossyRows around[] = {
       {memory.above, above.first_row}, own, {memory.below, below.first_row}};
-  const GlossySettings glossy{request.world, request.sources.field, drawing,
-                              camera_record(request.camera, settings.width, settings.height),
-                              sample};
+  const GlossySettings glossy{
+      request.world, request.sources.field,
+      drawing,       camera_record(request.camera, settings.width, settings.height),
+      sample,        request.jitter()};
   return traced + memory.coats.reflect(glossy, around, own, light);
 }
 
@@ -360,9 +307,10 @@ std::uint64_t look_through_band(const FrameRequest& request, const Band& band, i
                                 const GBuffer& pixels, GlossyMemory& memory,
                                 std::vector<glm::vec3>& light) {
   const FrameSettings& settings = request.settings;
-  const GlossySettings through{request.world, request.sources.field, settings,
-                               camera_record(request.camera, settings.width, settings.height),
-                               sample};
+  const GlossySettings through{
+      request.world, request.sources.field,
+      settings,      camera_record(request.camera, settings.width, settings.height),
+      sample,        request.jitter()};
   return memory.coats.look_through(through, {pixels, band.first_row}, light);
 }
 

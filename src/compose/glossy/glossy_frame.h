@@ -12,26 +12,11 @@
 
 #include "compose/frame_passes.h"
 #include "compose/gbuffer.h"
+#include "compose/glossy/ray_reuse.h"
 #include "glossy/way_math.h"
 #include "lambent/field.h"
-#include "raytracing/camera_math.h"
 
 namespace lambent {
-
-/// What a sample's reflections are made of, and how.
-struct GlossySettings {
-  const World& world;
-  const IrradianceField* field;  ///< Null: there is none.
-  const FrameSettings& frame;
-  CameraRecord camera;
-  int sample = 0;
-};
-
-/// Rows of a picture that lie one below the other, as the camera sees them.
-struct GlossyRows {
-  const GBuffer& pixels;
-  int first_row;
-};
 
 /// Rows above and below a band whose rays its pixels take.
 inline int glossy_halo(int rows) {
@@ -61,20 +46,20 @@ class Glossy {
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
-  void reuse(const GlossySettings& settings, std::span<const GlossyRows> around,
-             const GlossyRows& band, std::vector<glm::vec4>& light) const;
 
   uint salt_ = 0;  // of the random numbers
   // Of the rows around the band, an entry a pixel
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
   std::vector<CoatPath> paths_;
-  std::vector<Ray> next_;  // of paths that have not ended
-  GBuffer met_;            // by these
+  std::vector<Ray> next_;  // of paths that have not ended, as are:
+  std::vector<RayCone> cones_;
+  GBuffer met_;  // by these
   ReflectedLight direct_;
   std::vector<FieldQuery> queries_;
   std::vector<std::size_t> asked_;  // pixels of the queries, and what is asked for there
   std::vector<glm::vec3> answers_;
+  RayReuse reuse_;
 };
 
 /// Memory of the pass, kept from band to band.

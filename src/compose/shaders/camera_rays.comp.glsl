@@ -19,4 +19,5 @@ void main() {
   CameraRay ray = camera_ray(args.camera, corner + offset);
   args.rays.at[i] = RayRecord(ray.origin_ws, 0.0f, ray.direction_ws,
                               uintBitsToFloat(kMissedDistanceBits), kRayMeetsAll);
+  args.cones.at[i] = camera_cone(args.camera, ray.direction_ws, args.samples, args.jitter);
 }

@@ -3,21 +3,10 @@
 // the type
 //   CorrectionsRef  the table
 // and
-//   uint bucket_count(CorrectionsRef table)
-//   CorrectionKey fetch_key(CorrectionsRef table, uint slot)
+//   uint find_block(CorrectionsRef table, CorrectionKey key)
+//       search_block() of search_block.inl.h
 //   uint fetch_refined(CorrectionsRef table, uint slot, int cell)
 //       encode_correction() of a cell's refined ratio and its number of samples
-
-/// The slot of a block; kNoCorrectionBlock where nothing is known of it.
-LAMBENT_FN uint find_block(CorrectionsRef table, CorrectionKey key) {
-  uint first = correction_bucket(key, bucket_count(table));
-  for (uint slot = first; slot < first + kCorrectionBucket; ++slot) {
-    CorrectionKey held = fetch_key(table, slot);
-    if (is_same_block(held, key)) return slot;
-    if (held.rest == 0u) break;
-  }
-  return kNoCorrectionBlock;
-}
 
 /// What a cell adds to a mean: its ratio times its weight, and the weight.
 LAMBENT_FN vec2 weighed_cell(CorrectionsRef table, uint slot, int cell, float weight) {
@@ -37,16 +26,23 @@ LAMBENT_FN vec2 interpolated_cells(CorrectionsRef table, vec3 coords, uint axis,
   // Along a direction in which the lowest cell is the second of its block, the others are in the
   // next block
   int next = cell_of_block(lowest);
+  int within = (kCellCorners - 1) & ~next;
   vec2 sum = vec2(0.0f);
-  for (int b = 0; b < kCellCorners; ++b) {
-    if ((b & ~next) != 0) continue;
+  // Of a block that is the next one along the directions b, the corners b and any of those within.
+  // (s - m) & m is what follows s among the sets of bits of m, in their order; 0 after the last one
+  int b = 0;
+  do {
     uint slot = find_block(table, correction_key(block + cell_corner(b), axis, level, volume));
-    if (slot == kNoCorrectionBlock) continue;
-    for (int k = 0; k < kCellCorners; ++k) {
-      if (((k ^ b) & next) != 0) continue;
-      sum += weighed_cell(table, slot, k ^ next, trilinear_weight(fraction, cell_corner(k)));
+    if (slot != kNoCorrectionBlock) {
+      int rest = 0;
+      do {
+        int k = b | rest;
+        sum += weighed_cell(table, slot, k ^ next, trilinear_weight(fraction, cell_corner(k)));
+        rest = (rest - within) & within;
+      } while (rest != 0);
     }
-  }
+    b = (b - next) & next;
+  } while (b != 0);
   return sum;
 }
 

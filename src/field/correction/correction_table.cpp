@@ -17,6 +17,7 @@ struct Corrections {
   const CorrectionKey* keys;
   const std::array<uint, kCellCorners>* refined;
   uint buckets;
+  RecentBlocks* recent = nullptr;  // null: none are remembered
 };
 
 using CorrectionsRef = const Corrections&;
@@ -29,6 +30,15 @@ LAMBENT_FORCE_INLINE const CorrectionKey& fetch_key(const Corrections& table, ui
 }
 LAMBENT_FORCE_INLINE uint fetch_refined(const Corrections& table, uint slot, int cell) {
   return table.refined[slot][cell];
+}
+
+#include "field/correction/search_block.inl.h"
+
+LAMBENT_FORCE_INLINE uint find_block(const Corrections& table, const CorrectionKey& key) {
+  if (table.recent == nullptr) return search_block(table, key);
+  RecentBlocks::Block& held = table.recent->place_of(key);
+  if (!is_same_block(held.key, key)) held = {key, search_block(table, key)};
+  return held.slot;
 }
 
 #include "field/correction/correction.inl.h"
@@ -106,11 +116,11 @@ void CorrectionTable::make_room() {
 
 __attribute__((flatten)) float CorrectionTable::at(const ProbeGrid& grid, int volume,
                                                    const vec3& position_ws, const vec3& normal_ws,
-                                                   CorrectionUse use) const {
+                                                   CorrectionUse use, RecentBlocks* recent) const {
   assert(use != CorrectionUse::none);
   if (empty_) return 1.0f;
   const Corrections table = {keys_.data(), refined_.data(),
-                             static_cast<uint>(keys_.size() / kCorrectionBucket)};
+                             static_cast<uint>(keys_.size() / kCorrectionBucket), recent};
   const uint of = static_cast<uint>(volume);
   if (use == CorrectionUse::smooth) return correction_at(table, grid, of, position_ws, normal_ws);
   return picked_correction(table, grid, of, position_ws, normal_ws);

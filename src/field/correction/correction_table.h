@@ -29,6 +29,26 @@ struct CorrectionBlock {
   std::array<LearnedCorrection, kCellCorners> cells;
 };
 
+/// Where blocks were found that were asked for last: points beside each other ask for the same
+/// ones. Good for one table while it does not change.
+class RecentBlocks {
+ public:
+  struct Block {
+    CorrectionKey key;  ///< rest 0: none.
+    uint slot;
+  };
+  /// The place that a block shares with some others.
+  Block& place_of(const CorrectionKey& key) {
+    // Multiplicative hashing: the upper bits hang on all bits of the key
+    const uint mixed = key.xy * 0x9E3779B1u + key.rest * 0x85EBCA6Bu;
+    return places_[mixed >> (32u - kBits)];
+  }
+
+ private:
+  static constexpr uint kBits = 9;  // 6 kB: room in the first-level cache
+  std::array<Block, 1u << kBits> places_{};
+};
+
 /// A hash table of blocks of cells on surfaces.
 ///
 /// Where ranks share a field, each holds what lookups read of all blocks, but what was learned of
@@ -48,9 +68,10 @@ class CorrectionTable {
 
   /// Whether nothing has been learned.
   bool empty() const { return empty_; }
-  /// See correction_at() and picked_correction().
+  /// See correction_at() and picked_correction(). `recent` is kept by who asks for many points;
+  /// null: nothing is.
   float at(const ProbeGrid& grid, int volume, const vec3& position_ws, const vec3& normal_ws,
-           CorrectionUse use) const;
+           CorrectionUse use, RecentBlocks* recent = nullptr) const;
 
   /// Adds the samples of update `number`, each to a cell of every level. Samples of blocks for
   /// which there is no room are lost. The order of samples does not matter.

@@ -4,6 +4,7 @@
 #define LAMBENT_FIELD_CORRECTION_TRAIN_MATH_H
 
 #include "field/correction/correction_math.h"
+#include "raytracing/surface_math.h"
 #include "shared/sampling.h"
 
 LAMBENT_BEGIN
@@ -60,17 +61,6 @@ LAMBENT_FN vec3 training_direction(Frame frame, uint point, uint number, int ray
   RandomStream random = make_random_stream(point, number, seed ^ kTrainingShifts);
   vec2 shift = next_uniform2(random);
   return to_world(frame, sample_cosine_hemisphere(fract(shift + plastic_sequence(uint(ray)))));
-}
-
-// The share of the hemisphere about a normal that is above the surface is taken to be at least
-// this, which bounds above_horizon().
-const float kLeastAbove = 0.1f;
-
-/// By how much irradiance from rays above the geometric horizon exceeds what a surface with this
-/// share of indirect light receives. Rays about a MIP's mean normal leave out less than those about
-/// the normals that it is the mean of.
-LAMBENT_FN float above_horizon(float gi_share, float cosine_of_normals) {
-  return gi_share / max(kLeastAbove, 0.5f + 0.5f * cosine_of_normals);
 }
 
 LAMBENT_END

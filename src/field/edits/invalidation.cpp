@@ -98,10 +98,13 @@ class SurfelInvalidation {
   Outcome update_probe(int probe, const vec3& origin, ProbeTrace& trace) {
     Outcome outcome;
     retraced_.assign(trace.surfels.size(), 0);
+    changed_.assign(trace.surfels.size(), 0);
     retrace(probe, origin, trace, outcome);
     reshade_direct(probe, trace);
     return outcome;
   }
+  /// Flags the surfels of the last probe that need other lookups.
+  const SurfelFlags& changed() const { return changed_; }
 
  private:
   void retrace(int probe, const vec3& origin, ProbeTrace& trace, Outcome& outcome);
@@ -112,7 +115,7 @@ class SurfelInvalidation {
   const Edits& edits_;
   const FieldSettings& settings_;
   ShadeHitsScratch scratch_;
-  std::vector<std::uint8_t> retraced_;
+  SurfelFlags retraced_, changed_;
   std::vector<DirectLightQuery> queries_;
   std::vector<int> places_;
   std::vector<vec3> direct_;
@@ -149,9 +152,10 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     const bool moved = found.position_ws != surfel.position_ws || found.kind != surfel.kind;
     outcome.moved = outcome.moved || moved;
     // Lookups depend on the position, the normal, and whether the surfel reflects the field's light
-    outcome.other_surfaces =
-        outcome.other_surfaces || moved || found.normal_ws != surfel.normal_ws ||
-        found.gi_share != surfel.gi_share || found.reflects() != surfel.reflects();
+    const bool other = moved || found.normal_ws != surfel.normal_ws ||
+                       found.gi_share != surfel.gi_share || found.reflects() != surfel.reflects();
+    outcome.other_surfaces = outcome.other_surfaces || other;
+    changed_[i] = other ? 1 : 0;
     surfel = found;
   }
 }
@@ -212,10 +216,16 @@ struct MovedProbe {
   std::vector<SeenDistance> before;
 };
 
+/// A probe of which some surfels need other lookups.
+struct OtherSurfaces {
+  int probe;
+  SurfelFlags surfels;
+};
+
 /// The results of one task.
 struct Part {
   std::uint64_t probe_rays = 0, shadow_rays = 0;
-  std::vector<int> other_surfaces;
+  std::vector<OtherSurfaces> other_surfaces;
   std::vector<MovedProbe> moved;
   std::vector<SeenDistance> seen;  // scratch
 };
@@ -256,6 +266,32 @@ double direct_light_of(const ProbeTrace& trace) {
   return sum;
 }
 
+/// Finds lookups again where they may have changed: of surfels that are other ones, and of those
+/// that read a probe with other distances. Returns the rays traced.
+std::uint64_t renew_lookups(std::vector<OtherSurfaces> other_surfaces, std::span<const int> moved,
+                            std::span<const int> all, const VisibilityRays& by,
+                            const ProbeStore& store, std::span<ProbeTrace> traces) {
+  std::sort(other_surfaces.begin(), other_surfaces.end(),
+            [](const OtherSurfaces& a, const OtherSurfaces& b) { return a.probe < b.probe; });
+  std::vector<int> others;
+  for (const OtherSurfaces& probe : other_surfaces) others.push_back(probe.probe);
+  const std::vector<int> readers = probes_reading(moved, all, store, traces);
+  std::vector<int> asking;
+  std::set_union(readers.begin(), readers.end(), others.begin(), others.end(),
+                 std::back_inserter(asking));
+  // Where volumes blend into each other, what one knows decides how much others are asked
+  if (store.volumes() > 1) return find_surfel_lookups(store, by, asking, traces);
+  std::vector<SurfelFlags> flagged(asking.size());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < asking.size() && next < other_surfaces.size(); ++k) {
+    if (asking[k] == other_surfaces[next].probe) {
+      flagged[k] = std::move(other_surfaces[next++].surfels);
+    }
+  }
+  flag_readers(moved, asking, store, traces, flagged);
+  return find_surfel_lookups(store, by, asking, flagged, traces);
+}
+
 }  // namespace
 
 std::vector<double> direct_light_of(std::span<const ProbeTrace> traces,
@@ -285,7 +321,7 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
       if (!edits.boxes.empty()) seen_distances(traces[probe], origin, part.seen);
       const SurfelInvalidation::Outcome outcome =
           invalidation.update_probe(probe, origin, traces[probe]);
-      if (outcome.other_surfaces) part.other_surfaces.push_back(probe);
+      if (outcome.other_surfaces) part.other_surfaces.push_back({probe, invalidation.changed()});
       if (outcome.moved) part.moved.push_back({probe, part.seen});
     }
     part.probe_rays = invalidation.probe_rays;
@@ -294,25 +330,18 @@ InvalidationResult invalidate_surfels(const World& world, const SolidSides& soli
 
   InvalidationResult result;
   std::vector<MovedProbe> moved;
-  std::vector<int> other_surfaces;
+  std::vector<OtherSurfaces> other_surfaces;
   for (Part& part : parts) {
     result.probe_rays += part.probe_rays;
     result.shadow_rays += part.shadow_rays;
-    other_surfaces.insert(other_surfaces.end(), part.other_surfaces.begin(),
-                          part.other_surfaces.end());
+    for (OtherSurfaces& probe : part.other_surfaces) other_surfaces.push_back(std::move(probe));
     for (MovedProbe& probe : part.moved) moved.push_back(std::move(probe));
   }
   move_distances(settings, moved, traces, dither_seed, store);
   for (const MovedProbe& probe : moved) result.moved.push_back(probe.probe);
   if (!other_surfaces.empty()) {
-    // Lookups may change at probes with other hits, and at probes whose surfels read a probe with
-    // other distances
-    std::sort(other_surfaces.begin(), other_surfaces.end());
-    const std::vector<int> readers = probes_reading(result.moved, all, store, traces);
-    std::vector<int> asking;
-    std::set_union(readers.begin(), readers.end(), other_surfaces.begin(), other_surfaces.end(),
-                   std::back_inserter(asking));
-    result.shadow_rays += find_surfel_lookups(store, by, asking, traces);
+    result.shadow_rays +=
+        renew_lookups(std::move(other_surfaces), result.moved, all, by, store, traces);
   }
   return result;
 }

@@ -79,12 +79,14 @@ std::uint64_t find_uncorrected(const ProbeStore& store, const VisibilityRays& by
 /// Multiplies the weights of lookups by how far lookups are off at their points.
 void correct_weights(const ProbeStore& store, const VisibilityRays& by,
                      std::span<const FieldQuery> queries, QueryWeights& weights) {
+  RecentBlocks blocks;
+  RecentBlocks* const recent = by.correction_use == CorrectionUse::smooth ? &blocks : nullptr;
   for (std::size_t i = 0; i < weights.corners.size(); ++i) {
     CornerWeights& corners = weights.corners[i];
     const FieldQuery& query = queries[weights.query[i]];
     const int volume = static_cast<int>(corners.table) / kCellWraps;
     const float ratio = by.correction->at(store.grid(volume), volume, query.position_ws,
-                                          query.normal_ws, by.correction_use);
+                                          query.normal_ws, by.correction_use, recent);
     for (float& weight : corners.weight) weight *= ratio;
   }
 }

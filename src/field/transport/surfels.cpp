@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
 #include <iterator>
 
 #include "core/parallel.h"
@@ -17,6 +18,24 @@ constexpr std::size_t kProbesPerTask = 8;
 // No probe has more rays than this. It gives each ray of each probe an index of its own, for its
 // random numbers.
 constexpr std::size_t kMaxRays = 4096;
+
+/// Tells which lookups read some probes.
+class ReadsOne {
+ public:
+  ReadsOne(std::span<const int> read, const ProbeStore& store)
+      : is_read_(store.probes(), 0), corner_table_(store.corner_table()) {
+    for (const int probe : read) is_read_[probe] = 1;
+  }
+  bool operator()(const CornerWeights& corners) const {
+    const CornerOffsets& offsets = corner_table_[corners.table];
+    return std::any_of(std::begin(offsets.probe), std::end(offsets.probe),
+                       [&](int offset) { return is_read_[corners.base + offset] != 0; });
+  }
+
+ private:
+  std::vector<std::uint8_t> is_read_;
+  std::span<const CornerOffsets> corner_table_;
+};
 
 }  // namespace
 
@@ -111,6 +130,13 @@ std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
 
 std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
                                   std::span<const int> probes, std::span<ProbeTrace> traces) {
+  return find_surfel_lookups(store, by, probes, {}, traces);
+}
+
+std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
+                                  std::span<const int> probes, std::span<const SurfelFlags> flagged,
+                                  std::span<ProbeTrace> traces) {
+  assert(flagged.empty() || (flagged.size() == probes.size() && store.volumes() == 1));
   const int texels = store.irradiance_texels();
   std::atomic<std::uint64_t> rays = 0;
   parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
@@ -133,6 +159,7 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
       for (std::size_t k = begin; k < end; ++k) {
         ProbeTrace& trace = traces[probes[k]];
         if (ray >= static_cast<int>(trace.surfels.size())) continue;
+        if (!flagged.empty() && flagged[k][ray] == 0) continue;
         const Surfel& surfel = trace.surfels[ray];
         // A surfel that reflects nothing needs no lookup
         if (!surfel.reflects()) continue;
@@ -167,16 +194,25 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
   return rays;
 }
 
+void flag_readers(std::span<const int> read, std::span<const int> probes, const ProbeStore& store,
+                  std::span<const ProbeTrace> traces, std::span<SurfelFlags> flagged) {
+  const ReadsOne reads_one(read, store);
+  parallel_chunks(probes.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const ProbeTrace& trace = traces[probes[k]];
+      flagged[k].resize(trace.surfels.size(), 0);
+      for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
+        if (flagged[k][i] != 0 || !trace.surfels[i].reflects()) continue;
+        flagged[k][i] = reads_one(trace.lookups[i].corners) ? 1 : 0;
+      }
+    }
+  });
+}
+
 std::vector<int> probes_reading(std::span<const int> read, std::span<const int> among,
                                 const ProbeStore& store, std::span<const ProbeTrace> traces) {
-  std::vector<std::uint8_t> is_read(store.probes(), 0), reads(among.size(), 0);
-  for (const int probe : read) is_read[probe] = 1;
-  const std::span<const CornerOffsets> corner_table = store.corner_table();
-  const auto reads_one = [&](const CornerWeights& corners) {
-    const CornerOffsets& offsets = corner_table[corners.table];
-    return std::any_of(std::begin(offsets.probe), std::end(offsets.probe),
-                       [&](int offset) { return is_read[corners.base + offset] != 0; });
-  };
+  std::vector<std::uint8_t> reads(among.size(), 0);
+  const ReadsOne reads_one(read, store);
   parallel_chunks(among.size(), kProbesPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const ProbeTrace& trace = traces[among[k]];

@@ -102,6 +102,19 @@ std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
 std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
                                   std::span<const int> probes, std::span<ProbeTrace> traces);
 
+/// Of a probe's surfels, by ray, 1 for those that are meant.
+using SurfelFlags = std::vector<std::uint8_t>;
+
+/// The same for the surfels that are flagged, of each of the `probes`, in a field of one volume.
+std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
+                                  std::span<const int> probes, std::span<const SurfelFlags> flagged,
+                                  std::span<ProbeTrace> traces);
+
+/// Flags surfels of the `probes` that may read one of the probes `read`, besides those that are
+/// flagged already; an empty entry flags none yet.
+void flag_readers(std::span<const int> read, std::span<const int> probes, const ProbeStore& store,
+                  std::span<const ProbeTrace> traces, std::span<SurfelFlags> flagged);
+
 /// Returns those of the traced probes `among` whose surfels may read one of the probes `read`, in
 /// the order of `among`.
 std::vector<int> probes_reading(std::span<const int> read, std::span<const int> among,

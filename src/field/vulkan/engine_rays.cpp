@@ -6,7 +6,7 @@
 #include "field/placement/reset_arguments.h"
 #include "field/schedule/schedule.h"
 #include "field/vulkan/recorded_state.h"
-#include "raytracing/trace_arguments.h"
+#include "raytracing/vulkan/trace_arguments.h"
 #include "vulkan/recorder.h"
 
 namespace lambent::vulkan {

@@ -6,6 +6,7 @@
 #include "denoise/variance.h"
 #include "gather/gather_math.h"
 #include "gather/gather_records.h"
+#include "raytracing/surface_math.h"
 #include "shared/color.h"
 
 layout(local_size_x = 64) in;
@@ -17,10 +18,12 @@ void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
   uint i = args.first + k;
-  vec3 geometric_normal_ws = args.points.at[i].geometric_normal_ws;
+  LitPointRecord point = args.points.at[i];
+  float above = above_horizon(args.surfaces.at[i].gi_share,
+                              dot(point.normal_ws, point.geometric_normal_ws));
   float share = 1.0f / float(args.rays_per_pixel);
   vec3 sum = vec3(0.0f);
-  vec3 above = vec3(0.0f);
+  vec3 excess = vec3(0.0f);
   vec3 known = args.keeps_excess != 0u ? args.known.at[i] : vec3(0.0f);
   float luminances = 0.0f;
   float squares = 0.0f;
@@ -28,18 +31,18 @@ void main() {
     uint at = k * args.rays_per_pixel + r;
     RayRecord ray = args.rays.at[at];
     // A bent normal's hemisphere reaches below the surface, where no light comes from
-    if (ray.mask == 0u || dot(geometric_normal_ws, ray.direction_ws) <= 0.0f) continue;
-    vec3 brought =
-        kPi * gathered_radiance(args.shaded.at[at], args.direct.at[at], args.field.at[at]);
+    if (ray.mask == 0u || dot(point.geometric_normal_ws, ray.direction_ws) <= 0.0f) continue;
+    vec3 brought = (kPi * above) *
+        gathered_radiance(args.shaded.at[at], args.direct.at[at], args.field.at[at]);
     vec3 kept = args.keeps_excess != 0u ? kept_of_ray(brought, known) : brought;
     float level = luminance(kept);
     sum += kept;
-    above += brought - kept;
+    excess += brought - kept;
     luminances += level;
     squares += level * level;
   }
   args.irradiance.at[i] = share * sum;
-  if (args.keeps_excess != 0u) args.excess.at[i] = share * above;
+  if (args.keeps_excess != 0u) args.excess.at[i] = share * excess;
   if (args.rays_per_pixel > 1u) {
     args.variance.at[i] =
         share * share * variance_of_sum(luminances, squares, args.rays_per_pixel);

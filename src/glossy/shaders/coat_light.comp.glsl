@@ -33,6 +33,7 @@ void main() {
   if (path.pdf <= 0.0f) return;
   uint at = atomicAdd(args.next_ways.at[0], 1u);
   args.next_paths.at[at] = path;
+  args.next_cones.at[at] = reflected_cone(surface.cone, path.pdf);
   args.next_pixels.at[at] = i;
   args.next_rays.at[at] =
       RayRecord(offset_ray_origin(point.position_ws, next.side * point.geometric_normal_ws), 0.0f,

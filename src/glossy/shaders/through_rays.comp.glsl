@@ -25,6 +25,7 @@ void main() {
   if (path.pdf <= 0.0f) return;
   uint at = atomicAdd(args.ways.at[0], 1u);
   args.paths.at[at] = path;
+  args.cones.at[at] = reflected_cone(surface.cone, path.pdf);
   args.pixels.at[at] = i;
   args.rays.at[at] =
       RayRecord(offset_ray_origin(point.position_ws, next.side * point.geometric_normal_ws), 0.0f,

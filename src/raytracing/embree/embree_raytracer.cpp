@@ -11,6 +11,7 @@
 #include "raytracing/embree/geometry.h"
 #include "raytracing/raytracer.h"
 #include "raytracing/refit.h"
+#include "raytracing/surface_math.h"
 #include "scene/transmission.h"
 
 namespace lambent {
@@ -57,6 +58,7 @@ class EmbreeRayTracer final : public RayTracer {
     bool deforms = false;
   };
 
+  Hit hit_of(const Ray& ray, const RTCRayHit& found) const;
   bool follow_list(const GeometryEdits& edits);
   void build();
   void make_mesh_scene(std::size_t mesh);
@@ -120,7 +122,8 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE) fail_to_build();
   check_masks();
   const Scene& scene = *slots_.scene;
-  has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(), lets_light_through);
+  has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(),
+                           [](const Material& material) { return lets_light_through(material); });
   statistics_.triangles = triangle_count(scene);
   statistics_.instances = scene.instances.size();
   statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));
@@ -323,6 +326,26 @@ RTCRay to_embree(const Ray& ray) {
   return result;
 }
 
+Hit EmbreeRayTracer::hit_of(const Ray& ray, const RTCRayHit& found) const {
+  Hit hit;
+  if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  bool baked = false;
+  const std::uint32_t slot = Slots::slot_of(found.hit.geomID, found.hit.instID[0], baked);
+  hit.instance = slots_.instance_of[slot];
+  hit.distance = found.ray.tfar;
+  hit.triangle = found.hit.primID;
+  hit.barycentrics = {found.hit.u, found.hit.v};
+
+  // Embree's normal is of object space for instances. Cofactors take it to the world, but for the
+  // sign of mirrored placements; baked vertices of these run the other way round
+  glm::vec3 normal(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
+  if (!baked) {
+    normal = cofactors(slots_.scene->instances[hit.instance].world_from_object) * normal;
+  }
+  hit.front_face = (glm::dot(normal, ray.direction) < 0.0f) != placements_[slot].mirrored;
+  return hit;
+}
+
 void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   assert(rays.size() == hits.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -332,28 +355,7 @@ void EmbreeRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hit
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     embree::Query asked(embree::Query::Kind::closest, rays[i]);
     embree::intersect(world_.get(), asked, query);
-
-    Hit& hit = hits[i];
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-      hit.distance = kInfiniteDistance;
-      continue;
-    }
-    bool baked = false;
-    const std::uint32_t slot = Slots::slot_of(query.hit.geomID, query.hit.instID[0], baked);
-    hit.instance = slots_.instance_of[slot];
-    hit.distance = query.ray.tfar;
-    hit.triangle = query.hit.primID;
-    hit.barycentrics = {query.hit.u, query.hit.v};
-
-    // Embree's normal is of object space for instances; so must the direction be.
-    glm::vec3 normal(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-    if (!baked) {
-      const glm::mat3 linear(slots_.scene->instances[hit.instance].world_from_object);
-      normal = glm::transpose(glm::inverse(linear)) * normal;
-    }
-    const bool faces_ray = glm::dot(normal, rays[i].direction) < 0.0f;
-    // Baked vertices of a mirrored placement run the other way round; instanced normals do not.
-    hit.front_face = faces_ray != (baked && placements_[slot].mirrored);
+    hits[i] = hit_of(rays[i], query);
   }
 }
 

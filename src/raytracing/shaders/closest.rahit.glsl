@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
 #include "raytracing/shaders/surface_at.glsl"
-#include "raytracing/trace_arguments.h"
+#include "raytracing/vulkan/trace_arguments.h"
 
 layout(push_constant, scalar) uniform Push {
   TraceArguments args;

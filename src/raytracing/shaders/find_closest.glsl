@@ -4,7 +4,7 @@
 #define LAMBENT_RAYTRACING_SHADERS_FIND_CLOSEST_GLSL
 #extension GL_EXT_ray_tracing : require
 
-#include "raytracing/trace_arguments.h"
+#include "raytracing/vulkan/trace_arguments.h"
 
 layout(location = 0) rayPayloadEXT HitRecord hit;
 

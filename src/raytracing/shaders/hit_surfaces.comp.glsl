@@ -35,7 +35,8 @@ void main() {
   }
 
   // Record the surface
-  Surface surface = surface_at(args.scene, ray.direction_ws, hit, args.cone_width * hit.distance);
+  Footprint footprint = {args.cone_width * hit.distance, 0u};
+  Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
   point.position_ws = surface.position_ws;
   point.normal_ws = surface.normal_ws;
   point.geometric_normal_ws = surface.geometric_normal_ws;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera's rays met.
+// What rays met whose surfaces are looked at.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/coat_share.h"
@@ -21,16 +21,19 @@ void main() {
       LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u);
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
                                                 -ray.direction_ws, no_transmission(),
-                                                kSurfaceMissed, 0.0f, 0.0f, 0.0f);
+                                                RayCone(0.0f, 0.0f), kSurfaceMissed, 0.0f, 0.0f,
+                                                0.0f);
   if (missed(hit)) {
     pixel.emission = sky_radiance(args.scene.at[0].environment, ray.direction_ws);
   } else {
-    Surface surface = surface_at(args.scene, ray.direction_ws, hit, 0.0f);
+    Footprint footprint = {width_at(args.cones.at[i], hit.distance), 1u};
+    Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
     point = LitPointRecord(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
                            args.first_index + i, 0u);
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
     pixel.transmission = surface.transmission;
+    pixel.cone = RayCone(footprint.width, args.cones.at[i].spread);
     pixel.flags = 0u;
     pixel.gi_share = surface.gi_share;
     if (args.traces_coats != 0u && surface.gi_share > 0.0f) {

@@ -91,13 +91,14 @@ bool is_unlit(MaterialRecord material) {
 bool may_emit(MaterialRecord material) {
   return (material.flags & kMaterialMayEmit) != 0u;
 }
-/// Bilinear by the device's filter, whose weights are coarse.
-vec4 sample_texture(SceneArray scene, TextureViewRecord view, vec2 uv) {
-  if (is_nearest(view)) return nearest_texel(scene, view, uv, 0);
+/// Blended by the device's filter, whose weights are coarse.
+vec4 sample_texture(SceneArray scene, TextureViewRecord view, vec2 uv, float level) {
+  if (is_nearest(view)) return nearest_texel(scene, view, uv, int(level + 0.5f));
   uint wraps = wrap_u(view) + kWraps * wrap_v(view);
+  float finer = floor(level);
   return textureLod(nonuniformEXT(sampler2D(scene_textures[nonuniformEXT(view.texture)],
                                             scene_samplers[nonuniformEXT(wraps)])),
-                    wrap_uv(view, uv), 0.0f);
+                    wrap_uv(view, uv), finer + level_share(level - finer));
 }
 
 #include "scene/attributes.inl.h"

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
-#include "raytracing/trace_arguments.h"
+#include "raytracing/vulkan/trace_arguments.h"
 #include "shared/rays.h"
 
 layout(push_constant, scalar) uniform Push {

@@ -172,13 +172,14 @@ void HitShading::direct_irradiance(vulkan::Recorder& recorder, const DeviceStage
 }
 
 void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage,
-                                const DeviceHits& hits, std::uint32_t first_index,
+                                const DeviceSeenHits& hits, std::uint32_t first_index,
                                 bool traces_coats, const DevicePixels& out) {
   recorder.bind_textures(stage.scene.textures());
   for (std::uint32_t first = 0; first < hits.count; first += kMaxInvocations) {
     PixelSurfacesArguments arguments{};
     arguments.scene = stage.scene.address();
     arguments.rays = hits.rays;
+    arguments.cones = hits.cones;
     arguments.hits = hits.hits;
     arguments.points = out.points;
     arguments.surfaces = out.surfaces;

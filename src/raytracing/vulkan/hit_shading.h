@@ -44,6 +44,14 @@ struct DeviceHits {
   std::uint32_t count = 0;
 };
 
+/// Rays of a camera and of what it sees, and how wide they are.
+struct DeviceSeenHits {
+  RayArray rays;
+  HitArray hits;
+  RayConeArray cones;
+  std::uint32_t count = 0;
+};
+
 /// What shading makes of hits; arrays of as many entries.
 struct DeviceShadedHits {
   LitPointArray points;
@@ -94,8 +102,9 @@ class HitShading {
 
   /// The surfaces that a camera's rays met; ray 0 is pixel `first_index` of the image.
   /// `traces_coats`: rays of their own bring coats' light, see coat_share.h.
-  void pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage, const DeviceHits& hits,
-                      std::uint32_t first_index, bool traces_coats, const DevicePixels& out);
+  void pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage,
+                      const DeviceSeenHits& hits, std::uint32_t first_index, bool traces_coats,
+                      const DevicePixels& out);
 
   /// As shade_direct. Of the settings, the emissive samples, the salt (the frame's sample) and the
   /// seed count.

@@ -3,6 +3,7 @@
 #ifndef LAMBENT_RAYTRACING_VULKAN_SHADING_RECORDS_H
 #define LAMBENT_RAYTRACING_VULKAN_SHADING_RECORDS_H
 
+#include "raytracing/ray_cone.h"
 #include "raytracing/shaded_hit.h"
 #include "raytracing/vulkan/scene_records.h"
 #include "scene/media/medium.h"
@@ -29,6 +30,7 @@ struct PixelSurfaceRecord {
   vec3 emission;      ///< [W/(m^2 sr)]; of a ray that left the scene, the sky's radiance.
   vec3 to_viewer_ws;  ///< Unit; back along the ray.
   Transmission transmission;
+  RayCone cone;  ///< Of the ray: its width there, and by how much it grows on.
   uint flags;
   float gi_share;         ///< As in Surface.
   float coat_share;       ///< As in GBuffer; 0: no rays bring the coat's light.
@@ -62,10 +64,11 @@ struct HitSurfacesArguments {
   uint padding;
 };
 
-/// The same for rays of a camera, at full resolution of textures.
+/// The same for rays whose surfaces are looked at.
 struct PixelSurfacesArguments {
   SceneArray scene;
   RayArray rays;
+  RayConeArray cones;
   HitArray hits;
   LitPointArray points;
   PixelSurfaceArray surfaces;

@@ -10,7 +10,7 @@
 
 #include "core/parallel.h"
 #include "core/stopwatch.h"
-#include "raytracing/trace_arguments.h"
+#include "raytracing/vulkan/trace_arguments.h"
 #include "scene/transmission.h"
 #include "shaders/closest_rahit.h"
 #include "shaders/closest_rchit.h"

@@ -20,7 +20,8 @@ RsmTexelRecord texel_at(ivec2 place, RayRecord ray, HitRecord hit) {
       perpendicular_area(args.projection, texel_middle(place.x, place.y, args.resolution),
                          args.resolution, hit.distance);
   if (!(cross_section > 0.0f)) return empty_texel();
-  Surface surface = surface_at(args.scene, ray.direction_ws, hit, 0.0f);
+  Footprint footprint = {0.0f, 0u};
+  Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
   PunctualSample light =
       sample_punctual(args.scene.at[0].lights.at[args.light], surface.position_ws);
   return lit_texel(surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,

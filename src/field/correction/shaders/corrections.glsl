@@ -19,6 +19,10 @@ uint fetch_refined(CorrectionArrays table, uint slot, int cell) {
   return table.refined.at[slot * uint(kCellCorners) + uint(cell)];
 }
 
+#include "field/correction/search_block.inl.h"
+
+#define find_block search_block
+
 #include "field/correction/correction.inl.h"
 
 /// As field/lookup/lookup.inl.h requires it.

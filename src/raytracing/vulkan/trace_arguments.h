@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the two ray tracing pipelines are told.
-#ifndef LAMBENT_RAYTRACING_TRACE_ARGUMENTS_H
-#define LAMBENT_RAYTRACING_TRACE_ARGUMENTS_H
+#ifndef LAMBENT_RAYTRACING_VULKAN_TRACE_ARGUMENTS_H
+#define LAMBENT_RAYTRACING_VULKAN_TRACE_ARGUMENTS_H
 
 #include "raytracing/ray_records.h"
 #include "raytracing/vulkan/scene_records.h"

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/glossy/ray_reuse.h"
+
+#include <cstdlib>
+
+#include "core/parallel.h"
+
+namespace lambent {
+namespace {
+
+/// The rows of rays around a row of the picture; the outermost have half their weight.
+std::vector<NeighbourRow> rows_around(const GlossySettings& settings, int row, int first_row) {
+  const int between = settings.frame.glossy_rows;
+  const int reach = kReuse * between;
+  std::vector<NeighbourRow> rows;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    const int y = row + dy;
+    if (y < 0 || y >= settings.frame.height) continue;
+    if (!has_coat_rays(y, static_cast<uint>(settings.sample), static_cast<uint>(between))) continue;
+    rows.push_back({y - first_row, std::abs(dy) == reach ? 0.5f : 1.0f, dy == 0});
+  }
+  return rows;
+}
+
+}  // namespace
+
+CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel) {
+  const Surface& surface = pixels.surfaces[pixel];
+  return {surface.position_ws, surface.geometric_normal_ws, surface.normal_ws,
+          pixels.to_viewer_ws[pixel], surface.reflectance.alpha};
+}
+
+/// Puts all that neighbours read into planes.
+void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRows> around,
+                       std::span<const CoatRay> rays) {
+  const int width = settings.frame.width;
+  coats_.resize(kCoatPlanes, width, static_cast<int>(rays.size()) / width);
+  const int first_row = around.front().first_row;
+  for (const GlossyRows& rows : around) {
+    const std::size_t count = rows.pixels.size() / static_cast<std::size_t>(width);
+    parallel_chunks(count, 1, [&](std::size_t begin, std::size_t) {
+      const int row = rows.first_row - first_row + static_cast<int>(begin);
+      for (int x = 0; x < width; ++x) {
+        const std::size_t i = begin * width + x;
+        const CoatRay& ray = rays[static_cast<std::size_t>(row) * width + x];
+        if (ray.pdf == 0.0f && rows.pixels.coat_shares[i] <= 0.0f) {
+          set_no_coat(coats_, row, x);
+        } else {
+          set_coat(coats_, row, x, lobe_of(rows.pixels, i), ray);
+        }
+      }
+    });
+  }
+}
+
+void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
+                       const GlossyRows& band, std::span<const CoatRay> rays,
+                       std::vector<glm::vec4>& light) {
+  lay_out(settings, around, rays);
+  const int width = settings.frame.width;
+  const int first_row = around.front().first_row;
+  const auto samples = static_cast<uint>(settings.frame.emissive_samples);
+  const GBuffer& pixels = band.pixels;
+  light.assign(pixels.size(), vec4(0.0f));
+  parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
+    const int y = band.first_row + static_cast<int>(begin);
+    std::vector<CoatReceiver> receivers;
+    std::vector<int> places;
+    RowPlanes asked, sums;
+    asked.resize(kReceiverPlanes, width, 1);
+    sums.resize(kSumPlanes, width, 1);
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = begin * width + x;
+      if (pixels.coat_shares[i] <= 0.0f) continue;
+      const Surface& surface = pixels.surfaces[i];
+      const CoatRay& own = rays[static_cast<std::size_t>(y - first_row) * width + x];
+      CoatReceiver at{
+          lobe_of(pixels, i),
+          coat_under_layers(surface.reflectance, dot(surface.normal_ws, pixels.to_viewer_ws[i])),
+          inverse_plane_tolerance(settings.camera, surface.position_ws),
+          samples,
+          own,
+          {},
+          {},
+          0.0f};
+      find_lobe(at);
+      set_receiver(asked, 0, x, at);
+      receivers.push_back(at);
+      places.push_back(x);
+    }
+    if (receivers.empty()) return;
+    const std::vector<NeighbourRow> neighbours = rows_around(settings, y, first_row);
+    reuse_row({coats_, asked, y - first_row, 0, width, samples, neighbours}, sums);
+    for (std::size_t k = 0; k < receivers.size(); ++k) {
+      const std::size_t i = begin * width + places[k];
+      light[i] = pixels.coat_shares[i] *
+                 light_by_rays(reflected_rays(receivers[k], sums_of(sums, 0, places[k])));
+    }
+  });
+}
+
+}  // namespace lambent
