@@ -183,7 +183,9 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   queries_.clear();
   asked_.clear();
   const auto ask = [&](std::size_t i, const vec3& direction_ws) {
-    queries_.push_back({met_.surfaces[i].position_ws, direction_ws, met_.to_viewer_ws[i]});
+    const vec3& position_ws = met_.surfaces[i].position_ws;
+    queries_.push_back({position_ws, direction_ws, met_.to_viewer_ws[i],
+                        distance(position_ws, vec3(next_[i].origin))});
     asked_.push_back(i);
   };
   const auto asks_for_base = [&](const Surface& surface) {
