@@ -94,8 +94,8 @@ inline const EmitterRecord& fetch_emitter(const LightDraws& draws, uint emitter)
   return emissive_of(draws.world).entries()[emitter];
 }
 inline vec3 emitted_radiance(const LightDraws& draws, const EmitterRecord& emitter,
-                             const vec2& barycentrics) {
-  return emissive_of(draws.world).radiance(emitter, barycentrics);
+                             const vec2& barycentrics, const vec3& direction_ws) {
+  return emissive_of(draws.world).radiance(emitter, barycentrics, direction_ws);
 }
 
 #include "raytracing/direct_light.inl.h"

@@ -16,7 +16,8 @@
 //                    inout LightPicks picks)
 //   uint emitter_count(DrawsRef draws)                     these come first among the tree's lights
 //   EmitterRecord fetch_emitter(DrawsRef draws, uint emitter)
-//   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics)
+//   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics,
+//                         vec3 direction_ws)
 
 /// The light of a candidate that a receiver would send on, as one number. Defined by the includer,
 /// after this file.
@@ -90,7 +91,7 @@ LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, Lig
                        seen)) {
     return no_candidate();
   }
-  vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics);
+  vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics, seen.to_point);
   LightCandidate candidate = {seen.to_point, seen.distance,
                               radiance / (seen.pdf * pick.probability), 1u};
   return candidate;
