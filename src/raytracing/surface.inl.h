@@ -247,8 +247,8 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
     coat_normal = normal_towards_viewer(coat_normal, along_winding, from_front, direction_ws,
                                         surface.geometric_normal_ws);
     place_clearcoat(surface.reflectance.layers, surface.normal_ws, coat_normal, direction_ws);
-    surface.emission *= passes_clearcoat(surface.reflectance.layers,
-                                         surface.reflectance.layers.clearcoat_cosine);
+    surface.emission *=
+        passes_clearcoat(surface.reflectance.layers, surface.reflectance.layers.clearcoat_cosine);
   }
   surface.transmission = transmission_of(material, optics, bool(hit.front_face));
   surface.material = uint(mesh.material);
