@@ -33,6 +33,7 @@ struct LitPoint {
   glm::vec3 geometric_normal_ws;
   /// encode_albedo_shape() where the light is to be reflected by an albedo towards the viewer.
   uint albedo_shape = 0;
+  glm::vec3 to_viewer_ws{0.0f};  ///< Unit; read where there is a shape.
 };
 
 /// How a surface reflects light to a viewer.
