@@ -184,9 +184,9 @@ void add_field_options(CLI::App& command, FieldOptions& o) {
       command.add_flag("!--no-relocation", o.settings.relocation, "Keep the probes on the grid"));
   command
       .add_option("--visibility", o.visibility,
-                  "Which probes a lookup sees: moments, hybrid or exact")
+                  "Which probes a lookup sees: moments, hybrid or exact (moments; of pictures of "
+                  "--quality high hybrid)")
       ->check(one_of(names_of(kVisibilities)))
-      ->capture_default_str()
       ->type_name("V");
 }
 
@@ -204,7 +204,7 @@ Expected<FieldSettings> field_settings(const FieldOptions& options, const Scene&
   settings.max_bounces = bounces;
   settings.irradiance_format = kIrradianceFormats.at(options.irradiance_format);
   settings.distance_format = kDistanceFormats.at(options.distance_format);
-  settings.visibility = kVisibilities.at(options.visibility);
+  if (!options.visibility.empty()) settings.visibility = kVisibilities.at(options.visibility);
   if (!options.probes.empty()) {
     if (settings.probe_spacing > 0.0f && settings.cascades == 0) {
       return fail("--probes", "", "give either --probes or --probe-spacing");

@@ -30,7 +30,7 @@ struct FieldOptions {
   std::vector<std::string> volumes;
   std::string irradiance_format = "rgb9e5";
   std::string distance_format = "rg16f";
-  std::string visibility = "moments";
+  std::string visibility;  // empty: of the quality, else moments
   std::vector<const CLI::Option*> of_shape;  // what a field's file has decided
 };
 

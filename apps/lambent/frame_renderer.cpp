@@ -43,7 +43,7 @@ const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAs
 /// The field that the options ask for, as yet without updates.
 Expected<IrradianceField> open_field(const RenderOptions& options, const World& world,
                                      const Camera& camera) {
-  const auto settings = field_settings(options.field, world.scene(), options.seed, options.bounces);
+  const auto settings = picture_field_settings(options, world.scene());
   if (!settings) return tl::unexpected(settings.error());
   if (options.field_file.empty()) return make_field(*settings, options.field, world, camera, 1);
   Expected<LoadedField> loaded = load_field(options.field_file, *settings, world);
@@ -119,8 +119,7 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
 /// Makes the fields of one frame anew: all light, and the first bounce of the lights that the maps
 /// bring, which is taken out. Both trace the same rays, so that noise goes with it.
 Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
-  const auto settings =
-      field_settings(options_.field, world_.scene(), options_.seed, options_.bounces);
+  const auto settings = picture_field_settings(options_, world_.scene());
   if (!settings) return tl::unexpected(settings.error());
   const glm::vec3 viewer(camera.world_from_view[3]);
   Expected<IrradianceField> all = make_field(*settings, options_.field, world_, camera, 2);

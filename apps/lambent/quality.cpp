@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "lambent/field_options.h"
 #include "lambent/validators.h"
 
 namespace lambent::cli {
@@ -78,6 +79,14 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
   const bool averages = options.frames > 0 && frame.denoise && frame.samples == 1;
   if (averages && options.backend.name == "cpu") frame.averaged_frames = kAveragedFrames;
   return frame;
+}
+
+Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const Scene& scene) {
+  auto settings = field_settings(options.field, scene, options.seed, options.bounces);
+  if (settings && options.field.visibility.empty() && chosen_quality(options) == Quality::high) {
+    settings->visibility = Visibility::hybrid;
+  }
+  return settings;
 }
 
 bool uses_taa(const RenderOptions& options) {

@@ -24,6 +24,10 @@ Quality quality_from_name(const std::string& name);
 /// Settings of a picture of this size: those of the quality, where no other option says otherwise.
 FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& size);
 
+/// Settings of the field that lights a picture: those of the quality, where no other option says
+/// otherwise.
+Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const Scene& scene);
+
 /// Whether a sequence's frames are anti-aliased over time.
 bool uses_taa(const RenderOptions& options);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -140,6 +141,9 @@ struct FieldQuery {
                       0.0f};  ///< Unit; irradiance is that of a surface with this normal.
   glm::vec3 to_viewer_ws{
       0.0f, 1.0f, 0.0f};  ///< Unit; towards the camera, or back along the ray that found the point.
+  /// Length of the free way to the viewer [m], >= 0: of the ray that found the point. Visibility is
+  /// judged on that way, and not behind a wall that the viewer is close to.
+  float viewer_distance = std::numeric_limits<float>::infinity();
 };
 
 /// What an update may cost, and for whom.

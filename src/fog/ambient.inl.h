@@ -7,7 +7,7 @@
 LAMBENT_FN void add_volume(ProbeGrid grid, float volume_weight, vec3 position_ws, Frame around_ray,
                            LAMBENT_INOUT(AmbientIrradiance) sum) {
   LookupGrid volume = lookup_grid(grid);
-  LookupCell cell = lookup_cell(volume, position_ws, vec3(0.0f), vec3(0.0f));
+  LookupCell cell = lookup_cell(volume, position_ws, vec3(0.0f), vec3(0.0f), 0.0f);
   float weights[kCellCorners];
   float weight_sum = 0.0f;
   for (int k = 0; k < kCellCorners; ++k) {

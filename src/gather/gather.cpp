@@ -61,7 +61,8 @@ class GatherChunk {
     std::vector<FieldQuery> queries(rays_.size());
     std::vector<vec3> from_field(rays_.size());
     for (std::size_t i = 0; i < rays_.size(); ++i) {
-      queries[i] = {shaded_[i].point.position_ws, shaded_[i].point.normal_ws, -rays_[i].direction};
+      queries[i] = {shaded_[i].point.position_ws, shaded_[i].point.normal_ws, -rays_[i].direction,
+                    distance(shaded_[i].point.position_ws, rays_[i].origin)};
     }
     look_up_irradiance(field, queries, CorrectionUse::picked, from_field, world_);
     const std::span<const vec3> known = request_.known;

@@ -66,6 +66,15 @@ TEST_F(QualityOption, GathersMoreTheHigherItIs) {
   EXPECT_GT(stats_of("--quality high")["camera_rays"].get<int>(), 10 * interactive);
 }
 
+TEST_F(QualityOption, SeesProbesByRaysWhereItIsHigh) {
+  const auto visibility_ms = [&](const std::string& options) {
+    return stats_of(options)["visibility_ms"].get<double>();
+  };
+  EXPECT_GT(visibility_ms(""), 0.0);
+  EXPECT_EQ(visibility_ms("--quality draft"), 0.0);
+  EXPECT_EQ(visibility_ms("--visibility moments"), 0.0);
+}
+
 TEST_F(QualityOption, AveragesLightOverFramesOfASequence) {
   const auto frames_of = [&](const std::string& options) {
     return stats_of(options + " --frames 2").at("frames");

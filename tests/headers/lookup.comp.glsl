@@ -37,5 +37,5 @@ float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal
 void main() {
   uint i = gl_GlobalInvocationID.x;
   vec3 up = vec3(0.0, 1.0, 0.0);
-  io.points[i] = lookup_irradiance(volumes.grids.length(), io.points[i], up, up);
+  io.points[i] = lookup_irradiance(volumes.grids.length(), io.points[i], up, up, 1.0);
 }

@@ -31,6 +31,7 @@ TEST_P(FieldLookup, AnswersAsTheProcessorDoes) {
     query.position_ws = 3.0f * vec3(next_uniform2(random), next_uniform(random)) - vec3(1.5f);
     query.normal_ws = test::random_unit(random);
     query.to_viewer_ws = test::random_unit(random);
+    if (next_uniform(random) < 0.5f) query.viewer_distance = 0.2f * next_uniform(random);
   }
   const vulkan::Buffer in = vulkan::upload(device(), queries, "queries");
   const vulkan::Buffer out(device(), queries.size() * sizeof(vec3), vulkan::Memory::device, "E");

@@ -77,13 +77,16 @@ TEST_P(Lookup, OfManyPointsEqualsTheSharedLookup) {
   const ProbeStore tested = store();
   SharedLookup shared{tested};
   // Not a multiple of any batch
-  const std::vector<FieldQuery> queries = random_queries(tested.grid(0), 1237);
+  std::vector<FieldQuery> queries = random_queries(tested.grid(0), 1237);
+  for (std::size_t i = 0; i < queries.size(); i += 2) {
+    queries[i].viewer_distance = 1e-4f * static_cast<float>(i);
+  }
   std::vector<vec3> result(queries.size());
   lookup_irradiance(tested, {}, queries, result);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const FieldQuery& q = queries[i];
-    const vec3 expected =
-        shared.lookup_irradiance(tested.volumes(), q.position_ws, q.normal_ws, q.to_viewer_ws);
+    const vec3 expected = shared.lookup_irradiance(tested.volumes(), q.position_ws, q.normal_ws,
+                                                   q.to_viewer_ws, q.viewer_distance);
     EXPECT_LT(glm::distance(result[i], expected), kTolerance * glm::length(expected)) << i;
   }
 }

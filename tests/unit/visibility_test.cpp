@@ -127,7 +127,8 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
   for (std::size_t i = 0; i < queries.size(); ++i) {
     const FieldQuery& q = queries[i];
     const ProbeCell cell = probe_cell(grid, q.position_ws);
-    const vec3 start = biased_position(q.position_ws, q.normal_ws, q.to_viewer_ws, smallest);
+    const vec3 start =
+        biased_position(q.position_ws, q.normal_ws, q.to_viewer_ws, q.viewer_distance, smallest);
     float expected[8], sum = 0.0f;
     for (int k = 0; k < 8; ++k) {
       const int probe = exact[i].base + offsets.probe[k];
@@ -146,6 +147,32 @@ TEST(Visibility, ExactCountsTheProbesThatARayReachesAndNoOthers) {
     for (int k = 0; k < 8; ++k) EXPECT_NEAR(exact[i].weight[k], expected[k] / sum, 1e-3f) << i;
   }
   EXPECT_GT(hidden, 10);
+}
+
+/// A room without openings, with walls of 4 cm, in a wide court under a bright sky.
+Scene sealed_room_in_the_open() {
+  Scene scene = test::scene_of({test::box_mesh(vec3(-2.44f), vec3(2.44f)),
+                                test::box_mesh(vec3(-2.4f), vec3(2.4f), true),
+                                test::box_mesh({-6.0f, -2.6f, -6.0f}, {6.0f, -2.5f, 6.0f}),
+                                test::box_mesh({5.9f, -2.5f, -6.0f}, {6.0f, 3.0f, 6.0f})});
+  scene.environment.radiance = vec3(1.0f);
+  return scene;
+}
+
+TEST(Visibility, TheWayToAViewerNearbyIsNotFollowedThroughTheWallBehindHim) {
+  const Stage stage(sealed_room_in_the_open());
+  const IrradianceField field = test::make_field(stage, settings_of(Visibility::exact), 2);
+  // A ray from one wall to the other, in their corner
+  const vec3 from(2.35f, 0.0f, 2.4f), to(2.4f, 0.0f, 2.3f);
+  FieldQuery query{to, {-1.0f, 0.0f, 0.0f}, normalize(from - to)};
+  const auto irradiance = [&] {
+    vec3 found(0.0f);
+    field.irradiance({&query, 1}, {&found, 1}, &stage.world);
+    return found.y;
+  };
+  ASSERT_GT(irradiance(), 0.1f);  // of a viewer far away, who could not be there
+  query.viewer_distance = length(from - to);
+  EXPECT_LT(irradiance(), 1e-3f);
 }
 
 TEST(CellVisibility, KnowWhichProbesOfACellAWallParts) {

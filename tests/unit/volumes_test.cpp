@@ -127,8 +127,8 @@ TEST(Volumes, AreLookedUpAsTheSharedLookupDoes) {
     lookup_irradiance(store, {}, queries, result);
     for (std::size_t i = 0; i < queries.size(); ++i) {
       const FieldQuery& q = queries[i];
-      const vec3 expected =
-          shared.lookup_irradiance(store.volumes(), q.position_ws, q.normal_ws, q.to_viewer_ws);
+      const vec3 expected = shared.lookup_irradiance(store.volumes(), q.position_ws, q.normal_ws,
+                                                     q.to_viewer_ws, q.viewer_distance);
       EXPECT_LT(glm::distance(result[i], expected), 3e-4f * glm::length(expected)) << i;
     }
   }

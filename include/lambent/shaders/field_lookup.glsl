@@ -47,7 +47,7 @@ float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal
 
 vec3 field_irradiance(FieldRecord field, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) {
   lambent_field = field;
-  return lookup_irradiance(field.volumes, position_ws, normal_ws, to_viewer_ws);
+  return lookup_irradiance(field.volumes, position_ws, normal_ws, to_viewer_ws, infinity());
 }
 
 #endif

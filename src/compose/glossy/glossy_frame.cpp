@@ -24,6 +24,11 @@ Ray ray_from(const Surface& surface, const NextRay& next) {
   return ray;
 }
 
+/// Asks the field for light from around `direction_ws` where a ray met a surface.
+FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws) {
+  return {met.position_ws, direction_ws, -ray.direction, distance(met.position_ws, ray.origin)};
+}
+
 /// The cone of a pixel's ray where it ends.
 RayCone pixel_cone(const GlossySettings& settings, const Surface& surface,
                    const vec3& to_viewer_ws) {
@@ -183,7 +188,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   queries_.clear();
   asked_.clear();
   const auto ask = [&](std::size_t i, const vec3& direction_ws) {
-    queries_.push_back({met_.surfaces[i].position_ws, direction_ws, met_.to_viewer_ws[i]});
+    queries_.push_back(query_of(next_[i], met_.surfaces[i], direction_ws));
     asked_.push_back(i);
   };
   const auto asks_for_base = [&](const Surface& surface) {

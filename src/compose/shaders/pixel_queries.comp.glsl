@@ -19,5 +19,5 @@ void main() {
   vec3 normal_ws = args.mirrored != 0u ? coat_direction(point.normal_ws, to_viewer_ws,
                                                         surface.reflectance.alpha)
                                        : point.normal_ws;
-  args.queries.at[i] = QueryRecord(point.position_ws, normal_ws, to_viewer_ws);
+  args.queries.at[i] = QueryRecord(point.position_ws, normal_ws, to_viewer_ws, infinity());
 }

@@ -37,6 +37,7 @@ LAMBENT_DEVICE_ARRAY(CorrectionSampleArray, CorrectionSampleRecord, 4)
 
 /// A surfel that an update learns at: its place among all surfels, and the ray that found it.
 struct TrainedSurfelRecord {
+  int probe;
   uint surfel;
   int ray;
   int ray_set;
@@ -45,6 +46,7 @@ LAMBENT_DEVICE_ARRAY(TrainedSurfelArray, TrainedSurfelRecord, 4)
 
 /// Arguments of training_points, which makes points of surfels.
 struct TrainingPointsArguments {
+  StoreArrays store;
   TrainedSurfelArray trained;
   SurfelArray surfels;
   RaySetArray sets;

@@ -66,8 +66,8 @@ void DeviceTraining::begin(std::span<const TrainedSurfel> surfels, uint number) 
   std::vector<TrainedSurfelRecord> records;
   records.reserve(surfels.size());
   for (const TrainedSurfel& at : surfels) {
-    records.push_back({static_cast<uint>(at.probe * field_.surfel_stride() + at.ray), at.ray,
-                       field_.ray_set_of(at.probe)});
+    records.push_back({at.probe, static_cast<uint>(at.probe * field_.surfel_stride() + at.ray),
+                       at.ray, field_.ray_set_of(at.probe)});
   }
   number_ = number;
   surfel_count_ = static_cast<std::uint32_t>(surfels.size());
@@ -142,7 +142,8 @@ void DeviceTraining::record(Recorder& to, const DeviceWorld& world) {
   for (std::uint32_t first = 0; first < surfel_count_; first += kPointsAtATime) {
     const std::uint32_t count = std::min(kPointsAtATime, surfel_count_ - first);
     to.run(kernels_.points,
-           TrainingPointsArguments{{trained_.address()},
+           TrainingPointsArguments{field_.store(),
+                                   {trained_.address()},
                                    field_.surfels(),
                                    field_.ray_sets(),
                                    {points_.address()},

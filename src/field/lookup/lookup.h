@@ -19,6 +19,11 @@ const float kViewBias = 0.8f;
 const float kBiasScale = 0.75f;
 const float kBias = 0.3f;
 
+// Towards a viewer who is near, the position goes at most this share of the way. A ray that gathers
+// light in a corner ends a few centimetres from where it began: the whole bias would lead through
+// the wall that it began at, to probes outdoors. At one half it is as far from either end.
+const float kFreeShare = 0.5f;
+
 // Probes behind a surface count less, the larger the negative cosine, and nothing from this one on.
 // The published value is 1 (JCGT 8(2) 2019). Where probes stand just in front of both sides of a
 // thin wall, those of the far side then count too much: in the two rooms of `scripts/measure leaks`
@@ -46,11 +51,12 @@ const float kTiniestSquare = 1e-20f;
 // Where the volumes so far leave less than this weight, the rest is rounding.
 const float kNothingLeft = 1e-6f;
 
-/// The point at which visibility is evaluated.
+/// The point at which visibility is evaluated, seen by a viewer at this distance [m].
 LAMBENT_FN vec3 biased_position(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
-                                float spacing_min) {
-  return position_ws +
-         (kNormalBias * normal_ws + kViewBias * to_viewer_ws) * (kBiasScale * kBias * spacing_min);
+                                float viewer_distance, float spacing_min) {
+  float bias = kBiasScale * kBias * spacing_min;
+  return position_ws + kNormalBias * bias * normal_ws +
+         min(kViewBias * bias, kFreeShare * viewer_distance) * to_viewer_ws;
 }
 
 /// A bilinear fetch of distances. Agrees with tile_fetch() of probes/tile.h but for rounding: it
@@ -135,10 +141,11 @@ struct LookupCell {
 };
 
 LAMBENT_FN LookupCell lookup_cell(LookupGrid volume, vec3 position_ws, vec3 normal_ws,
-                                  vec3 to_viewer_ws) {
+                                  vec3 to_viewer_ws, float viewer_distance) {
   ProbeCell cell = probe_cell(volume.grid, position_ws);
-  LookupCell result = {cell, probe_position(volume.grid, cell.base),
-                       biased_position(position_ws, normal_ws, to_viewer_ws, volume.spacing_min)};
+  LookupCell result = {
+      cell, probe_position(volume.grid, cell.base),
+      biased_position(position_ws, normal_ws, to_viewer_ws, viewer_distance, volume.spacing_min)};
   return result;
 }
 

@@ -22,14 +22,16 @@ LAMBENT_FN float lookup_weight(LookupGrid volume, LookupCell cell, ivec3 corner,
   return corner_weight(at.wrap, at.trilinear, at.dist, fetch_moments(probe, at.from_probe));
 }
 
-/// Irradiance at a point with a normal, seen from `to_viewer_ws`, from the probes of one volume.
+/// Irradiance at a point with a normal, seen along `to_viewer_ws` from `viewer_distance` [m], from
+/// the probes of one volume.
 /// Returns the irradiance times the volume's weight, and the weight as the fourth channel; all 0
 /// where no probe has a weight. Averages linear light, so that the result is linear in what the
 /// probes hold.
 LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, int volume_index, float volume_weight,
-                              vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) {
+                              vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
+                              float viewer_distance) {
   LookupGrid volume = lookup_grid(grid);
-  LookupCell cell = lookup_cell(volume, position_ws, normal_ws, to_viewer_ws);
+  LookupCell cell = lookup_cell(volume, position_ws, normal_ws, to_viewer_ws, viewer_distance);
 
   vec3 sum = vec3(0.0f);
   float weight_sum = 0.0f;
@@ -47,15 +49,15 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, int volume_index, float volume_wei
 
 /// Irradiance at a point with a normal from all volumes, in order: each volume takes its blend
 /// weight of the weight that the volumes before it have left, and the last one takes the rest.
-LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws,
-                                  vec3 to_viewer_ws) {
+LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
+                                  float viewer_distance) {
   vec4 answer = vec4(0.0f);
   for (int volume = 0; volume < volumes && answer.w < 1.0f; ++volume) {
     ProbeGrid grid = fetch_grid(volume);
     float volume_weight = volume + 1 == volumes ? 1.0f : volume_blend_weight(grid, position_ws);
     if (volume_weight <= 0.0f) continue;
     answer += lookup_volume(grid, volume, volume_weight * (1.0f - answer.w), position_ws, normal_ws,
-                            to_viewer_ws);
+                            to_viewer_ws, viewer_distance);
   }
   // Where no probe of the last volume has a weight, the volumes before it answer alone
   return answer.w > 0.0f ? vec3(answer) / answer.w : vec3(0.0f);

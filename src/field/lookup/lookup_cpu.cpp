@@ -72,8 +72,8 @@ struct CornerFetch {
 template <std::ptrdiff_t words_per_texel>
 LAMBENT_FORCE_INLINE void locate_corners(const Tables& t, const FieldQuery& query,
                                          CornerFetch& __restrict fetch) {
-  const LookupCell cell =
-      lookup_cell(t.volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
+  const LookupCell cell = lookup_cell(t.volume, query.position_ws, query.normal_ws,
+                                      query.to_viewer_ws, query.viewer_distance);
   const int base = probe_index(t.volume.grid, cell.cell.base);
   const int width = t.distance_texels + 2;
   fetch.base = base;

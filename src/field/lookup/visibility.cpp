@@ -63,7 +63,8 @@ class CornerRays {
 #include "field/lookup/visibility.inl.h"
 
   LookupCell cell_of(const FieldQuery& query) const {
-    return lookup_cell(volume_, query.position_ws, query.normal_ws, query.to_viewer_ws);
+    return lookup_cell(volume_, query.position_ws, query.normal_ws, query.to_viewer_ws,
+                       query.viewer_distance);
   }
 
   const ProbeStore& store_;

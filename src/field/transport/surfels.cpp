@@ -167,7 +167,8 @@ std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays&
         if (surfel.gi_share <= 0.0f) continue;
         reflecting.push_back({probes[k], ray});
         queries.push_back({surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                           -trace.rays->directions[ray]});
+                           -trace.rays->directions[ray],
+                           distance(surfel.position_ws, store.probe_position_ws(probes[k]))});
       }
     }
     QueryWeights weights;

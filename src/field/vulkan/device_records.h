@@ -71,6 +71,7 @@ struct QueryRecord {
   vec3 position_ws;
   vec3 normal_ws;
   vec3 to_viewer_ws;
+  float viewer_distance;  ///< [m]
 };
 LAMBENT_DEVICE_ARRAY(QueryArray, QueryRecord, 4)
 

@@ -13,6 +13,7 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   LitPointRecord point = args.points.at[i];
-  args.queries.at[i] =
-      QueryRecord(point.position_ws, point.normal_ws, -args.rays.at[i].direction_ws);
+  RayRecord ray = args.rays.at[i];
+  args.queries.at[i] = QueryRecord(point.position_ws, point.normal_ws, -ray.direction_ws,
+                                   distance(point.position_ws, ray.origin_ws));
 }

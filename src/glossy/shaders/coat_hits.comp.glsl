@@ -16,7 +16,8 @@ void main() {
   CoatPath path = args.paths.at[k];
   LitPointRecord point = args.points.at[k];
   PixelSurfaceRecord surface = args.surfaces.at[k];
-  QueryRecord base = QueryRecord(point.position_ws, point.normal_ws, surface.to_viewer_ws);
+  QueryRecord base = QueryRecord(point.position_ws, point.normal_ws, surface.to_viewer_ws,
+                                 args.hits.at[k].distance);
   args.queries.at[2u * k] = base;
   args.queries.at[2u * k + 1u] = base;
   if (args.bounce == 1u) args.coat_rays.at[i].distance = args.hits.at[k].distance;

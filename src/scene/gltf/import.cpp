@@ -2,7 +2,9 @@
 // From a checked glTF document to a Scene.
 #include "scene/gltf/import.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <new>
 #include <optional>
 
@@ -19,6 +21,7 @@
 #include "scene/gltf/volumes.h"
 #include "scene/limits.h"
 #include "scene/texture.h"
+#include "shared/rays.h"
 
 namespace lambent {
 namespace gltf {
@@ -26,6 +29,9 @@ namespace {
 
 // More than any renderable scene; a small file can ask for more by instancing instances.
 constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
+
+// Rays may start this share of a scene's longest side off its surfaces: less than walls are thick.
+constexpr float kMaxRayOffset = 1e-2f;
 
 class Importer {
  public:
@@ -277,6 +283,30 @@ class Importer {
     scene_.materials.pop_back();
   }
 
+  static std::string metres(float length) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g m", static_cast<double>(length));
+    return text;
+  }
+
+  // Rays start off surfaces by the rounding of coordinates, which far from the origin, and in tiny
+  // scenes, is as large as what is to be lit.
+  void warn_of_rounding() {
+    const Bounds bounds = world_bounds(scene_);
+    if (bounds.empty()) return;
+    const glm::vec3 size = bounds.max - bounds.min;
+    const glm::vec3 far = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
+    const float farthest = std::max({far.x, far.y, far.z});
+    const float offset = offset_ray_component(farthest, 1.0f) - farthest;
+    const float extent = std::max({size.x, size.y, size.z});
+    if (offset <= kMaxRayOffset * extent) return;
+    const bool tiny = farthest < kRayOffsetOrigin;
+    document_.warn("The scene is " + metres(extent) + " large" +
+                   (tiny ? "" : ", " + metres(farthest) + " from the origin") +
+                   ", and rays start " + metres(offset) + " off its surfaces: light is wrong. " +
+                   (tiny ? "Scale it up." : "Move it to the origin."));
+  }
+
   void describe_source() {
     const tinygltf::Model& model = document_.model;
     SceneSource& source = scene_.source;
@@ -293,6 +323,7 @@ class Importer {
       }
     }
     if (triangle_count(scene_) == 0) document_.warn("The scene has no triangles.");
+    warn_of_rounding();
     document_.warn_of_repairs();
     source.warnings = std::move(document_.warnings);
   }

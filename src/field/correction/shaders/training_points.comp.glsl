@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
+#include "field/probes/shaders/volume_of.glsl"
 #include "field/vulkan/device_arguments.h"
 #include "shared/octahedral.h"
 
@@ -20,7 +21,10 @@ void main() {
   float gi_share = surfel.albedo_over_pi != vec3(0.0) ? surfel.gi_share : 0.0;
   // A query without a normal is not answered
   vec3 normal_ws = gi_share > 0.0 ? decode_unit_vector(surfel.normal_ws) : vec3(0.0);
-  args.queries.at[i] = QueryRecord(surfel.position_ws, normal_ws, -direction);
+  vec3 origin_ws =
+      placed_position_of(args.store.grids, args.store.offsets, trained.probe);
+  args.queries.at[i] = QueryRecord(surfel.position_ws, normal_ws, -direction,
+                                   distance(surfel.position_ws, origin_ws));
   args.points.at[i] = TrainingPointRecord(decode_unit_vector(surfel.geometric_normal_ws), gi_share,
                                           args.first + i);
 }

@@ -24,8 +24,8 @@ float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal
 /// The weights of the eight probes around a point in one volume. They sum to 1, or to 0 where all
 /// of these probes are inside geometry.
 CornerWeights lookup_weights(LookupGrid in_volume, int volume, QueryRecord query) {
-  LookupCell cell =
-      lookup_cell(in_volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
+  LookupCell cell = lookup_cell(in_volume, query.position_ws, query.normal_ws, query.to_viewer_ws,
+                                query.viewer_distance);
   ivec3 base = cell.cell.base;
   CornerWeights weights;
   weights.base = probe_index(in_volume.grid, base);

@@ -23,7 +23,7 @@ void main() {
   // Lanes beyond the last point look up the last one again. No lane leaves early, so that lavapipe
   // reads what all lanes have in common once
   QueryRecord query = args.queries.at[min(i, args.count - 1)];
-  vec3 irradiance =
-      lookup_irradiance(kVolumes, query.position_ws, query.normal_ws, query.to_viewer_ws);
+  vec3 irradiance = lookup_irradiance(kVolumes, query.position_ws, query.normal_ws,
+                                      query.to_viewer_ws, query.viewer_distance);
   if (i < args.count) args.irradiance.at[i] = irradiance;
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Points at which the field is looked up. The includer has declared push constants with
-// `args.points`.
+// `args.points` and `args.store`.
 #ifndef LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_POINTS_GLSL
 #define LAMBENT_FIELD_LOOKUP_SHADERS_LOOKUP_POINTS_GLSL
 
 #include "field/vulkan/device_arguments.h"
 #include "field/probes/shaders/tiles.glsl"
+#include "field/probes/shaders/volume_of.glsl"
 #include "shared/octahedral.h"
 
 struct LookupPoint {
@@ -48,8 +49,11 @@ QueryRecord query_of(LookupPoint point) {
   if (args.points.count > 0) return args.points.queries.at[point.place];
   SurfelRecord surfel = args.points.surfels.at[point.lookup / kLookups];
   RaySetRecord set = rays_of(point);
+  int probe = args.points.list.probes.at[point.row];
+  vec3 origin_ws = placed_position_of(args.store.grids, args.store.offsets, probe);
   return QueryRecord(surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                     -set.directions.at[min(point.column, set.rays - 1)]);
+                     -set.directions.at[min(point.column, set.rays - 1)],
+                     distance(surfel.position_ws, origin_ws));
 }
 
 #endif

@@ -15,7 +15,8 @@ LookupGrid grid_of(CornerWeights corners) {
 
 /// The cell that a lookup reads in this volume.
 LookupCell cell_of(LookupGrid volume, QueryRecord query) {
-  return lookup_cell(volume, query.position_ws, query.normal_ws, query.to_viewer_ws);
+  return lookup_cell(volume, query.position_ws, query.normal_ws, query.to_viewer_ws,
+                     query.viewer_distance);
 }
 
 /// visible_corners() of a point's lookup.

@@ -14,4 +14,11 @@ int volume_of(GridArray grids, int probe) {
   return volume;
 }
 
+/// Where a probe stands, with its offset.
+vec3 placed_position_of(GridArray grids, UintArray offsets, int probe) {
+  ProbeGrid grid = grids.at[volume_of(grids, probe)];
+  return placed_position(grid, probe_coords(grid, probe),
+                         decode_probe_offset(offsets.at[probe]));
+}
+
 #endif
