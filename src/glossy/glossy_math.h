@@ -75,6 +75,10 @@ const float kRaysOfMean = 4.0f;
 /// Neighbours of less weight count for nothing: one over it would be no number.
 const float kLeastPixelWeight = 1e-12f;
 
+/// Least of the sums of weights times the Fresnel term that light is divided by: that of
+/// kLeastPixelWeight where a coat reflects one part in 1e8.
+const float kLeastReflected = 1e-20f;
+
 /// Neighbours count for nothing this far from a pixel's plane [pixels' widths at its depth]: the
 /// plane of a sphere of few pixels falls off as much over the pixels in reach.
 const float kPlaneTolerance = 4.0f;
@@ -262,7 +266,8 @@ LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
 struct CoatSums {
   vec3 light;        ///< Reflected, but for what the rays' first surfaces emit,
   vec3 emission;     ///< and that.
-  float weight;      ///< Of the rays around,
+  float weight;      ///< Of the rays around, and
+  float schlick;     ///< of these each times Schlick's (1 - v_dot_h)^5 of its ray,
   float own_weight;  ///< the weight of the pixel's own ray,
   float pixels;      ///< and that of the pixels that rays were taken of;
   float fitting;     ///< so many of these have the pixel's lobe.
@@ -310,12 +315,13 @@ LAMBENT_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, float 
   float w = at.own.pdf != 0.0f ? lobe.value / (ray.pdf + kOwnShare * lobe.pdf)
                                : min(lobe.value / ray.pdf, kMaxReuseWeight);
   sums.weight += pixel * w;
+  sums.schlick += pixel * w * schlick_power(lobe.v_dot_h);
   add_light_of_ray(at, lobe, direction, ray, pixel * w, sums);
 }
 
 /// Light that the receiver reflects by its own ray alone.
 LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
-  CoatSums alone = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f};
+  CoatSums alone = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   if (at.own.pdf > 0.0f) {
     float weight = at.at_own.value / at.at_own.pdf;
     add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, weight, alone);
@@ -324,29 +330,32 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
 }
 
 /// Light that the receiver reflects. Where many rays around fit its lobe, it is their mean over
-/// their weights times the known albedo of the lobe, and elsewhere what its own ray brings: rays
-/// that hardly fit would count now and then and for much, which is grain in mirrors. How much of
-/// either counts is decided by the lobes and not by the rays: where rays of large weights would
-/// decide for one and those of small ones against it, energy would be lost. A receiver without a
-/// ray of its own takes the mean over pixels. What emitters send straight comes with weights of its
-/// own, by which a mean over the others would be off. Negative where there is no ray.
+/// what the lobe makes of them, times the known albedo of the lobe, and elsewhere what its own ray
+/// brings: rays that hardly fit would count now and then and for much, which is grain in mirrors.
+/// Both hold the Fresnel term: rays that meet the surface flatter have smaller weights and more of
+/// it, so that the mean of few rays would be short of light without. How much of either counts is
+/// decided by the lobes and not by the rays: where rays of large weights would decide for one and
+/// those of small ones against it, energy would be lost. A receiver without a ray of its own always
+/// takes the mean. What emitters send straight comes with weights of its own, by which a mean over
+/// the others would be off. Negative where there is no ray.
 LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
   if (sums.pixels <= 0.0f) return at.own.pdf == 0.0f ? vec3(-1.0f) : reflected_own_ray(at);
   if (sums.own_weight > 0.0f) {
     add_light_of_ray(at, at.at_own, at.own.direction_ws, at.own, sums.own_weight, sums);
+    sums.weight += sums.own_weight;
+    sums.schlick += sums.own_weight * schlick_power(at.at_own.v_dot_h);
   }
-  float weight = sums.weight + sums.own_weight;
   float known = clamp((sums.fitting - 1.0f) / (kRaysOfMean - 1.0f), 0.0f, 1.0f);
+  if (at.own.pdf == 0.0f) known = 1.0f;
+  vec3 unknown = known < 1.0f ? reflected_own_ray(at) : vec3(0.0f);
   // One over the smallest of weights is no number
-  if (weight < kLeastPixelWeight) known = 0.0f;
-  vec3 over_pixels = (sums.light + sums.emission) / sums.pixels;
-  vec3 unknown = known >= 1.0f        ? vec3(0.0f)
-                 : at.own.pdf == 0.0f ? over_pixels
-                                      : reflected_own_ray(at);
+  if (sums.weight < kLeastPixelWeight) return at.own.pdf == 0.0f ? vec3(-1.0f) : unknown;
   if (known <= 0.0f) return unknown;
-  float albedo = ggx_albedo(dot(at.lobe.normal_ws, at.lobe.to_viewer_ws), at.lobe.alpha);
-  vec3 mean = sums.light * (albedo / weight) + sums.emission / sums.pixels;
-  return mix(unknown, mean, known);
+  vec3 reflected =
+      at.reflectance.f0 * (sums.weight - sums.schlick) + vec3(at.reflectance.f90 * sums.schlick);
+  vec3 albedo = specular_albedo(at.reflectance, dot(at.lobe.normal_ws, at.lobe.to_viewer_ws));
+  vec3 scale = albedo / max(reflected, vec3(kLeastReflected));
+  return mix(unknown, sums.light * scale + sums.emission / sums.pixels, known);
 }
 
 /// Light of reflected_rays() and 1; all 0 where there is no ray.

@@ -12,7 +12,7 @@
 /// weigh as much as 4 x 4 rays, and its own, which `at` has.
 LAMBENT_FN vec4 reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at, uint sample_index,
                            uint rows) {
-  CoatSums sums = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f};
+  CoatSums sums = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   ivec2 size = view_size(view);
   int reach = kReuse * int(rows);
   for (int dy = -reach; dy <= reach; ++dy) {

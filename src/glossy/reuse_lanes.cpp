@@ -123,7 +123,7 @@ struct Receivers {
   V emitter_density;
 
   V3 light, emission;
-  V weight, own_weight, pixels, fitting;
+  V weight, schlick, own_weight, pixels, fitting;
 };
 
 HWY_INLINE Receivers receivers_at(const Planes& coats, const Planes& more, uint emitter_samples) {
@@ -147,7 +147,7 @@ HWY_INLINE Receivers receivers_at(const Planes& coats, const Planes& more, uint 
   at.to_f90 = minus(more.three_at(kF90), at.f0);
   at.emitter_density = number(kEmitterDensity * static_cast<float>(emitter_samples));
   at.light = at.emission = {zero, zero, zero};
-  at.weight = at.own_weight = at.pixels = at.fitting = zero;
+  at.weight = at.schlick = at.own_weight = at.pixels = at.fitting = zero;
   return at;
 }
 
@@ -162,12 +162,17 @@ HWY_INLINE V similarity(const Receivers& at, V3 offset, V3 geometric_normal) {
                  hn::Max(number(0.0f), hn::Sub(number(1.0f), hn::Mul(beyond, beyond))));
 }
 
-/// add_light_of_ray(), of rays with these weights.
-HWY_INLINE void add_light(Receivers& at, const Planes& from, V3 h, V lobe_pdf_there, V weight) {
+/// schlick_power()
+HWY_INLINE V schlick_of(V cosine) {
   const V one = number(1.0f);
-  const V m = hn::Min(hn::Max(hn::Sub(one, dot(at.lobes.viewer, h)), number(0.0f)), one);
+  const V m = hn::Min(hn::Max(hn::Sub(one, cosine), number(0.0f)), one);
   const V m2 = hn::Mul(m, m);
-  const V m5 = hn::Mul(hn::Mul(m2, m2), m);
+  return hn::Mul(hn::Mul(m2, m2), m);
+}
+
+/// add_light_of_ray(), of rays with these weights and of these powers of Schlick's.
+HWY_INLINE void add_light(Receivers& at, const Planes& from, V m5, V lobe_pdf_there, V weight) {
+  const V one = number(1.0f);
   const V3 reflected = times(plus(at.f0, times(at.to_f90, m5)), weight);
   const V3 radiance = from.three_at(kRayRadiance);
   at.light.x = hn::Add(at.light.x, hn::Mul(reflected.x, radiance.x));
@@ -223,14 +228,13 @@ HWY_INLINE void add_rays(Receivers& at, const Planes& from, V weight) {
   const V alone = hn::Min(hn::Div(value, ray_pdf), number(kMaxReuseWeight));
   const V w =
       hn::IfThenElseZero(counts, hn::Mul(pixel, hn::IfThenElse(at.has_own_pdf, balanced, alone)));
+  const V m5 = hn::IfThenElseZero(counts, schlick_of(dot(at.lobes.viewer, h)));
   at.weight = hn::Add(at.weight, w);
+  at.schlick = hn::Add(at.schlick, hn::Mul(w, m5));
   const Mask above = hn::Gt(dot(at.geometric_normal, direction), zero);
   counts = hn::And(counts, above);
   if (hn::AllFalse(D(), counts)) return;
-  add_light(at, from,
-            {hn::IfThenElseZero(counts, h.x), hn::IfThenElseZero(counts, h.y),
-             hn::IfThenElseZero(counts, h.z)},
-            hn::IfThenElseZero(counts, pdf), hn::IfThenElseZero(counts, w));
+  add_light(at, from, m5, hn::IfThenElseZero(counts, pdf), hn::IfThenElseZero(counts, w));
 }
 
 /// Planes of sums at some pixels.
@@ -252,6 +256,7 @@ HWY_INLINE void store_sums(const Receivers& at, const SumPlanes& sums) {
   sums.put(kSumLight, at.light);
   sums.put(kSumEmission, at.emission);
   sums.put(kSumWeight, at.weight);
+  sums.put(kSumSchlick, at.schlick);
   sums.put(kSumOwnWeight, at.own_weight);
   sums.put(kSumPixels, at.pixels);
   sums.put(kSumFitting, at.fitting);

@@ -45,10 +45,11 @@ enum SumPlane : int {
   kSumLight = 0,
   kSumEmission = 3,
   kSumWeight = 6,
-  kSumOwnWeight = 7,
-  kSumPixels = 8,
-  kSumFitting = 9,
-  kSumPlanes = 10
+  kSumSchlick = 7,
+  kSumOwnWeight = 8,
+  kSumPixels = 9,
+  kSumFitting = 10,
+  kSumPlanes = 11
 };
 
 /// Rows of planes. There is room beside each row for what lanes and neighbours reach beyond it; it

@@ -33,6 +33,7 @@ struct LitPoint {
   glm::vec3 geometric_normal_ws;
   /// encode_albedo_shape() where the light is to be reflected by an albedo towards the viewer.
   uint albedo_shape = 0;
+  glm::vec3 to_viewer_ws{0.0f};  ///< Unit; read where there is a shape.
 };
 
 /// How a surface reflects light to a viewer.
@@ -94,8 +95,8 @@ inline const EmitterRecord& fetch_emitter(const LightDraws& draws, uint emitter)
   return emissive_of(draws.world).entries()[emitter];
 }
 inline vec3 emitted_radiance(const LightDraws& draws, const EmitterRecord& emitter,
-                             const vec2& barycentrics) {
-  return emissive_of(draws.world).radiance(emitter, barycentrics);
+                             const vec2& barycentrics, const vec3& direction_ws) {
+  return emissive_of(draws.world).radiance(emitter, barycentrics, direction_ws);
 }
 
 #include "raytracing/direct_light.inl.h"

@@ -16,19 +16,23 @@
 //                    inout LightPicks picks)
 //   uint emitter_count(DrawsRef draws)                     these come first among the tree's lights
 //   EmitterRecord fetch_emitter(DrawsRef draws, uint emitter)
-//   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics)
+//   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics,
+//                         vec3 direction_ws)
 
 /// The light of a candidate that a receiver would send on, as one number. Defined by the includer,
 /// after this file.
 LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
 
 /// Irradiance that a candidate brings to a point unless something is in the way [W/m^2]; of points
-/// with an albedo_shape, weighted by the share of it that is reflected over the mean share.
+/// with an albedo_shape, weighted by the share of it that is reflected to the viewer over the
+/// albedo.
 LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
   float cosine = dot(point.normal_ws, light.to_light);
   float side = dot(point.geometric_normal_ws, light.to_light);
   if (cosine <= 0.0f || side <= 0.0f) return vec3(0.0f);
-  return light.perpendicular_irradiance * (cosine * albedo_towards(point.albedo_shape, cosine));
+  float reflected = reflected_over_albedo(point.albedo_shape, point.normal_ws, point.to_viewer_ws,
+                                          light.to_light);
+  return light.perpendicular_irradiance * (cosine * reflected);
 }
 
 /// What a surface makes of that for a viewer [W/(m^2 sr)]. `frame` is that of the point's normal,
@@ -90,7 +94,7 @@ LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, Lig
                        seen)) {
     return no_candidate();
   }
-  vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics);
+  vec3 radiance = emitted_radiance(draws, emitter, seen.barycentrics, seen.to_point);
   LightCandidate candidate = {seen.to_point, seen.distance,
                               radiance / (seen.pdf * pick.probability), 1u};
   return candidate;

@@ -85,7 +85,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     const Surface surface =
         surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
     result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                    encode_albedo_shape(surface.reflectance)};
+                    encode_albedo_shape(surface.reflectance), -direction};
     const bool from_inside =
         settings.solid_sides != nullptr && settings.solid_sides->is_solid(hits[i]);
     result.surface = shaded_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u);

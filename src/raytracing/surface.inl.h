@@ -74,10 +74,7 @@ LAMBENT_FN SurfaceLayers layers_at(SceneRef scene, MeshRef mesh, MaterialRef mat
   if (material.sheen_roughness_texture.texture >= 0) {
     sheen_roughness *= texture_at(scene, mesh, material.sheen_roughness_texture, p, cone_share).w;
   }
-  float clearcoat = material.clearcoat;
-  if (material.clearcoat_texture.texture >= 0) {
-    clearcoat *= texture_at(scene, mesh, material.clearcoat_texture, p, cone_share).x;
-  }
+  float clearcoat = clearcoat_at(scene, mesh, material, p, cone_share);
   float clearcoat_roughness = material.clearcoat_roughness;
   if (material.clearcoat_roughness_texture.texture >= 0) {
     clearcoat_roughness *=
@@ -241,6 +238,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
 
   Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.mean);
   surface.reflectance = optics.reflectance;
+  surface.emission = emission_at(scene, mesh, material, p, cone_share);
   if (has_clearcoat(surface.reflectance.layers)) {
     BentNormal coat =
         bent_normal_at(scene, mesh, material.clearcoat_normal_texture,
@@ -249,9 +247,10 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
     coat_normal = normal_towards_viewer(coat_normal, along_winding, from_front, direction_ws,
                                         surface.geometric_normal_ws);
     place_clearcoat(surface.reflectance.layers, surface.normal_ws, coat_normal, direction_ws);
+    surface.emission *=
+        passes_clearcoat(surface.reflectance.layers, surface.reflectance.layers.clearcoat_cosine);
   }
   surface.transmission = transmission_of(material, optics, bool(hit.front_face));
-  surface.emission = emission_at(scene, mesh, material, p, cone_share);
   surface.material = uint(mesh.material);
   surface.gi_share =
       receives_gi(instance)

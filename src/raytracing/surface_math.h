@@ -28,7 +28,7 @@ struct Surface {
   vec3 geometric_normal_ws;  ///< Of the triangle; unit.
   Reflectance reflectance;   ///< Nothing where the ray comes from inside a volume.
   Transmission transmission;
-  vec3 emission;  ///< Radiance [W/(m^2 sr)].
+  vec3 emission;  ///< Radiance along the ray, through a clearcoat [W/(m^2 sr)].
   uint material;  ///< Index into Scene::materials.
   /// Share of the field's irradiance that it receives, 0 to 1: see horizon_share(). 0: it receives
   /// direct light alone.

@@ -145,6 +145,16 @@ LAMBENT_FN vec3 emission_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
   return emission;
 }
 
+/// Share of the surface that a clearcoat lies on, 0 to 1.
+LAMBENT_FN float clearcoat_at(SceneRef scene, MeshRef mesh, MaterialRef material,
+                              TrianglePointRef p, ConeShare cone_share) {
+  float clearcoat = material.clearcoat;
+  if (material.clearcoat_texture.texture >= 0) {
+    clearcoat *= texture_at(scene, mesh, material.clearcoat_texture, p, cone_share).x;
+  }
+  return clearcoat;
+}
+
 /// Coverage, 0 to 1: what decides kAlphaMask and kAlphaBlend. Decisions hang on it, so no device's
 /// coarse filter has a part in it.
 LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material,

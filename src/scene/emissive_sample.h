@@ -3,7 +3,7 @@
 #ifndef LAMBENT_SCENE_EMISSIVE_SAMPLE_H
 #define LAMBENT_SCENE_EMISSIVE_SAMPLE_H
 
-#include "shared/lang.h"
+#include "shared/layers.h"
 
 LAMBENT_BEGIN
 

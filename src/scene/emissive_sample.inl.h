@@ -1,17 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // What points of emissive triangles send, in the common subset of C++ and GLSL. Included after
-// attributes.inl.h.
+// attributes.inl.h. The includer provides, besides what that asks for,
+//   bool has_layers(MaterialRef material)
 
-/// What a point of an emissive triangle sends, as far as its coverage stops rays
-/// [W/(m^2 sr)].
-LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 barycentrics) {
+/// What a point of an emissive triangle sends, as far as its coverage stops rays, before it passes
+/// a clearcoat [W/(m^2 sr)]; and the share of the point that one lies on.
+struct PointEmission {
+  vec3 radiance;
+  float clearcoat;
+};
+
+LAMBENT_FN PointEmission emission_of(SceneRef scene, EmitterRecord emitter, vec2 barycentrics) {
   MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, emitter.instance).mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
   TrianglePoint p = triangle_point(mesh, emitter.triangle, barycentrics);
-  vec3 radiance = emission_at(scene, mesh, material, p, full_resolution());
+  PointEmission sent = {emission_at(scene, mesh, material, p, full_resolution()), 0.0f};
   if (uint(material.alpha_mode) != kAlphaOpaque) {
-    radiance *= stopping_probability(uint(material.alpha_mode), material.alpha_cutoff,
-                                     coverage_at(scene, mesh, material, p));
+    sent.radiance *= stopping_probability(uint(material.alpha_mode), material.alpha_cutoff,
+                                          coverage_at(scene, mesh, material, p));
   }
-  return radiance;
+  if (has_layers(material)) {
+    sent.clearcoat = clearcoat_at(scene, mesh, material, p, full_resolution());
+  }
+  return sent;
+}
+
+/// Radiance that reaches who sees the point along a unit direction. The clearcoat has the
+/// triangle's own normal: of what smooth normals and normal maps change there, the mean is little.
+LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 barycentrics,
+                                 vec3 direction_ws) {
+  PointEmission sent = emission_of(scene, emitter, barycentrics);
+  if (sent.clearcoat <= 0.0f) return sent.radiance;
+  vec3 normal_ws = normalize(cross(emitter.edge1_ws, emitter.edge2_ws));
+  return sent.radiance * passes_clearcoat(sent.clearcoat, abs(dot(normal_ws, direction_ws)));
 }

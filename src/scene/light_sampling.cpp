@@ -118,7 +118,9 @@ EmissiveSample EmissiveTriangles::sample(const glm::vec3& u) const {
   drawn.position_ws =
       emitter.corner_ws + barycentrics.x * emitter.edge1_ws + barycentrics.y * emitter.edge2_ws;
   drawn.normal_ws = glm::cross(emitter.edge1_ws, emitter.edge2_ws) / (2.0f * emitter.area);
-  drawn.radiance = radiance(emitter, barycentrics);
+  const PointEmission sent = emission_of(*scene_, emitter, barycentrics);
+  drawn.radiance = sent.radiance;
+  drawn.clearcoat = sent.clearcoat;
   drawn.pdf_area = emitter.probability / emitter.area;
   return drawn;
 }
@@ -131,9 +133,9 @@ EmitterPick EmissiveTriangles::pick(float u) const {
   return {emitter, probability, std::clamp((u - begin) / probability, 0.0f, kLargestUniform)};
 }
 
-glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter,
-                                      const glm::vec2& barycentrics) const {
-  return emitted_radiance(*scene_, emitter, barycentrics);
+glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
+                                      const glm::vec3& direction_ws) const {
+  return emitted_radiance(*scene_, emitter, barycentrics, direction_ws);
 }
 
 float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle) const {

@@ -17,7 +17,8 @@ namespace lambent {
 struct EmissiveSample {
   glm::vec3 position_ws{0.0f};
   glm::vec3 normal_ws{0.0f};  ///< Geometric, unit; both sides emit.
-  glm::vec3 radiance{0.0f};   ///< [W/(m^2 sr)].
+  glm::vec3 radiance{0.0f};   ///< Before it passes a clearcoat [W/(m^2 sr)].
+  float clearcoat = 0.0f;     ///< Share of the point that one lies on, 0 to 1.
   float pdf_area = 0.0f;  ///< Over the area of all emissive triangles [1/m^2]; 0: there are none.
 };
 
@@ -49,8 +50,9 @@ class EmissiveTriangles {
   EmitterPick pick(float u) const;
 
   /// What a point of an emissive triangle sends, as far as its coverage stops rays
-  /// [W/(m^2 sr)].
-  glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics) const;
+  /// and its clearcoat lets light pass along a unit direction [W/(m^2 sr)].
+  glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
+                     const glm::vec3& direction_ws) const;
 
   /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not
   /// emit.

@@ -115,9 +115,9 @@ LAMBENT_FN float blended_level(vec2 uv_edge1, vec2 uv_edge2, vec2 uv_scale, int 
       float(width) * float(height);
   float cone_texels = triangle_texels * share_of_triangle;
   if (!(cone_texels > 1.0f)) return 0.0f;
-  const uint kMantissa = 0x007FFFFFu;
+  const uint mantissa_bits = 0x007FFFFFu;
   uint bits = floatBitsToUint(cone_texels);
-  float mantissa = uintBitsToFloat((bits & kMantissa) | kOneBits);
+  float mantissa = uintBitsToFloat((bits & mantissa_bits) | kOneBits);
   return 0.5f * (float(int(bits >> 23u) - 127) + (mantissa - 1.0f));
 }
 

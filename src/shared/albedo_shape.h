@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the share of light that a surface reflects depends on the angle at which it comes in.
+// How the share of light that a surface reflects depends on the direction from which it comes in.
 //
-// Hits of rays reflect evenly, by their directional albedo a(v) towards the viewer. A coat reflects
-// more of grazing light than of light from above, and light sources have one direction, so that
-// a(v) alone reflects too much of a high sun on a glossy floor and too little of it on a wall.
-// Times pi, the reflection function of light that comes in along l and leaves along v is
-//   a(v) a(l) / (mean of a),
-// which is reciprocal and reflects the right share of light from any direction.
+// Hits of rays reflect by their directional albedo a(v) towards the viewer, as if all light came
+// evenly from everywhere. Light of sources comes from one direction: a(v) alone reflects too much
+// of a high sun on a glossy floor, too little of it on a wall, and none of it more in one direction
+// than in another. reflected_over_albedo() mends that with the surface's reflection function.
+// Layers are too many numbers for it: what they reflect is taken to be even, a(v) a(l) / (mean of
+// a), which is reciprocal and reflects the right share of light from any direction.
 //
 // Based on: Kelemen and Szirmay-Kalos, "A Microfacet Based Coupled Specular-Matte BRDF Model with
 // Importance Sampling", Eurographics short papers, 2001, sec. 2.2.
@@ -18,15 +18,15 @@
 LAMBENT_BEGIN
 
 /// Means of ggx_albedo, and of ggx_albedo times mean_schlick, over light from a uniform sky:
-/// polynomials in the roughness, fitted to integrals of these for 41 roughnesses from 0.03 to 1.
-/// The largest errors are 0.004 and 0.001.
+/// polynomials in the roughness, fitted to integrals of these for 33 roughnesses from 0.03 to 1.
+/// The largest errors are 0.0012 and 0.0008.
 LAMBENT_FN float mean_ggx_albedo(float roughness) {
-  return cubic(vec4(0.994986f, 0.0542969f, 0.0843987f, -1.89729f), roughness) +
-         1.17697f * (roughness * roughness) * (roughness * roughness);
+  return quintic(vec4(1.00407f, -0.120706f, 1.02226f, -3.95196f), vec2(3.19254f, -0.736697f),
+                 roughness);
 }
 LAMBENT_FN float mean_ggx_schlick(float roughness) {
-  return cubic(vec4(0.0479495f, 0.0461764f, -0.472023f, 0.663862f), roughness) -
-         0.28416f * (roughness * roughness) * (roughness * roughness);
+  return quintic(vec4(0.044665f, 0.086376f, -0.665178f, 1.12345f), vec2(-0.796749f, 0.210187f),
+                 roughness);
 }
 
 /// The mean of mean_base_schlick over the same light.
@@ -48,23 +48,23 @@ const float kMeanFifth = 1.0f / 21.0f;
 /// The factors k1 and k5 that fit the albedo of a gray surface with layers best.
 LAMBENT_FN vec2 layered_shape_factors(Reflectance gray) {
   // Gauss's and Legendre's points in the cosine
-  const float kPoints[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
-  const float kWeights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
+  const float points[5] = {0.0469101f, 0.2307653f, 0.5f, 0.7692347f, 0.9530899f};
+  const float weights[5] = {0.1184634f, 0.2393143f, 0.2844444f, 0.2393143f, 0.1184634f};
   float albedos[5];
   float mean = 0.0f;
   for (int i = 0; i < 5; ++i) {
-    gray.layers.clearcoat_cosine = kPoints[i];
-    albedos[i] = effective_albedo(gray, kPoints[i]).x;
-    mean += 2.0f * kWeights[i] * kPoints[i] * albedos[i];
+    gray.layers.clearcoat_cosine = points[i];
+    albedos[i] = effective_albedo(gray, points[i]).x;
+    mean += 2.0f * weights[i] * points[i] * albedos[i];
   }
   if (mean <= 0.0f) return vec2(0.0f);
   // Least squares over light from a uniform sky
   vec2 projected = vec2(0.0f);
   vec3 products = vec3(0.0f);
   for (int i = 0; i < 5; ++i) {
-    float s = 1.0f - kPoints[i];
+    float s = 1.0f - points[i];
     vec2 basis = vec2(s - kMeanFirst, s * s * s * s * s - kMeanFifth);
-    float weight = kWeights[i] * kPoints[i];
+    float weight = weights[i] * points[i];
     projected += basis * (weight * (albedos[i] / mean - 1.0f));
     products += weight * vec3(basis.x * basis.x, basis.x * basis.y, basis.y * basis.y);
   }
@@ -104,21 +104,56 @@ LAMBENT_FN uint encode_albedo_shape(Reflectance surface) {
   return steps.x | (steps.y << 8u) | (steps.z << 16u) | (steps.w << 24u);
 }
 
+/// The gray surface of a shape that is neither 0 nor of layers.
+LAMBENT_FN Reflectance gray_of_shape(uint shape) {
+  vec4 parts =
+      vec4(uvec4(shape & 255u, (shape >> 8u) & 255u, (shape >> 16u) & 255u, shape >> 24u)) *
+      (1.0f / kAlbedoShapeSteps);
+  Reflectance gray = {vec3(parts.x), max(parts.w * parts.w, kMinGgxAlpha), vec3(parts.y * parts.y),
+                      parts.z, no_layers()};
+  return gray;
+}
+
 /// The directional albedo of light at this cosine to the normal, over its mean.
 LAMBENT_FN float albedo_towards(uint shape, float n_dot_l) {
   if (shape == 0u) return 1.0f;
   if ((shape >> 24u) == 0u) return layered_albedo_towards(shape, n_dot_l);
-  vec4 parts =
-      vec4(uvec4(shape & 255u, (shape >> 8u) & 255u, (shape >> 16u) & 255u, shape >> 24u)) *
-      (1.0f / kAlbedoShapeSteps);
-  float roughness = parts.w;
-  float f0 = parts.y * parts.y;
-  Reflectance gray = {vec3(parts.x), max(roughness * roughness, kMinGgxAlpha), vec3(f0), parts.z,
-                      no_layers()};
-  float edge = parts.z - f0;
-  float mean = parts.x * (1.0f - f0 - edge * kMeanBaseSchlick) + f0 * mean_ggx_albedo(roughness) +
-               edge * mean_ggx_schlick(roughness);
+  Reflectance gray = gray_of_shape(shape);
+  float roughness = sqrt(gray.alpha);
+  float edge = gray.f90 - gray.f0.x;
+  float mean = gray.diffuse.x * (1.0f - gray.f0.x - edge * kMeanBaseSchlick) +
+               gray.f0.x * mean_ggx_albedo(roughness) + edge * mean_ggx_schlick(roughness);
   return mean > 0.0f ? effective_albedo(gray, n_dot_l).x / mean : 1.0f;
+}
+
+/// Coats that rays meet reflect light of sources by a lobe that is at least this wide: few rays
+/// find a narrower one, and each of these would be a speck. What is widened keeps its albedo.
+/// Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport",
+/// Computer Graphics Forum 32(2), 2013.
+const float kMinAlphaOfHits = 0.25f;
+
+/// Times pi, how much of light that comes in along `to_light` leaves along `to_viewer`, over the
+/// directional albedo towards the viewer: of mean 1 over light from a uniform sky.
+LAMBENT_FN float reflected_over_albedo(uint shape, vec3 normal, vec3 to_viewer, vec3 to_light) {
+  float n_dot_v = dot(normal, to_viewer);
+  float n_dot_l = dot(normal, to_light);
+  if (shape == 0u || (shape >> 24u) == 0u || n_dot_v <= 0.0f || n_dot_l <= 0.0f) {
+    return albedo_towards(shape, n_dot_l);
+  }
+  Reflectance gray = gray_of_shape(shape);
+  float base = base_albedo(gray, n_dot_v).x;
+  float coat = specular_albedo(gray, n_dot_v).x;
+  if (base + coat <= 0.0f) return 1.0f;
+  gray.alpha = max(gray.alpha, kMinAlphaOfHits);
+  float widened = specular_albedo(gray, n_dot_v).x;
+
+  vec3 sum = to_viewer + to_light;
+  vec3 h = sum / max(length(sum), 1e-6f);
+  float f = fresnel(gray, dot(to_viewer, h)).x;
+  float d = ggx_distribution(dot(normal, h), gray.alpha);
+  float g = 1.0f / (1.0f + ggx_lambda(n_dot_v, gray.alpha) + ggx_lambda(n_dot_l, gray.alpha));
+  float lobe = kPi * f * d * g / (4.0f * n_dot_v * n_dot_l);
+  return ((1.0f - f) * gray.diffuse.x + lobe * (coat / widened)) / (base + coat);
 }
 
 LAMBENT_END

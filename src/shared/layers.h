@@ -56,8 +56,11 @@ LAMBENT_FN float schlick_power(float cosine) {
 
 /// Share of light that a layer lets pass, by the cosine to its normal; and means of these over
 /// light from a uniform sky.
+LAMBENT_FN float passes_clearcoat(float clearcoat, float cosine) {
+  return 1.0f - clearcoat * clearcoat_fresnel(schlick_power(cosine));
+}
 LAMBENT_FN float passes_clearcoat(SurfaceLayers layers, float cosine) {
-  return 1.0f - layers.clearcoat * clearcoat_fresnel(schlick_power(cosine));
+  return passes_clearcoat(layers.clearcoat, cosine);
 }
 LAMBENT_FN float mean_passes_clearcoat(SurfaceLayers layers) {
   return 1.0f - layers.clearcoat * clearcoat_fresnel(1.0f / 21.0f);

@@ -52,7 +52,7 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
                          next_uniform2(random));
     const float cosine = glm::dot(point.normal_ws, seen.to_point);
     if (seen.pdf <= 0.0f || cosine <= 0.0f) continue;
-    const glm::vec3 radiance = emissive.radiance(emitter, seen.barycentrics);
+    const glm::vec3 radiance = emissive.radiance(emitter, seen.barycentrics, seen.to_point);
     const LightCandidate light = {seen.to_point, seen.distance,
                                   radiance * (share / (seen.pdf * pick.probability)), 0};
     if (tracer_of(world).occluded(

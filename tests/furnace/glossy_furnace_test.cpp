@@ -8,9 +8,6 @@
 
 #include "glossy/glossy_math.h"
 #include "lambent/renderer.h"
-#include "raytracing/camera_rays.h"
-#include "raytracing/surface.h"
-#include "raytracing/world_access.h"
 #include "support/field_scenes.h"
 #include "support/furnace_ball.h"
 
@@ -19,11 +16,16 @@ namespace {
 
 constexpr int kSide = 64;  // of the picture [pixels]
 
-// The project's bar for energy is 0.005. Where rays and emitters' samples share a narrow lobe, and
-// of dielectrics towards the silhouette of a ball of 40 pixels, where few rays fit and the Fresnel
-// term is steep, the mean over rays is off by more. Measured: up to 0.019, of dielectrics 0.025.
-constexpr double kMetalTolerance = 0.02;
-constexpr double kDielectricTolerance = 0.026;
+constexpr int kSamples = 16;
+
+// The project's bar for energy. A coat of index 1 reflects at grazing angles alone, where the fit
+// of the Fresnel term's mean is 2 % off. Samples of lamps all around in narrow lobes, seen from the
+// side, are noise: at roughness 0.31 the ratio of a dielectric is 0.9959 to 1.0003 by 2048 samples
+// a pixel, and 1.013 to 1.042 by 16.
+constexpr double kTolerance = 0.005;
+constexpr double kGrazingTolerance = 0.02;
+constexpr double kMetalUnderEmitters = 0.01;
+constexpr double kDielectricUnderEmitters = 0.04;
 
 // Roughnesses of mirrors, of lobes that lamps' samples and rays share, of the change from rays to
 // the field's light, and beyond.
@@ -35,7 +37,15 @@ struct Case {
   Source source;
   float roughness;
   float metallic;
+  float ior;
 };
+
+double tolerance_of(const Case& c) {
+  if (c.source == Source::emitters && c.roughness > 0.0f) {
+    return c.metallic > 0.0f ? kMetalUnderEmitters : kDielectricUnderEmitters;
+  }
+  return c.ior > 1.0f ? kTolerance : kGrazingTolerance;
+}
 
 /// A ball with a coat.
 Scene ball(const Case& c) {
@@ -43,6 +53,7 @@ Scene ball(const Case& c) {
   coat.base_color = c.metallic > 0.0f ? glm::vec4(1.0f) : glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
   coat.metallic = c.metallic;
   coat.roughness = c.roughness;
+  coat.ior = c.ior;
   return test::furnace_ball(coat, c.source == Source::sky);
 }
 
@@ -63,36 +74,18 @@ double reflected_share(const Surface& surface, const vec3& to_viewer_ws, uint po
   return sum / kDraws;
 }
 
-/// Mean over the picture of what the ball's coat reflects of radiance 1; of many points of a pixel,
-/// for dielectrics reflect most at their silhouette.
-double expected_mean(const test::Stage& stage) {
-  constexpr int kFine = 2 * kSide;
-  double sum = 0.0;
-  for (int y = 0; y < kFine; ++y) {
-    for (int x = 0; x < kFine; ++x) {
-      const Ray ray = camera_ray(stage.scene.cameras[0], kFine, kFine, static_cast<float>(x) + 0.5f,
-                                 static_cast<float>(y) + 0.5f);
-      const Hit hit = tracer_of(stage.world).closest_hit(ray);
-      if (hit.missed()) continue;
-      const Surface surface = surface_at(stage.scene, ray, hit);
-      if (surface.reflectance.f90 <= 0.0f) continue;
-      sum += reflected_share(surface, -ray.direction, static_cast<uint>(y * kFine + x));
-    }
-  }
-  return sum / (kFine * kFine);
-}
-
 class GlossyFurnace : public testing::TestWithParam<Case> {};
 
 TEST_P(GlossyFurnace, ReflectsItsAlbedo) {
   const test::Stage stage(ball(GetParam()));
   FieldSettings settings = test::exact_formats();
   settings.probe_count = glm::ivec3(4);
+  settings.rays_per_probe = 1024;  // the field's own error is a tenth of a percent
   const IrradianceField field = test::make_field(stage, settings, 2);
   FrameSettings frame;
   frame.width = frame.height = kSide;
-  frame.samples = 16;
-  const double expected = expected_mean(stage);
+  frame.samples = kSamples;
+  const double expected = test::mean_over_ball(stage, kSide, kSamples, reflected_share);
   for (const int rows : {1, 2}) {
     frame.glossy_rows = rows;
     const LayeredImage image =
@@ -101,17 +94,18 @@ TEST_P(GlossyFurnace, ReflectsItsAlbedo) {
     double mean = 0.0;
     for (std::size_t i = 0; i < glossy.pixels.size(); i += 3) mean += glossy.pixels[i];
     mean /= kSide * kSide;
-    EXPECT_NEAR(mean / expected, 1.0,
-                GetParam().metallic > 0.0f ? kMetalTolerance : kDielectricTolerance)
-        << rows << " rows";
+    EXPECT_NEAR(mean / expected, 1.0, tolerance_of(GetParam())) << rows << " rows";
   }
 }
 
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const Source source : {Source::emitters, Source::sky}) {
-    for (const float metallic : {0.0f, 1.0f}) {
-      for (const float roughness : kRoughnesses) all.push_back({source, roughness, metallic});
+    for (const float roughness : kRoughnesses) {
+      all.push_back({source, roughness, 1.0f, 1.5f});
+      all.push_back({source, roughness, 0.0f, 1.5f});
+      if (source == Source::emitters) continue;
+      for (const float ior : {1.0f, 2.0f}) all.push_back({source, roughness, 0.0f, ior});
     }
   }
   return all;
@@ -120,7 +114,10 @@ std::vector<Case> cases() {
 INSTANTIATE_TEST_SUITE_P(Cases, GlossyFurnace, testing::ValuesIn(cases()), [](const auto& tested) {
   const Case& c = tested.param;
   return std::string(c.source == Source::emitters ? "emitters" : "sky") +
-         (c.metallic > 0.0f ? "_metal_" : "_dielectric_") +
+         (c.metallic > 0.0f
+              ? "_metal_"
+              : "_dielectric_" + std::to_string(static_cast<int>(std::lround(10.0f * c.ior))) +
+                    "_") +
          std::to_string(static_cast<int>(std::lround(100.0f * c.roughness)));
 });
 

@@ -124,12 +124,15 @@ inline Scene material_scene() {
   });
   add(scene, quad({0.5f, -0.5f, 1.5f}, {1.5f, 0.0f, 0.0f}, {0.0f, 1.5f, 0.0f}, veil));
 
-  // What emits: textured, with holes; and an unlit one that receives no indirect light
+  // What emits: textured, with holes, under a clearcoat; and an unlit one that receives no indirect
+  // light
   const int lamp = material([&](Material& m) {
     m.emission = {6.0f, 5.0f, 3.0f};
     m.emission_texture = colors;
     m.base_color_texture = colors;
     m.alpha_mode = AlphaMode::mask;
+    m.clearcoat = 1.0f;
+    m.clearcoat_texture = view(kData, Wrap::repeat, Wrap::repeat);
   });
   add(scene, quad({-0.5f, 2.5f, -0.5f}, {1.0f, 0.0f, 0.0f}, {0.0f, 0.2f, 1.0f}, lamp));
   const int sign = material([&](Material& m) {

@@ -255,8 +255,12 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
         continue;
       }
       const Surface surface = surface_at(twin.scene, batch.rays[i], batch.hits[i]);
-      records[i] = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
-                    static_cast<std::uint32_t>(i), 0u};
+      records[i] = {surface.position_ws,
+                    surface.normal_ws,
+                    surface.geometric_normal_ws,
+                    static_cast<std::uint32_t>(i),
+                    0u,
+                    vec3(0.0f)};
     }
     points.push_back(vulkan::upload(device(), records, "points"));
     irradiance.emplace_back(device(), records.size() * sizeof(glm::vec3), vulkan::Memory::device,
@@ -300,6 +304,7 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   shade_direct(world, gbuffer, frame, band, 0, host);
 
   std::vector<Ray> rays;
+  rays.reserve(static_cast<std::size_t>(frame.width * frame.height));
   for (int i = 0; i < frame.width * frame.height; ++i) {
     rays.push_back(camera_ray(camera, frame.width, frame.height,
                               static_cast<float>(i % frame.width) + 0.5f,

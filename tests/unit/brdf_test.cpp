@@ -92,15 +92,15 @@ TEST(Brdf, IsDarkBelowTheHorizon) {
 }
 
 TEST(Brdf, SpecularAlbedoFollowsTheReflectedLight) {
-  // The fits are good to 0.005 of all light, and to 4 % of what a coat of f0 = 0.04 reflects
+  // The fits are good to 0.3 % of what a coat reflects, and to 0.7 % where f0 = 0.04
   for (const float roughness : {0.05f, 0.2f, 0.5f, 0.9f, 1.0f}) {
     for (const float degrees : {5.0f, 40.0f, 70.0f, 85.0f}) {
       const vec3 to_viewer = viewer(degrees);
       const Reflectance coat = dielectric(roughness, vec3(0.0f));
       const float share = reflected_share(coat, to_viewer).x;
-      EXPECT_NEAR(specular_albedo(coat, to_viewer.z).x, share, 0.06f * share + 0.001f);
+      EXPECT_NEAR(specular_albedo(coat, to_viewer.z).x, share, 0.012f * share);
       EXPECT_NEAR(specular_albedo(metal(roughness), to_viewer.z).x,
-                  reflected_share(metal(roughness), to_viewer).x, 0.008f);
+                  reflected_share(metal(roughness), to_viewer).x, 0.005f);
     }
   }
 }

@@ -16,6 +16,9 @@ TEST(CoatSums, OfTheSmallestWeightsAreNumbers) {
   CoatReceiver at{};
   at.lobe.normal_ws = at.lobe.geometric_normal_ws = at.lobe.to_viewer_ws = vec3(0.0f, 0.0f, 1.0f);
   at.lobe.alpha = 0.1f;
+  at.reflectance.f0 = vec3(0.04f);
+  at.reflectance.f90 = 1.0f;
+  at.own.pdf = -1.0f;
   for (const float weight : {1e-10f, 1e-20f, 1e-38f, 1e-45f}) {
     CoatSums sums{};
     sums.light = vec3(weight);

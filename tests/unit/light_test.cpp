@@ -182,6 +182,27 @@ TEST(EmissiveTriangles, SendNothingWhereCoverageLetsRaysThrough) {
   EXPECT_EQ(lights.sample({0.3f, 0.3f, 0.3f}).radiance.x, 0.0f);
 }
 
+TEST(EmissiveTriangles, SendThroughAClearcoatWhatItLetsPassAtThatAngle) {
+  Scene scene;
+  Material lamp;
+  lamp.emission = glm::vec3(2.0f);
+  lamp.clearcoat = 0.7f;
+  scene.materials = {lamp};
+  add(scene, quad({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, 0));
+  const EmissiveTriangles lights(scene);
+  EXPECT_FLOAT_EQ(lights.sample({0.3f, 0.3f, 0.3f}).radiance.x, 2.0f);
+  EXPECT_FLOAT_EQ(lights.sample({0.3f, 0.3f, 0.3f}).clearcoat, 0.7f);
+  const auto sent = [&](float cosine) {
+    const glm::vec3 direction(std::sqrt(1.0f - cosine * cosine), 0.0f, cosine);
+    return lights.radiance(lights.entries()[0], {0.3f, 0.3f}, direction).x;
+  };
+  // KHR_materials_clearcoat: of ior 1.5
+  EXPECT_NEAR(sent(1.0f), 2.0f * (1.0f - 0.7f * 0.04f), 1e-6f);
+  EXPECT_NEAR(sent(-0.2f), 2.0f * (1.0f - 0.7f * (0.04f + 0.96f * std::pow(0.8f, 5.0f))), 1e-5f);
+  scene.materials[0].lambert = true;
+  EXPECT_FLOAT_EQ(sent(0.2f), 2.0f);
+}
+
 TEST(EmissiveTriangles, NoneIsNoLight) {
   Scene scene;
   const EmissiveTriangles lights(scene);

@@ -44,7 +44,7 @@ ivec2 view_size(CoatViewRef /*view*/) {
 class RayReuseTest : public testing::Test {
  protected:
   RayReuseTest() {
-    GBuffer& pixels = picture_.pixels;
+    GBuffer& pixels = picture.pixels;
     for (int y = 0; y < kHeight; ++y) {
       for (int x = 0; x < kWidth; ++x) {
         Surface surface{};
@@ -59,12 +59,12 @@ class RayReuseTest : public testing::Test {
         pixels.hit.push_back(1);
         pixels.to_viewer_ws.push_back(direction_about(0.6f));
         pixels.coat_shares.push_back(uniform() < 0.1f ? 0.0f : uniform());
-        picture_.rays.push_back(ray_of(pixels, pixels.size() - 1));
+        picture.rays.push_back(ray_of(pixels, pixels.size() - 1));
       }
     }
   }
 
-  float uniform() { return spread_(random_); }
+  float uniform() { return spread(random); }
   vec3 direction_about(float by) {
     return normalize(vec3(by * (2.0f * uniform() - 1.0f), by * (2.0f * uniform() - 1.0f), 1.0f));
   }
@@ -86,26 +86,26 @@ class RayReuseTest : public testing::Test {
 
   vec4 expected(const GlossySettings& settings, const ivec2& pixel) const {
     const std::size_t i = place_of(pixel);
-    const GBuffer& pixels = picture_.pixels;
+    const GBuffer& pixels = picture.pixels;
     if (pixels.coat_shares[i] <= 0.0f) return vec4(0.0f);
     const Surface& surface = pixels.surfaces[i];
-    CoatReceiver at{fetch_lobe(picture_, pixel),
+    CoatReceiver at{fetch_lobe(picture, pixel),
                     surface.reflectance,
                     inverse_plane_tolerance(settings.camera, surface.position_ws),
                     static_cast<uint>(settings.frame.emissive_samples),
-                    fetch_ray(picture_, pixel),
+                    fetch_ray(picture, pixel),
                     {},
                     {},
                     0.0f};
     find_lobe(at);
-    return pixels.coat_shares[i] * reuse_rays(picture_, pixel, at,
+    return pixels.coat_shares[i] * reuse_rays(picture, pixel, at,
                                               static_cast<uint>(settings.sample),
                                               static_cast<uint>(settings.frame.glossy_rows));
   }
 
-  std::mt19937 random_{7};
-  std::uniform_real_distribution<float> spread_{0.0f, 1.0f};
-  Picture picture_;
+  std::mt19937 random{7};
+  std::uniform_real_distribution<float> spread{0.0f, 1.0f};
+  Picture picture;
 };
 
 TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
@@ -122,9 +122,9 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
       frame.glossy_rows = rows;
       const GlossySettings settings{world, nullptr, frame, camera_record(camera, kWidth, kHeight),
                                     sample};
-      const GlossyRows all{picture_.pixels, 0};
+      const GlossyRows all{picture.pixels, 0};
       std::vector<vec4> light;
-      RayReuse().reflect(settings, {&all, 1}, all, picture_.rays, light);
+      RayReuse().reflect(settings, {&all, 1}, all, picture.rays, light);
       int reflecting = 0;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {

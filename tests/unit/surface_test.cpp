@@ -291,6 +291,21 @@ TEST(Surface, UnlitEmitsItsColourAndReflectsNothing) {
   EXPECT_EQ(surface.reflectance.f90, 0.0f);
 }
 
+TEST(Surface, EmitsThroughItsClearcoat) {
+  Material material;
+  material.emission = glm::vec3(2.0f, 1.0f, 0.5f);
+  material.clearcoat = 0.7f;
+  for (const float angle : {0.0f, 1.2f}) {
+    const glm::vec3 direction(std::sin(angle), 0.0f, -std::cos(angle));
+    const float schlick = std::pow(1.0f - std::cos(angle), 5.0f);
+    const glm::vec3 seen = look(square(material), -direction, direction).emission;
+    expect_near(seen, (1.0f - 0.7f * (0.04f + 0.96f * schlick)) * material.emission);
+  }
+  material.lambert = true;
+  const glm::vec3 direction(std::sin(1.2f), 0.0f, -std::cos(1.2f));
+  expect_near(look(square(material), -direction, direction).emission, material.emission);
+}
+
 TEST(Surface, FootprintPicksTheMipLevel) {
   // A checkerboard of texels: full resolution is black or white, a wide cone sees grey
   Texture texture;

@@ -168,7 +168,8 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
     const Surfel& surfel = trace.surfels[i];
     if (!surfel.reflects() || retraced_[i] != 0) continue;
     const LitPoint point = {surfel.position_ws, decode_unit_vector(surfel.normal_ws),
-                            decode_unit_vector(surfel.geometric_normal_ws), surfel.albedo_shape};
+                            decode_unit_vector(surfel.geometric_normal_ws), surfel.albedo_shape,
+                            -trace.rays->directions[i]};
     if (!may_change_light(world_, edits_, point)) continue;
     queries_.push_back({point, first_ray_index(probe) + i});
     places_.push_back(static_cast<int>(i));
@@ -274,6 +275,7 @@ std::uint64_t renew_lookups(std::vector<OtherSurfaces> other_surfaces, std::span
   std::sort(other_surfaces.begin(), other_surfaces.end(),
             [](const OtherSurfaces& a, const OtherSurfaces& b) { return a.probe < b.probe; });
   std::vector<int> others;
+  others.reserve(other_surfaces.size());
   for (const OtherSurfaces& probe : other_surfaces) others.push_back(probe.probe);
   const std::vector<int> readers = probes_reading(moved, all, store, traces);
   std::vector<int> asking;

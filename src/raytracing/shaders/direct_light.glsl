@@ -53,8 +53,9 @@ uint emitter_count(LightDrawsArguments draws) {
 EmitterRecord fetch_emitter(LightDrawsArguments draws, uint emitter) {
   return draws.scene.at[0].emitters.at[emitter];
 }
-vec3 emitted_radiance(LightDrawsArguments draws, EmitterRecord emitter, vec2 barycentrics) {
-  return emitted_radiance(draws.scene, emitter, barycentrics);
+vec3 emitted_radiance(LightDrawsArguments draws, EmitterRecord emitter, vec2 barycentrics,
+                      vec3 direction_ws) {
+  return emitted_radiance(draws.scene, emitter, barycentrics, direction_ws);
 }
 
 #include "raytracing/direct_light.inl.h"

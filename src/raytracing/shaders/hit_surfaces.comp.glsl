@@ -24,7 +24,8 @@ void main() {
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
-      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u);
+      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u,
+                     -ray.direction_ws);
   if (missed(hit)) {
     args.points.at[i] = point;
     ShadedHitRecord sky =

@@ -88,6 +88,9 @@ vec2 fetch_uv(MeshRecord mesh, TextureViewRecord view, uint vertex) {
 bool is_unlit(MaterialRecord material) {
   return (material.flags & kMaterialUnlit) != 0u;
 }
+bool has_layers(MaterialRecord material) {
+  return (material.flags & kMaterialHasLayers) != 0u;
+}
 bool may_emit(MaterialRecord material) {
   return (material.flags & kMaterialMayEmit) != 0u;
 }

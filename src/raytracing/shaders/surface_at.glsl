@@ -26,9 +26,6 @@ bool lets_light_through(MaterialRecord material) {
 bool bounds_volume(MaterialRecord material) {
   return (material.flags & kMaterialBoundsVolume) != 0u;
 }
-bool has_layers(MaterialRecord material) {
-  return (material.flags & kMaterialHasLayers) != 0u;
-}
 bool receives_gi(InstanceRecord instance) {
   return (instance.flags & kInstanceReceivesGi) != 0u;
 }

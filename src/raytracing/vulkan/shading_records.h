@@ -22,6 +22,7 @@ struct LitPointRecord {
   vec3 geometric_normal_ws;  ///< Unit, likewise.
   uint random_index;         ///< Picks its random numbers; kAsksForNoLight: nothing is asked.
   uint albedo_shape;         ///< As of LitPoint.
+  vec3 to_viewer_ws;         ///< Unit; read where there is a shape.
 };
 
 /// What a camera ray met but for its point; as struct Surface of surface.h.
