@@ -178,6 +178,18 @@ Expected<void> check_rsm_use(const RsmOptions& options, const std::string& metho
   return {};
 }
 
+std::string slow_gather(const RsmSettings& settings, std::size_t lights) {
+  // As many as sixteen lights have by default
+  constexpr std::size_t kMany = 16384;
+  const auto texels = static_cast<std::size_t>(settings.texels);
+  if (settings.from_camera || settings.merge_maps || lights * texels <= kMany) return {};
+  const std::string each = std::to_string(texels);
+  return "the maps of " + std::to_string(lights) + " lights have " +
+         std::to_string(lights * texels) + " texels to gather, " + each +
+         " each; --rsm-merge-maps has " + each +
+         " for all, and a smaller --rsm-size is faster, too";
+}
+
 FirstBounce::FirstBounce(const Scene& scene) : scene_(without_other_light(scene)), world_(scene_) {}
 
 FieldSettings FirstBounce::settings(FieldSettings settings) {

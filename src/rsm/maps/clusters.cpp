@@ -98,6 +98,13 @@ float area_of(std::span<const Cluster> clusters, bool overlap) {
 struct Merging {
   float normal_scale;
   bool overlap;
+
+  /// Whether a cluster tells better than another which surface both stand for. Where they overlap,
+  /// what one light sends to the far side of a wall must not carry off what others send to this
+  /// one.
+  bool leads(const Cluster& a, const Cluster& b) const {
+    return overlap ? a.brought > b.brought : power_of(a.texel.flux) > power_of(b.texel.flux);
+  }
 };
 
 /// Fills result with one cluster for each of its places.
@@ -115,7 +122,7 @@ void merge(std::span<Cluster> clusters, const Merging& by, std::span<Cluster> re
     const Cluster* brightest = &clusters.front();
     const float area = area_of(clusters, by.overlap);
     for (const Cluster& cluster : clusters) {
-      if (power_of(cluster.texel.flux) > power_of(brightest->texel.flux)) brightest = &cluster;
+      if (by.leads(cluster, *brightest)) brightest = &cluster;
     }
     const RsmTexelRecord seed = to_record(brightest->texel);
     ClusterSum sum = empty_cluster();

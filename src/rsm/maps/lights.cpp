@@ -23,7 +23,8 @@ constexpr std::size_t kClustersPerTask = 256;
 // the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
 // their error falls with their size.
 constexpr float kBroughtExponent = 0.4f;
-// Clusters are scaled by at most this factor to bring what their texels brought.
+// Clusters are scaled by at most this factor to bring what their texels brought; those of several
+// maps, which may hold light of a wall's far side, are dimmed as far as it takes.
 constexpr float kMaxScale = 2.0f;
 // Weight that power alone has beside what is brought to the points: light that none of them sees is
 // not left to a few huge clusters.
@@ -108,7 +109,8 @@ std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<co
     RsmTexel& texel = clusters[i].texel;
     const float brings = luminance(texel.flux) * now[i].terms;
     if (!(brings > 0.0f) || points.count == 0) continue;
-    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMaxScale, kMaxScale);
+    const float least = overlap ? 0.0f : 1.0f / kMaxScale;
+    const float scale = std::clamp(clusters[i].brought / brings, least, kMaxScale);
     texel.flux *= scale;
   }
   return clusters;
