@@ -32,10 +32,10 @@ constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)
 // A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,
 // the picture out of the mosaic, and what is gathered;
 constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);
-// ... its direct light, where it is found there; and, where lights are shared out, what arrives and
-// what is sent, before and after a blur.
+// ... its direct light, where it is found there; and, where lights are shared out, the brightest
+// light's, and what arrives and what is sent of others, before and after a blur.
 constexpr std::uint64_t kRsmDirectBytes = 2 * kLayerBytes;
-constexpr std::uint64_t kRsmShareBytes = 4 * kLayerBytes;
+constexpr std::uint64_t kRsmShareBytes = 6 * kLayerBytes;
 // ... of which each of five stages is a layer of the frame where layers are kept.
 constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
 // Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP

@@ -88,7 +88,7 @@ struct RsmSettings {
   bool direct = false;
   /// Lights that a pixel then asks with a shadow ray, 0 (all) to 65536. Fewer are shared out to the
   /// sub-maps, at least so many that all are asked, and what arrives is blurred over as many pixels
-  /// as there are sub-images.
+  /// as there are sub-images; besides, each pixel asks the light that is brightest there.
   int direct_lights = 0;
   std::uint32_t seed = 1;  ///< Of all random numbers.
 };

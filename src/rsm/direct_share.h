@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Heitz, Hill and McGuire, "Combining Analytic Direct Illumination and Stochastic
-// Shadows", I3D 2018. Lights are shared out to sub-images: each pixel asks a few of them whether
-// their light arrives, and takes what arrives around it over what was sent there as the share of
-// all light, which it knows without rays.
+// Shadows", I3D 2018. Lights are shared out to sub-images: each pixel asks the light that is
+// brightest there and a few others whether their light arrives. Of the others it takes what arrives
+// around it over what was sent there as the share of all their light, which it knows without rays.
 #ifndef LAMBENT_RSM_DIRECT_SHARE_H
 #define LAMBENT_RSM_DIRECT_SHARE_H
 
+#include "shared/brdf.h"
+#include "shared/color.h"
 #include "shared/cross_bilateral.h"
 
 LAMBENT_BEGIN
@@ -40,6 +42,45 @@ LAMBENT_FN vec3 arriving_share(LightShare light) {
   return vec3(arriving_share(light.arrived.x, light.sent.x),
               arriving_share(light.arrived.y, light.sent.y),
               arriving_share(light.arrived.z, light.sent.z));
+}
+
+// BrightestLight::light where no light sends anything.
+const uint kNoLight = 0xFFFFFFFFu;
+
+/// The light that sends most to a pixel: a highlight, or a lamp close by, is narrower than what
+/// lights are shared out over, and the shadows of the brightest are those that are seen.
+struct BrightestLight {
+  uint light;  ///< Index among the scene's.
+  float level;
+  ReflectedPair sent;
+};
+
+LAMBENT_FN BrightestLight no_brightest_light() {
+  BrightestLight none = {kNoLight, 0.0f, {vec3(0.0f), vec3(0.0f)}};
+  return none;
+}
+
+/// Adds a light to the sum of others, or in place of the brightest so far, which then is added.
+LAMBENT_FN void add_to_others(LAMBENT_INOUT(BrightestLight) brightest, uint light,
+                              ReflectedPair sent, LAMBENT_INOUT(ReflectedPair) others) {
+  float level = luminance(sent.diffuse + sent.specular);
+  if (level > brightest.level) {
+    ReflectedPair before = brightest.sent;
+    brightest.light = light;
+    brightest.level = level;
+    brightest.sent = sent;
+    sent = before;
+  }
+  others.diffuse += sent.diffuse;
+  others.specular += sent.specular;
+}
+
+/// The light of a pixel's brightest light, which arrived, and of all others, of which a share does.
+LAMBENT_FN ReflectedPair with_brightest(ReflectedPair brightest, ReflectedPair others,
+                                        vec3 arrives) {
+  ReflectedPair sum = {brightest.diffuse + arrives * others.diffuse,
+                       brightest.specular + arrives * others.specular};
+  return sum;
 }
 
 /// Weight of a tap of a blur as wide as `period`: of an even one, the outermost two share a place.

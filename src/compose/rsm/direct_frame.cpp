@@ -22,12 +22,14 @@ struct RowPixel {
   Frame frame;
   vec3 to_viewer;
   LitPoint point;
+  BrightestLight brightest = no_brightest_light();  // where lights are shared out
 };
 
 /// What a pixel gains if a shadow ray arrives.
 struct PendingLight {
-  const RowPixel* pixel;
+  std::size_t in_view;
   ReflectedPair light;
+  bool is_share;  // else it is light of its own
 };
 
 /// Finds the light of a sub-image's row: light after light, so that rays of a batch go to the same.
@@ -37,8 +39,12 @@ class RowShading {
       : world_(world), media_(media), gbuffer_(gbuffer), view_(view) {}
 
   void add_pixel(std::size_t in_band, std::size_t in_view) {
-    view_.direct[in_view] = {vec3(0.0f), vec3(0.0f)};
-    if (view_.lights.shared()) view_.shares[in_view] = {vec3(0.0f), vec3(0.0f)};
+    const ReflectedPair none = {vec3(0.0f), vec3(0.0f)};
+    view_.direct[in_view] = none;
+    if (view_.lights.shared()) {
+      view_.brightest[in_view] = none;
+      view_.shares[in_view] = {vec3(0.0f), vec3(0.0f)};
+    }
     if (gbuffer_.hit[in_band] == 0) return;
     const Surface& surface = gbuffer_.surfaces[in_band];
     const Frame frame = make_frame(surface.normal_ws);
@@ -51,15 +57,9 @@ class RowShading {
 
   /// Returns the shadow rays traced.
   std::uint64_t shade(int sub_map) {
-    const std::vector<LightRecord>& lights = lights_of(world_).lights();
-    std::span<const DealtLight> asked = view_.lights.of(sub_map);
-    for (std::size_t light = 0; light < lights.size(); ++light) {
-      float weight = 0.0f;
-      if (!asked.empty() && asked.front().light == light) {
-        weight = asked.front().weight;
-        asked = asked.subspan(1);
-      }
-      for (const RowPixel& pixel : pixels_) ask(pixel, lights[light], weight);
+    if (view_.lights.shared()) find_brightest();
+    for (const DealtLight& dealt : view_.lights.of(sub_map)) {
+      for (const RowPixel& pixel : pixels_) ask(pixel, dealt);
     }
     trace();
     pixels_.clear();
@@ -67,48 +67,74 @@ class RowShading {
   }
 
  private:
-  /// Adds a light to what is sent, and where its weight is not 0 asks whether it arrives.
-  void ask(const RowPixel& pixel, const LightRecord& light, float weight) {
-    const LightCandidate candidate = punctual_candidate(light, pixel.point);
-    if (candidate.perpendicular_irradiance == vec3(0.0f)) return;
+  const LightRecord& record_of(std::size_t light) const {
+    return lights_of(world_).lights()[light];
+  }
+
+  /// What a light sends to a pixel, diffuse light over filtered_albedo.
+  ReflectedPair sent(const RowPixel& pixel, const LightCandidate& light) const {
+    if (light.perpendicular_irradiance == vec3(0.0f)) return {vec3(0.0f), vec3(0.0f)};
     const Surface& surface = gbuffer_.surfaces[pixel.in_band];
     ReflectedPair pair = sampled_reflection(surface.reflectance, pixel.frame, pixel.to_viewer,
-                                            pixel.point, candidate, {}, 1);
-    if (pair.diffuse + pair.specular == vec3(0.0f)) return;
+                                            pixel.point, light, {}, 1);
     if (!media_.empty()) {
       const float passed =
-          transmittance(media_, pixel.point.position_ws, candidate.to_light, candidate.distance);
+          transmittance(media_, pixel.point.position_ws, light.to_light, light.distance);
       pair.diffuse *= passed;
       pair.specular *= passed;
     }
     pair.diffuse /= filtered_albedo(surface.reflectance);
-    if (view_.lights.shared()) {
-      ReflectedPair& all = view_.direct[pixel.in_view];
-      all.diffuse += pair.diffuse;
-      all.specular += pair.specular;
-      if (weight == 0.0f) return;
-      pair.diffuse *= weight;
-      pair.specular *= weight;
-      view_.shares[pixel.in_view].sent += pair.diffuse + pair.specular;
+    return pair;
+  }
+
+  /// Sums up what all lights send but for each pixel's brightest one, which is asked.
+  void find_brightest() {
+    for (std::size_t light = 0; light < view_.lights.lights; ++light) {
+      for (RowPixel& pixel : pixels_) {
+        const LightCandidate candidate = punctual_candidate(record_of(light), pixel.point);
+        add_to_others(pixel.brightest, static_cast<uint>(light), sent(pixel, candidate),
+                      view_.direct[pixel.in_view]);
+      }
     }
-    pending_.push_back({&pixel, pair});
+    for (const RowPixel& pixel : pixels_) {
+      if (pixel.brightest.light == kNoLight) continue;
+      const LightRecord& light = record_of(pixel.brightest.light);
+      queue(pixel, punctual_candidate(light, pixel.point), pixel.brightest.sent, false);
+    }
+  }
+
+  void ask(const RowPixel& pixel, const DealtLight& dealt) {
+    if (dealt.light == pixel.brightest.light) return;
+    const LightCandidate candidate = punctual_candidate(record_of(dealt.light), pixel.point);
+    ReflectedPair pair = sent(pixel, candidate);
+    if (pair.diffuse + pair.specular == vec3(0.0f)) return;
+    pair.diffuse *= dealt.weight;
+    pair.specular *= dealt.weight;
+    const bool is_share = view_.lights.shared();
+    if (is_share) view_.shares[pixel.in_view].sent += pair.diffuse + pair.specular;
+    queue(pixel, candidate, pair, is_share);
+  }
+
+  void queue(const RowPixel& pixel, const LightCandidate& candidate, const ReflectedPair& pair,
+             bool is_share) {
+    pending_.push_back({pixel.in_view, pair, is_share});
     rays_to_trace_.push_back(
         shadow_ray(pixel.point.position_ws, pixel.point.geometric_normal_ws, candidate));
     if (rays_to_trace_.size() >= kRaysAtOnce) trace();
   }
 
   void trace() {
+    std::vector<ReflectedPair>& own = view_.lights.shared() ? view_.brightest : view_.direct;
     shadows_.trace(tracer_of(world_), rays_to_trace_);
     for (std::size_t k = 0; k < pending_.size(); ++k) {
       const vec3 share = shadows_.share(k);
       if (share == vec3(0.0f)) continue;
-      const PendingLight& found = pending_[k];
-      const std::size_t at = found.pixel->in_view;
-      if (view_.lights.shared()) {
-        view_.shares[at].arrived += share * (found.light.diffuse + found.light.specular);
+      const auto& [in_view, light, is_share] = pending_[k];
+      if (is_share) {
+        view_.shares[in_view].arrived += share * (light.diffuse + light.specular);
       } else {
-        view_.direct[at].diffuse += share * found.light.diffuse;
-        view_.direct[at].specular += share * found.light.specular;
+        own[in_view].diffuse += share * light.diffuse;
+        own[in_view].specular += share * light.specular;
       }
     }
     rays_ += rays_to_trace_.size();
@@ -163,6 +189,7 @@ void start_direct_view(const World& world, const RsmSettings& settings, std::siz
   view.lights = deal_direct_lights(world.scene().lights.size(), settings);
   view.direct.resize(pixels);
   const std::size_t shared = view.lights.shared() ? pixels : 0;
+  view.brightest.resize(shared);
   view.shares.resize(shared);
   view.blurred.resize(share_period(view.lights, settings) > 1 ? shared : 0);
 }
@@ -196,9 +223,8 @@ void finish_direct_view(const RsmView& seen, const RsmSettings& settings, Direct
   }
   blur_shares(seen, period > 1 ? view.blurred : view.shares, {0, 1}, period,
               settings.plane_tolerance, [&](std::size_t i, const LightShare& share) {
-                const vec3 arrives = arriving_share(share);
-                view.direct[i].diffuse *= arrives;
-                view.direct[i].specular *= arrives;
+                view.direct[i] =
+                    with_brightest(view.brightest[i], view.direct[i], arriving_share(share));
               });
 }
 

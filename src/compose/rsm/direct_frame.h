@@ -17,10 +17,12 @@ namespace lambent {
 /// Direct light of the pixels of a view, rows from the top; its memory is used again.
 struct DirectView {
   DealtLights lights;
-  /// As reflected to the camera; diffuse light over filtered_albedo. While lights are shared out,
-  /// as if nothing were in the way.
+  /// As reflected to the camera; diffuse light over filtered_albedo.
   std::vector<ReflectedPair> direct;
-  std::vector<LightShare> shares, blurred;  ///< Of the lights that each asks, where shared out.
+  /// Where lights are shared out: the light of each pixel's brightest one, which it always asks.
+  /// Until `direct` is finished, that is the light of all others, as if nothing were in the way.
+  std::vector<ReflectedPair> brightest;
+  std::vector<LightShare> shares, blurred;  ///< Of the others that each asks.
 };
 
 /// Makes room for a view of so many pixels.

@@ -36,7 +36,6 @@ void main() {
     args.blurred.at[i] = share;
     return;
   }
-  ReflectedPair direct = args.direct.at[i];
-  vec3 arrives = arriving_share(share);
-  args.direct.at[i] = ReflectedPair(direct.diffuse * arrives, direct.specular * arrives);
+  args.direct.at[i] =
+      with_brightest(args.brightest.at[i], args.direct.at[i], arriving_share(share));
 }

@@ -10,12 +10,15 @@ void main() {
   bool asks = find_pixel(at, pixel);
   int first = sub_map_of(sub_image_of_group(kSubImages), args.sub_maps) * args.per_sub_map +
               args.first_slot;
+  bool shared_out = asks && args.is_shared != 0u;
+  uint brightest =
+      shared_out ? args.brightest.at[(args.first_row + at.y) * args.width + at.x] : kNoLight;
   uint rays = 0u;
   for (int slot = 0; slot < args.slots; ++slot) {
     RayRecord ray = no_ray();
     ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
-    if (asks) {
-      DealtLight dealt = args.dealt.at[first + slot];
+    DealtLight dealt = args.dealt.at[first + slot];
+    if (asks && dealt.light != brightest) {
       LightCandidate candidate;
       pair = sent_light(pixel, dealt.light, candidate);
       pair.diffuse *= dealt.weight;

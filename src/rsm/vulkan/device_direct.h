@@ -20,10 +20,13 @@ struct DirectRaysArguments {
   ReflectedPairArray pairs;  ///< What arrives by a ray, if anything does; weighted.
   UintArray ray_count;       ///< Rays drawn so far: one number.
   MediumArray media;
-  DealtLightArray dealt;      ///< Sub-map after sub-map.
-  ReflectedPairArray direct;  ///< The view's: what all lights send, written by rsm_direct_sent.
-  int width;                  ///< Of the view [pixels].
-  int first_row;              ///< Of the band.
+  DealtLightArray dealt;  ///< Sub-map after sub-map.
+  /// The view's: what all lights but the brightest send, and which that is; written by
+  /// rsm_direct_sent, where lights are shared out. Else no address.
+  ReflectedPairArray direct;
+  UintArray brightest;
+  int width;      ///< Of the view [pixels].
+  int first_row;  ///< Of the band.
   int rows;
   int sub_maps;
   int per_sub_map;  ///< Lights that a pixel asks,
@@ -31,15 +34,14 @@ struct DirectRaysArguments {
   int slots;        ///< and these are so many.
   int lights;       ///< Of the scene.
   uint media_count;
-  uint unused;
+  uint is_shared;
 };
 
 /// Sums what arrives.
 struct DirectSumArguments {
   ReflectedPairArray pairs;
   UintArray occluded;
-  Vec3Array through;  ///< In place of it where has_glass is 1.
-  PixelSurfaceArray surfaces;
+  Vec3Array through;          ///< In place of it where has_glass is 1.
   ReflectedPairArray direct;  ///< The view's, ...
   LightShareArray shares;     ///< ... or these where lights are shared out.
   int width;
@@ -56,8 +58,9 @@ struct DirectSumArguments {
 struct DirectBlurArguments {
   DeviceView view;
   LightShareArray shares;
-  LightShareArray blurred;    ///< Written by the first direction.
-  ReflectedPairArray direct;  ///< Dimmed by the last one.
+  LightShareArray blurred;       ///< Written by the first direction.
+  ReflectedPairArray brightest;  ///< What arrives of each pixel's brightest light.
+  ReflectedPairArray direct;     ///< That of the others, dimmed by the last one, and both added up.
   int width;
   int height;
   int period;

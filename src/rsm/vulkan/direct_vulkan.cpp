@@ -75,6 +75,8 @@ void RsmDirectVulkan::start(std::size_t lights, const RsmSettings& settings, int
   const std::size_t shared = lights_.shared() ? pixels : 0;
   const std::size_t blurred = share_period(lights_, settings) > 1 ? shared : 0;
   direct_.reserve(device_, pixels * sizeof(ReflectedPair), "rsm.direct");
+  brightest_.reserve(device_, shared * sizeof(ReflectedPair), "rsm.brightest");
+  brightest_light_.reserve(device_, shared * sizeof(std::uint32_t), "rsm.brightest_lights");
   shares_.reserve(device_, shared * sizeof(LightShare), "rsm.light_shares");
   blurred_.reserve(device_, blurred * sizeof(LightShare), "rsm.blurred_shares");
   ray_count_.reserve(device_, sizeof(std::uint32_t), "rsm.direct_ray_count");
@@ -112,11 +114,43 @@ void RsmDirectVulkan::reserve_band(int rows) {
   arrived_.reserve(device_, rays * sizeof(vec3), "rsm.direct_arrived");
 }
 
+void RsmDirectVulkan::record_sum(vulkan::Recorder& recorder, const DeviceStage& stage,
+                                 int first_row, int rows, int first_slot, int slots,
+                                 const vulkan::Buffer& target, bool is_share) {
+  const Groups groups = this->groups(rows);
+  const bool glass = stage.tracer.has_glass();
+  recorder.barrier();
+  RayBatch batch;
+  batch.rays = {shadow_rays_.address()};
+  batch.count = groups.invocations() * static_cast<std::uint32_t>(slots);
+  if (glass) {
+    stage.tracer.transmittances(recorder, batch, {}, {arrived_.address()});
+  } else {
+    stage.tracer.occlusions(recorder, batch, {arrived_.address()});
+  }
+  recorder.barrier();
+  const DirectSumArguments summed = {{pairs_.address()},
+                                     {arrived_.address()},
+                                     {arrived_.address()},
+                                     {target.address()},
+                                     {shares_.address()},
+                                     width_,
+                                     first_row,
+                                     rows,
+                                     slots,
+                                     first_slot == 0 ? 1u : 0u,
+                                     is_share ? 1u : 0u,
+                                     glass ? 1u : 0u,
+                                     0};
+  recorder.run(kernels().sum, summed, groups.width, groups.height);
+  recorder.barrier();
+}
+
 void RsmDirectVulkan::record_band(vulkan::Recorder& recorder, const DeviceStage& stage,
                                   const DevicePixels& pixels, int first_row, int rows) {
   const Groups groups = this->groups(rows);
   const int per_sub_map = static_cast<int>(lights_.per_sub_map);
-  const bool glass = stage.tracer.has_glass();
+  const bool shared = lights_.shared();
   DirectRaysArguments asked = {stage.scene.address(),
                                pixels.points,
                                pixels.surfaces,
@@ -126,6 +160,7 @@ void RsmDirectVulkan::record_band(vulkan::Recorder& recorder, const DeviceStage&
                                stage.media.records,
                                {dealt_.address()},
                                {direct_.address()},
+                               {brightest_light_.address()},
                                width_,
                                first_row,
                                rows,
@@ -135,39 +170,17 @@ void RsmDirectVulkan::record_band(vulkan::Recorder& recorder, const DeviceStage&
                                0,
                                static_cast<int>(lights_.lights),
                                stage.media.count,
-                               0};
-  if (lights_.shared()) recorder.run(kernels().sent, asked, groups.width, groups.height);
+                               shared ? 1u : 0u};
+  if (shared) {
+    recorder.run(kernels().sent, asked, groups.width, groups.height);
+    record_sum(recorder, stage, first_row, rows, 0, 1, brightest_, false);
+  }
   const int at_once = slots_at_once(rows);
   for (int first = 0; first < per_sub_map; first += at_once) {
     asked.first_slot = first;
     asked.slots = std::min(at_once, per_sub_map - first);
     recorder.run(kernels().rays, asked, groups.width, groups.height);
-    recorder.barrier();
-    RayBatch batch;
-    batch.rays = {shadow_rays_.address()};
-    batch.count = groups.invocations() * static_cast<std::uint32_t>(asked.slots);
-    if (glass) {
-      stage.tracer.transmittances(recorder, batch, {}, {arrived_.address()});
-    } else {
-      stage.tracer.occlusions(recorder, batch, {arrived_.address()});
-    }
-    recorder.barrier();
-    const DirectSumArguments summed = {{pairs_.address()},
-                                       {arrived_.address()},
-                                       {arrived_.address()},
-                                       pixels.surfaces,
-                                       {direct_.address()},
-                                       {shares_.address()},
-                                       width_,
-                                       first_row,
-                                       rows,
-                                       asked.slots,
-                                       first == 0 ? 1u : 0u,
-                                       lights_.shared() ? 1u : 0u,
-                                       glass ? 1u : 0u,
-                                       0};
-    recorder.run(kernels().sum, summed, groups.width, groups.height);
-    recorder.barrier();
+    record_sum(recorder, stage, first_row, rows, first, asked.slots, direct_, shared);
   }
 }
 
@@ -180,6 +193,7 @@ void RsmDirectVulkan::record_finish(vulkan::Recorder& recorder, const RsmViewOnD
   DirectBlurArguments arguments = {view.arrays,
                                    {shares_.address()},
                                    {blurred_.address()},
+                                   {brightest_.address()},
                                    {direct_.address()},
                                    width_,
                                    height_,

@@ -24,7 +24,7 @@ struct RsmDirectKernels {
   vulkan::Kernel rays, sent, sum;
 };
 
-/// Finds the light, and keeps it there from frame to frame: 24 bytes a pixel, 72 where lights are
+/// Finds the light, and keeps it there from frame to frame: 24 bytes a pixel, 100 where lights are
 /// shared out, and 69 to 140 MB of rays.
 class RsmDirectVulkan {
  public:
@@ -59,6 +59,10 @@ class RsmDirectVulkan {
     std::uint32_t invocations() const { return width * height; }
   };
   Groups groups(int rows) const;
+  /// Records that the rays of so many slots are traced, and what arrives summed: as light of
+  /// `target`, or where `is_share`, as shares.
+  void record_sum(vulkan::Recorder& recorder, const DeviceStage& stage, int first_row, int rows,
+                  int first_slot, int slots, const vulkan::Buffer& target, bool is_share);
   /// Slots of a band of so many rows that are worked on at once.
   int slots_at_once(int rows) const;
   const RsmDirectKernels& kernels();
@@ -67,7 +71,7 @@ class RsmDirectVulkan {
   RsmSettings settings_;
   int width_ = 0, height_ = 0;
   DealtLights lights_;
-  vulkan::Buffer dealt_, direct_, shares_, blurred_;
+  vulkan::Buffer dealt_, direct_, brightest_, brightest_light_, shares_, blurred_;
   vulkan::Buffer shadow_rays_, pairs_, arrived_, ray_count_;
 };
 
