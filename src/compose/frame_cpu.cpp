@@ -207,9 +207,9 @@ class FramePassesCpu final : public FramePasses {
   }
 
   void direct() override {
-    now_->frame.rays += shade_direct(request().world, gbuffer_, request().settings, band_,
-                                     drawn_sample(), asks_lights_in_sub_images(request()),
-                                     light_.direct);
+    now_->frame.rays +=
+        shade_direct(request().world, gbuffer_, request().settings, band_, drawn_sample(),
+                     asks_lights_in_sub_images(request()), light_.direct);
     finish_pass("direct");
   }
 

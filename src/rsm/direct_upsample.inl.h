@@ -13,6 +13,14 @@
 LAMBENT_FN ReflectedPair upsample_direct(ivec2 size, vec2 place, vec3 position_ws, vec3 normal_ws,
                                          float inverse_tolerance) {
   ivec2 middle = ivec2(int(floor(place.x + 0.5f)), int(floor(place.y + 0.5f)));
+  // Where the view is as fine as the frame, places are pixels: most show their own
+  bool inside = middle.x >= 0 && middle.y >= 0 && middle.x < size.x && middle.y < size.y;
+  if (inside && place == vec2(middle)) {
+    int own = middle.y * size.x + middle.x;
+    float same = cross_bilateral_weight(position_ws - fetch_position(own), normal_ws,
+                                        fetch_normal(own), inverse_tolerance);
+    if (same > kShowsSurface) return fetch_direct(own);
+  }
   ReflectedPair sums[3];
   float weights[3];
   for (int s = 0; s < 3; ++s) {

@@ -262,7 +262,7 @@ TEST_F(Frame, WithDirectLightOfManyLightsIsTheSame) {
 
 // Clusters that are brought together are others where hits are rounded differently.
 TEST_F(Frame, WithMergedMapsIsAlike) {
-  constexpr double kOtherClusters = 0.06;
+  constexpr double kOtherClusters = 0.1;
   Job job = small("cornell-spot");
   job.lights = 12;
   job.merge_maps = true;
