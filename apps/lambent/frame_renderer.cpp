@@ -159,6 +159,9 @@ Expected<void> FrameRenderer::render(const Camera& camera, const FrameSettings& 
   if (!renderer_) {
     const Expected<IndirectSources> lit_by = sources();
     if (!lit_by) return tl::unexpected(lit_by.error());
+    const std::size_t lights = world_.scene().lights.size();
+    const std::string slow = lit_by->rsm ? slow_gather(*lit_by->rsm, lights) : "";
+    if (!slow.empty()) warn(slow);
     renderer_.emplace(world_, *lit_by);
   }
   return renderer_->render(camera, settings, frame_, progress);

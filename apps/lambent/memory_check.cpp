@@ -30,8 +30,12 @@ constexpr std::uint64_t kFilterBytes = 10 * kLayerBytes + 4 * sizeof(float) + 92
 // Light of the frame before and of this one, where it is averaged over frames, and its motion.
 constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)) + 20;
 // A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,
-// the picture out of the mosaic, and what is gathered.
+// the picture out of the mosaic, and what is gathered;
 constexpr std::uint64_t kRsmBytes = (7 + 7 + 2 * 3 + 3 + 3) * sizeof(float);
+// ... its direct light, where it is found there; and, where lights are shared out, the brightest
+// light's, and what arrives and what is sent of others, before and after a blur.
+constexpr std::uint64_t kRsmDirectBytes = 2 * kLayerBytes;
+constexpr std::uint64_t kRsmShareBytes = 6 * kLayerBytes;
 // ... of which each of five stages is a layer of the frame where layers are kept.
 constexpr std::uint64_t kRsmStageBytes = 5 * kLayerBytes;
 // Two images of three channels being compared: matched, clipped, filtered for SSIM and FLIP
@@ -62,8 +66,11 @@ std::uint64_t bytes_a_pixel(const RenderOptions& options) {
              static_cast<std::uint64_t>(fog.froxel_pixels * fog.froxel_pixels);
   }
   if (uses_rsm(options.method)) {
-    const auto scale = static_cast<std::uint64_t>(options.rsm.settings.downscale);
-    bytes += kRsmBytes / (scale * scale) + (options.layers ? kRsmStageBytes : 0);
+    const RsmSettings& rsm = options.rsm.settings;
+    const auto scale = static_cast<std::uint64_t>(rsm.downscale);
+    const std::uint64_t of_view = kRsmBytes + (rsm.direct ? kRsmDirectBytes : 0) +
+                                  (rsm.direct_lights > 0 ? kRsmShareBytes : 0);
+    bytes += of_view / (scale * scale) + (options.layers ? kRsmStageBytes : 0);
   }
   return bytes;
 }

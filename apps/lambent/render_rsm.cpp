@@ -26,7 +26,7 @@ constexpr std::pair<const char*, const char*> kOptionsOfSettings[] = {
     {"sub_maps", "--sub-maps"},        {"sub_images", "--sub-images"},
     {"disk_radius", "--rsm-radius"},   {"softening", "--rsm-softening"},
     {"sub_blur_radius", "--sub-blur"}, {"visibility_rays", "--rsm-visibility"},
-    {"downscale", "--rsm-downscale"}};
+    {"downscale", "--rsm-downscale"},  {"direct_lights", "--rsm-direct-lights"}};
 
 /// An error of the library's, told of the option that the user typed.
 Error in_options(Error error) {
@@ -46,7 +46,17 @@ Expected<void> check_together(const RsmSettings& s) {
                 std::to_string(s.sub_images) + " is not a multiple of --sub-maps " +
                     std::to_string(s.sub_maps) + ": some light would reach no pixel");
   }
+  if (s.merge_maps && s.texels == 0) {
+    return fail("--rsm-merge-maps", "", "does not go with --rsm-texels 0");
+  }
+  if (s.direct && s.from_camera) {
+    return fail("--rsm-direct", "", "does not go with --rsm-from-camera: no light has a map");
+  }
+  if (s.direct_lights > 0 && !s.direct) {
+    return fail("--rsm-direct-lights", "", "goes with --rsm-direct alone");
+  }
   if (s.pattern != RsmPattern::disk) return {};
+  if (s.merge_maps) return fail("--rsm-merge-maps", "", "goes with --rsm-pattern whole alone");
   if (s.texels == 0) return fail("--rsm-texels", "", "0 does not go with --rsm-pattern disk");
   if (s.visibility_rays > 0) {
     return fail("--rsm-visibility", "", "goes with --rsm-pattern whole alone");
@@ -111,6 +121,11 @@ void add_rsm_options(CLI::App& command, RsmOptions& o) {
   count("--rsm-visibility", s.visibility_rays, "Shadow rays a pixel and light, 0 to 64");
   count("--rsm-downscale", s.downscale, "Gather at 1/N of width and height, 1 to 16");
   command.add_flag("--rsm-from-camera", s.from_camera, "One map, seen from the camera");
+  command.add_flag("--rsm-merge-maps", s.merge_maps,
+                   "Share --rsm-texels among the maps of all lights");
+  command.add_flag("--rsm-direct", s.direct, "Ask lights in the sub-images, once a pixel");
+  count("--rsm-direct-lights", s.direct_lights,
+        "Lights that a pixel then asks, up to 65536; 0: all");
   const std::vector<CLI::Option*> all = command.get_options();
   o.options.assign(all.begin() + static_cast<std::ptrdiff_t>(others), all.end());
 }
@@ -161,6 +176,18 @@ Expected<void> check_rsm_use(const RsmOptions& options, const std::string& metho
     return fail("--bounces", "", "--method rsm+field has at least one");
   }
   return {};
+}
+
+std::string slow_gather(const RsmSettings& settings, std::size_t lights) {
+  // As many as sixteen lights have by default
+  constexpr std::size_t kMany = 16384;
+  const auto texels = static_cast<std::size_t>(settings.texels);
+  if (settings.from_camera || settings.merge_maps || lights * texels <= kMany) return {};
+  const std::string each = std::to_string(texels);
+  return "the maps of " + std::to_string(lights) + " lights have " +
+         std::to_string(lights * texels) + " texels to gather, " + each +
+         " each; --rsm-merge-maps has " + each +
+         " for all, and a smaller --rsm-size is faster, too";
 }
 
 FirstBounce::FirstBounce(const Scene& scene) : scene_(without_other_light(scene)), world_(scene_) {}

@@ -41,6 +41,9 @@ Expected<RsmSettings> rsm_settings(const RsmOptions& options, const std::string&
 Expected<void> check_rsm_use(const RsmOptions& options, const std::string& method, int bounces,
                              int gather_rays, bool converge);
 
+/// What to tell of a gather of so many lights that there are faster ways to; empty: nothing.
+std::string slow_gather(const RsmSettings& settings, std::size_t lights);
+
 /// The first bounce of directional, point and spot lights alone, for the field of a whole scene to
 /// be freed of: a field over a copy of the scene without other light. Updated as often as the
 /// other, with the same rays, it shares the other's noise.

@@ -2,6 +2,7 @@
 #include "lambent/stage_light.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "lambent/input.h"
 #include "lambent/parse.h"
@@ -82,8 +83,6 @@ FirstLight light_of_name(const std::string& name) {
 
 std::string describe(FirstLight light, const Scene& scene) {
   switch (light) {
-    case FirstLight::sky:
-      return "the scene's sun, and a sky that goes with it (--light scene leaves the sky out)";
     case FirstLight::studio:
       return "a studio";
     case FirstLight::sun:
@@ -93,7 +92,12 @@ std::string describe(FirstLight light, const Scene& scene) {
     case FirstLight::scene:
       break;
   }
-  return "the scene's";
+  // glTF files have no sky: where a sun is all they bring, shade and windows are black
+  const bool has_sun =
+      std::any_of(scene.lights.begin(), scene.lights.end(),
+                  [](const Light& light) { return light.type == Light::Type::directional; });
+  const bool has_sky = scene.environment.radiance != glm::vec3(0.0f);
+  return has_sun && !has_sky ? "the scene's, under a black sky (--sky lights it)" : "the scene's";
 }
 
 }  // namespace
@@ -101,8 +105,7 @@ std::string describe(FirstLight light, const Scene& scene) {
 void add_light_options(CLI::App& command, LightOptions& o) {
   command
       .add_option("--light", o.light,
-                  "auto: the scene's, with a sky where it is a sun alone, else what suits it. "
-                  "scene, studio, sun (and sky), lamps, or "
+                  "auto: the scene's, else what suits it. scene, studio, sun (and sky), lamps, or "
                   "none (but what surfaces emit)")
       ->check(one_of({"auto", "scene", "studio", "sun", "lamps", "none"}))
       ->capture_default_str()
@@ -141,7 +144,7 @@ Expected<std::string> add_first_light(const LightOptions& options, const Camera&
   if (light == FirstLight::scene) return describe(light, scene);
   set_first_light(light, world, camera, scene);
   if (const auto changes = world.update(); !changes) return tl::unexpected(changes.error());
-  const bool asked = options.light != "auto" || light == FirstLight::sky;
+  const bool asked = options.light != "auto";
   return describe(light, scene) +
          (asked ? "" : ", as the scene brings none (--light, --sun and --sky choose)");
 }

@@ -31,28 +31,24 @@ struct FirstView {
 /// Fails on settings out of range.
 Expected<FirstView> first_view(const World& world, const FirstViewSettings& settings = {});
 
-/// Light for scenes that bring none, or a sun alone: glTF has no sky.
+/// Light for scenes that bring none.
 enum class FirstLight : std::uint8_t {
   scene,   ///< What the scene brings.
-  sky,     ///< What the scene brings, and the sky that goes with its sun.
   studio,  ///< Soft boxes as key, fill and rim, in a neutral surrounding: for objects.
   sun,     ///< Sun and sky: for open scenes.
   lamps,   ///< Lamps below the ceiling: for closed rooms.
 };
 
-/// "scene", "sky", "studio", "sun" or "lamps".
+/// "scene", "studio", "sun" or "lamps".
 std::string_view name_of(FirstLight light);
 
 /// Finds the light that a camera's view asks for: the scene's, where it has lights or a sky or
-/// where its emissive surfaces light what the camera sees, with a sky where its only light is one
-/// directional light from above and what the camera sees is not closed in; else by where the camera
-/// stands.
+/// where its emissive surfaces light what the camera sees; else by where the camera stands.
 /// Traces some 10,000 rays.
 FirstLight choose_first_light(const World& world, const Camera& camera);
 
 /// Replaces the scene's lights and environment by those of `light`, set up for the camera's view;
-/// emissive surfaces stay as they are, FirstLight::sky replaces the environment alone, and
-/// FirstLight::scene nothing. `scene` is the
+/// emissive surfaces stay as they are, and FirstLight::scene changes nothing. `scene` is the
 /// world's; call World::update afterwards.
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene);
 

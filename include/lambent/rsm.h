@@ -77,6 +77,19 @@ struct RsmSettings {
   /// One map seen from the camera, lit by all lights, in place of one from each light: also finds
   /// the light of emissive surfaces, but knows nothing outside the picture.
   bool from_camera = false;
+  /// Bring the texels of all lights' maps together in `texels` clusters, rather than those of each
+  /// map: a gather of many lights then costs what one light's does. RsmPattern::whole, and `texels`
+  /// above 0.
+  bool merge_maps = false;
+
+  /// In a frame (FrameSettings): find also the light that directional, point and spot lights send
+  /// straight to the view, in the sub-images and with shadow rays, once a pixel of the view;
+  /// samples of the frame take theirs from it. Not with `from_camera`.
+  bool direct = false;
+  /// Lights that a pixel then asks with a shadow ray, 0 (all) to 65536. Fewer are shared out to the
+  /// sub-maps, at least so many that all are asked, and what arrives is blurred over as many pixels
+  /// as there are sub-images; besides, each pixel asks the light that is brightest there.
+  int direct_lights = 0;
   std::uint32_t seed = 1;  ///< Of all random numbers.
 };
 
@@ -173,6 +186,13 @@ class RsmGatherer {
   /// the same bits on any number of threads.
   Expected<void> gather(const World& world, std::span<const ReflectiveShadowMap> maps,
                         const RsmView& view, const RsmSettings& settings, RsmIrradiance& result,
+                        bool keep_stages = false);
+
+  /// The same of the maps that render_rsms would make. They are made one after the other, and only
+  /// one is kept at a time (RsmLayout::full: all of them), so that memory does not grow with the
+  /// lights. Fails as both do.
+  Expected<void> gather(const World& world, const Camera& camera, float aspect, const RsmView& view,
+                        const RsmSettings& settings, RsmIrradiance& result,
                         bool keep_stages = false);
 
  private:

@@ -78,8 +78,8 @@ void finish_variance(const GBuffer& gbuffer, uint draws, std::size_t begin, std:
 
 std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                            const FrameSettings& settings, const Band& band, int sample,
-                           ReflectedLight& light) {
-  const LightDraws draws{world, settings.emissive_samples};
+                           bool emitters_alone, ReflectedLight& light) {
+  const LightDraws draws{world, settings.emissive_samples, emitters_alone};
   const Media media(world.scene().fog);
   const uint emitters = settings.denoise ? tree_samples(draws) : 0;
   light.diffuse.assign(gbuffer.size(), vec3(0.0f));

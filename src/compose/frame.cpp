@@ -38,6 +38,7 @@ void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& 
       passes.gbuffer(band, sample);
       if (wants_motion(settings)) passes.motion();
       passes.direct();
+      if (asks_lights_in_sub_images(request)) passes.rsm_direct();
       if (looks_up(request)) passes.indirect();
       if (gathers(request)) passes.gather();
       if (sources.field != nullptr) passes.glossy();

@@ -207,9 +207,16 @@ class FramePassesCpu final : public FramePasses {
   }
 
   void direct() override {
-    now_->frame.rays += shade_direct(request().world, gbuffer_, request().settings, band_,
-                                     drawn_sample(), light_.direct);
+    now_->frame.rays +=
+        shade_direct(request().world, gbuffer_, request().settings, band_, drawn_sample(),
+                     asks_lights_in_sub_images(request()), light_.direct);
     finish_pass("direct");
+  }
+
+  void rsm_direct() override {
+    add_rsm_direct(rsm_, gbuffer_, request().camera, request().settings.width, band_,
+                   light_.direct);
+    finish_pass("rsm.direct_upsample");
   }
 
   void indirect() override {

@@ -71,6 +71,12 @@ inline bool traces_coats(const FrameRequest& request) {
   return request.sources.field != nullptr && request.settings.glossy_rows > 0;
 }
 
+/// Whether lights without extent are asked in the sub-images of reflective shadow maps, rather than
+/// by every sample.
+inline bool asks_lights_in_sub_images(const FrameRequest& request) {
+  return request.sources.rsm && request.sources.rsm->direct;
+}
+
 /// Whether there is fog.
 inline bool has_fog(const FrameRequest& request) {
   return has_fog(request.world.scene());
@@ -93,8 +99,11 @@ class FramePasses {
   virtual void gbuffer(const Band& band, int sample) = 0;
   /// Where what they show was in the frame before; of frames that want it.
   virtual void motion() = 0;
-  /// What lights and emissive surfaces send straight.
+  /// What lights and emissive surfaces send straight; the latter alone where lights are asked in
+  /// sub-images, ...
   virtual void direct() = 0;
+  /// ... whose light is then added.
+  virtual void rsm_direct() = 0;
   /// Light of the field on each surface, looked up, less what is taken out of it.
   virtual void indirect() = 0;
   /// Light on each surface from rays of its own, which end in the field's.

@@ -130,6 +130,7 @@ void FramePassesVulkan::direct() {
   add("direct", [this, apart](Recorder& to) {
     ShadeHitsSettings shading;
     shading.emissive_samples = request_->settings.emissive_samples;
+    shading.emitters_alone = asks_lights_in_sub_images(*request_);
     shading.salt = sample_;
     shading.seed = request_->settings.seed;
     memory_.pixel_shading.reflected_light(

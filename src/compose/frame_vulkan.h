@@ -22,6 +22,7 @@
 #include "gather/gather_records.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/vulkan/hit_shading.h"
+#include "rsm/vulkan/direct_vulkan.h"
 #include "rsm/vulkan/gather_vulkan.h"
 #include "shaders/add_filtered_comp.h"
 #include "shaders/camera_rays_comp.h"
@@ -95,12 +96,14 @@ struct FrameMemory {
         gather_shading(device),
         mapper(device),
         rsm(device),
+        rsm_direct(device),
         denoiser(device),
         antialiasing(device) {}
 
   HitShading pixel_shading, gather_shading;
   RsmMapperVulkan mapper;
   RsmGathererVulkan rsm;
+  RsmDirectVulkan rsm_direct;
   RsmMapsOnDevice maps;
   DenoiserVulkan denoiser;
   FilteredBuffers filtered;
@@ -142,6 +145,7 @@ class FramePassesVulkan final : public FramePasses {
   void gbuffer(const Band& band, int sample) override;
   void motion() override;
   void direct() override;
+  void rsm_direct() override;
   void indirect() override;
   void gather() override;
   void glossy() override;
@@ -163,6 +167,11 @@ class FramePassesVulkan final : public FramePasses {
   };
 
   DeviceStage stage() const;
+  /// Brings the scene's fog to the device, for what is lit before the froxels are. Returns how many
+  /// media there are.
+  std::uint32_t upload_media();
+  /// Traces the view that maps light, and leaves what it sees in `small_`.
+  void trace_small_view(int width, int height);
   /// Has a pass run after those asked for before; it sees what they wrote.
   void add(const char* name, Record record);
   void run_steps();

@@ -10,9 +10,9 @@ namespace lambent {
 /// Samples of emissive triangles at a pixel; 0 where nothing is drawn at random.
 std::uint32_t FramePassesVulkan::emitter_draws() const {
   if (!request_->settings.denoise) return 0;
-  return world_.scene().has_light_tree()
-             ? static_cast<std::uint32_t>(request_->settings.emissive_samples)
-             : 0;
+  const bool draws = asks_lights_in_sub_images(*request_) ? world_.scene().has_emitters()
+                                                          : world_.scene().has_light_tree();
+  return draws ? static_cast<std::uint32_t>(request_->settings.emissive_samples) : 0;
 }
 
 /// Makes room for what is filtered, and tells kernels where it is.

@@ -17,9 +17,6 @@ namespace {
 // Rays gathered at a time: enough to fill any device, few enough to stay small (about 60 MB).
 constexpr std::uint32_t kGatherRays = 1u << 18;
 
-// Pixels of the view that maps light which are traced at a time, as many as of a frame's band.
-constexpr std::uint32_t kViewPixels = 1u << 18;
-
 }  // namespace
 
 /// Looks the field up, on the device where that holds it.
@@ -175,75 +172,6 @@ void FramePassesVulkan::add_geometry(const char* name, const RsmViewOnDevice& vi
         count,
         0u};
     to.run(kernels_.view_geometry, arguments, count);
-  });
-}
-
-void FramePassesVulkan::rsm() {
-  const FrameSettings& settings = request_->settings;
-  const RsmSettings& by = *request_->sources.rsm;
-  const int width = (settings.width + by.downscale - 1) / by.downscale;
-  const int height = (settings.height + by.downscale - 1) / by.downscale;
-  const auto pixels = static_cast<std::uint32_t>(width) * height;
-  reserve_pixels(std::min(pixels, kViewPixels));
-  small_ = reserve_geometry(width, height, memory_.small_geometry);
-  for (std::uint32_t first = 0; first < pixels; first += kViewPixels) {
-    const std::uint32_t count = std::min(kViewPixels, pixels - first);
-    add("rsm.view", [=, this](Recorder& to) {
-      trace_pixels(to, {{memory_.rays.address()},
-                        {memory_.cones.address()},
-                        camera_record(request_->camera, width, height),
-                        static_cast<uint>(width),
-                        first,
-                        count,
-                        0u,
-                        1u,
-                        settings.seed,
-                        0u,
-                        0u});
-    });
-    add_geometry("rsm.view", small_, first, count);
-  }
-  run_steps();
-
-  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-  Stopwatch watch;
-  memory_.mapper.render(request_->world, request_->camera, aspect, by, memory_.maps);
-  frame_->passes.push_back({"rsm", watch.lap()});
-  RsmIrradiance light;
-  memory_.rsm.light(memory_.mapper, memory_.maps, small_, by, world_, light,
-                    request_->sources.rsm_stages);
-  frame_->rays += light.rays;
-  frame_->passes.insert(frame_->passes.end(), light.passes.begin(), light.passes.end());
-  if (request_->sources.rsm_stages) {
-    stage_layers_ = rsm_stage_layers(download_maps(device_, memory_.maps), light, settings.width,
-                                     settings.height);
-  }
-}
-
-void FramePassesVulkan::rsm_upsample() {
-  const bool alone = request_->sources.field == nullptr;
-  const bool subtracts = request_->sources.subtracted_field != nullptr && !alone;
-  reserve<vec3>(pixels_, "light of maps", memory_.from_maps);
-  reserve<vec3>(pixels_, "irradiance", memory_.irradiance);
-  reserve<vec3>(subtracts ? pixels_ : 1, "taken out", memory_.subtracted_field);
-  const RsmViewOnDevice band =
-      reserve_geometry(request_->settings.width, band_.rows, memory_.band_geometry);
-  add_geometry("rsm.upsample", band, 0u, pixels_);
-  add("", [this, band](Recorder& to) {
-    memory_.rsm.record_upsampling(to, small_, *request_->sources.rsm, band, band_.first_row,
-                                  {memory_.from_maps.address()});
-  });
-  add("rsm.upsample", [=, this](Recorder& to) {
-    if (alone) {
-      to.fill(memory_.irradiance, 0u);
-      to.barrier();
-    }
-    const ReplaceLightArguments arguments = {{memory_.irradiance.address()},
-                                             {memory_.subtracted_field.address()},
-                                             {memory_.from_maps.address()},
-                                             pixels_,
-                                             subtracts ? 1u : 0u};
-    to.run(kernels_.replace_light, arguments, pixels_);
   });
 }
 

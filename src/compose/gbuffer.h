@@ -80,9 +80,10 @@ struct ReflectedLight {
 };
 
 /// Light that lights and emissive surfaces send straight to the surfaces. What emissive ones send
-/// is kept apart where the settings filter it. Returns the shadow rays traced.
+/// is kept apart where the settings filter it. `emitters_alone`: that of other lights is left out.
+/// Returns the shadow rays traced.
 std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                            const FrameSettings& settings, const Band& band, int sample,
-                           ReflectedLight& light);
+                           bool emitters_alone, ReflectedLight& light);
 
 }  // namespace lambent

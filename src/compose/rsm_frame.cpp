@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "raytracing/camera_rays.h"
 #include "rsm/maps/map.h"
 #include "rsm/upsample.h"
+#include "shared/demodulate.h"
 
 namespace lambent {
 namespace {
@@ -16,7 +18,8 @@ namespace {
 constexpr std::size_t kPixelsPerTask = 4096;
 
 /// Traces the view through the middle of its pixels.
-void trace_view(const World& world, const Camera& camera, int width, int height, RsmFrame& frame) {
+void trace_view(const World& world, const Camera& camera, const RsmSettings& rsm, int width,
+                int height, RsmFrame& frame) {
   FrameSettings settings;
   settings.width = width;
   settings.height = height;
@@ -27,7 +30,13 @@ void trace_view(const World& world, const Camera& camera, int width, int height,
   const int band_rows = rows_of_a_band(width);
   for (int row = 0; row < height; row += band_rows) {
     GBuffer& gbuffer = frame.gbuffer;
-    trace_gbuffer(world, camera, settings, {row, std::min(band_rows, height - row)}, 0, gbuffer);
+    const Band band{row, std::min(band_rows, height - row)};
+    trace_gbuffer(world, camera, settings, band, 0, gbuffer);
+    if (rsm.direct) {
+      Stopwatch watch;
+      frame.direct_rays += shade_direct_view(world, rsm, gbuffer, band, width, frame.direct);
+      frame.direct_ms += watch.lap();
+    }
     const std::size_t first = static_cast<std::size_t>(row) * width;
     parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
@@ -71,6 +80,52 @@ struct SmallPicture {
   const RsmFrame& frame;
 };
 
+/// The view's direct light, as upsampling fetches from it.
+struct DirectPicture {
+  explicit DirectPicture(const RsmFrame& seen) : frame(seen) {}
+
+  vec3 fetch_position(int pixel) { return frame.positions_ws[pixel]; }
+  vec3 fetch_normal(int pixel) { return frame.normals_ws[pixel]; }
+  ReflectedPair fetch_direct(int pixel) { return frame.direct.direct[pixel]; }
+
+#include "rsm/direct_upsample.inl.h"
+
+  const RsmFrame& frame;
+};
+
+/// The first of the maps; without texels where there is none.
+ReflectiveShadowMap first_map(const FrameRequest& request, float aspect) {
+  const RsmSettings& rsm = *request.sources.rsm;
+  const std::vector<Light>& lights = request.world.scene().lights;
+  ReflectiveShadowMap map;
+  if (rsm.from_camera) {
+    render_rsm(request.world, request.camera, aspect, rsm, map);
+  } else if (!lights.empty()) {
+    render_rsm(request.world, lights.front(), rsm, map);
+  }
+  return map;
+}
+
+/// Calls body(pixel, place, surface, inverse_tolerance) for pixels of a band that show a surface:
+/// where each lies in the view that maps light, and how upsampling tells surfaces apart there.
+template <class Body>
+void for_each_sample(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
+                     const Band& band, Body body) {
+  const float scale = 1.0f / static_cast<float>(frame.downscale);
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (gbuffer.hit[i] == 0) continue;
+      const auto x = static_cast<float>(i % static_cast<std::size_t>(width));
+      const auto y = static_cast<float>(i / static_cast<std::size_t>(width)) +
+                     static_cast<float>(band.first_row);
+      const Surface& surface = gbuffer.surfaces[i];
+      const float depth = view_depth(camera, surface.position_ws);
+      body(i, place_in_small_picture({x, y}, scale), surface,
+           1.0f / (frame.plane_tolerance * depth));
+    }
+  });
+}
+
 }  // namespace
 
 void light_by_rsm(const FrameRequest& request, RsmFrame& frame) {
@@ -80,26 +135,39 @@ void light_by_rsm(const FrameRequest& request, RsmFrame& frame) {
   frame.plane_tolerance = rsm.plane_tolerance;
   const int width = (settings.width + rsm.downscale - 1) / rsm.downscale;
   const int height = (settings.height + rsm.downscale - 1) / rsm.downscale;
-  trace_view(request.world, request.camera, width, height, frame);
-  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
-  render_rsms(request.world, request.camera, aspect, rsm, frame.maps);
+  frame.direct_rays = 0;
+  frame.direct_ms = 0.0;
+  if (rsm.direct) {
+    start_direct_view(request.world, rsm, static_cast<std::size_t>(width) * height, frame.direct);
+  }
+  trace_view(request.world, request.camera, rsm, width, height, frame);
   const RsmView view{width, height, frame.positions_ws, frame.normals_ws, frame.depths};
+  if (rsm.direct) {
+    Stopwatch watch;
+    finish_direct_view(view, rsm, frame.direct);
+    frame.direct_ms += watch.lap();
+  }
+  const float aspect = static_cast<float>(settings.width) / static_cast<float>(settings.height);
   const bool keep_stages = request.sources.rsm_stages;
-  [[maybe_unused]] const Expected<void> done =
-      frame.gatherer.gather(request.world, frame.maps, view, rsm, frame.light, keep_stages);
+  [[maybe_unused]] const Expected<void> done = frame.gatherer.gather(
+      request.world, request.camera, aspect, view, rsm, frame.light, keep_stages);
   assert(done);  // settings were checked, and the view is whole
+  frame.light.rays += frame.direct_rays;
+  if (rsm.direct) frame.light.passes.push_back({"rsm.direct", frame.direct_ms});
   frame.layers.clear();
   if (keep_stages) {
-    frame.layers = rsm_stage_layers(frame.maps, frame.light, settings.width, settings.height);
+    const ReflectiveShadowMap first = first_map(request, aspect);
+    frame.layers = rsm_stage_layers(first.texels.empty() ? nullptr : &first, frame.light,
+                                    settings.width, settings.height);
   }
 }
 
-std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,
+std::vector<Layer> rsm_stage_layers(const ReflectiveShadowMap* first_map,
                                     const RsmIrradiance& light, int width, int height) {
   std::vector<Layer> layers;
   // Show the first map alone: more would not fit
-  if (!maps.empty()) {
-    layers.push_back(fitted_layer("rsm.flux", flux_image(maps.front()), width, height));
+  if (first_map != nullptr) {
+    layers.push_back(fitted_layer("rsm.flux", flux_image(*first_map), width, height));
   }
   for (const Layer& stage : light.stages) {
     layers.push_back(fitted_layer(stage.name, stage.image, width, height));
@@ -110,22 +178,24 @@ std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,
 void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                  const Band& band, std::vector<glm::vec3>& irradiance) {
   irradiance.assign(gbuffer.size(), vec3(0.0f));
-  const float scale = 1.0f / static_cast<float>(frame.downscale);
   const ivec2 size(frame.light.width, frame.light.height);
-  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    SmallPicture small(frame);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (gbuffer.hit[i] == 0) continue;
-      const auto x = static_cast<float>(i % static_cast<std::size_t>(width));
-      const auto y = static_cast<float>(i / static_cast<std::size_t>(width)) +
-                     static_cast<float>(band.first_row);
-      const Surface& surface = gbuffer.surfaces[i];
-      const float depth = view_depth(camera, surface.position_ws);
-      irradiance[i] =
-          small.upsample_light(size, place_in_small_picture({x, y}, scale), surface.position_ws,
-                               surface.normal_ws, 1.0f / (frame.plane_tolerance * depth));
-    }
-  });
+  for_each_sample(frame, gbuffer, camera, width, band,
+                  [&](std::size_t i, const vec2& place, const Surface& surface, float tolerance) {
+                    irradiance[i] = SmallPicture(frame).upsample_light(
+                        size, place, surface.position_ws, surface.normal_ws, tolerance);
+                  });
+}
+
+void add_rsm_direct(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
+                    const Band& band, ReflectedLight& light) {
+  const ivec2 size(frame.light.width, frame.light.height);
+  for_each_sample(frame, gbuffer, camera, width, band,
+                  [&](std::size_t i, const vec2& place, const Surface& surface, float tolerance) {
+                    const ReflectedPair pair = DirectPicture(frame).upsample_direct(
+                        size, place, surface.position_ws, surface.normal_ws, tolerance);
+                    light.diffuse[i] += pair.diffuse * filtered_albedo(surface.reflectance);
+                    light.specular[i] += pair.specular;
+                  });
 }
 
 }  // namespace lambent

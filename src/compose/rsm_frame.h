@@ -7,6 +7,7 @@
 
 #include "compose/frame_passes.h"
 #include "compose/gbuffer.h"
+#include "compose/rsm/direct_frame.h"
 #include "lambent/rsm.h"
 
 namespace lambent {
@@ -19,11 +20,13 @@ struct RsmFrame {
   std::vector<glm::vec3> positions_ws, normals_ws;
   std::vector<float> depths;
   RsmIrradiance light;
+  DirectView direct;          ///< Where the settings ask for it.
   std::vector<Layer> layers;  ///< Of the frame's size, where asked for; see docs/rsm.md.
 
   // What light is made of
+  std::uint64_t direct_rays = 0;
+  double direct_ms = 0.0;
   GBuffer gbuffer;
-  std::vector<ReflectiveShadowMap> maps;
   RsmGatherer gatherer;
 };
 
@@ -31,8 +34,9 @@ struct RsmFrame {
 /// rounded up.
 void light_by_rsm(const FrameRequest& request, RsmFrame& frame);
 
-/// The first map's flux and the gather's stages as layers of a frame of that size.
-std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,
+/// The first map's flux, where there is a map, and the gather's stages as layers of a frame of that
+/// size.
+std::vector<Layer> rsm_stage_layers(const ReflectiveShadowMap* first_map,
                                     const RsmIrradiance& light, int width, int height);
 
 /// Irradiance at the surfaces of a band, from the pixels around them that show the same surface
@@ -40,5 +44,9 @@ std::vector<Layer> rsm_stage_layers(std::span<const ReflectiveShadowMap> maps,
 /// none does, from all around.
 void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                  const Band& band, std::vector<glm::vec3>& irradiance);
+
+/// Adds the direct light of the view to that of a band's samples, as RsmSettings::direct has it.
+void add_rsm_direct(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
+                    const Band& band, ReflectedLight& light);
 
 }  // namespace lambent

@@ -65,6 +65,8 @@ struct LightReceiver {
 struct LightDraws {
   const World& world;
   int tree_samples;  ///< Of the light tree, >= 1.
+  /// Directional, point and spot lights are left out.
+  bool emitters_alone = false;
 };
 
 // What direct_light.inl.h asks for.
@@ -72,8 +74,11 @@ using LitPointRef = const LitPoint&;
 using ReceiverRef = const LightReceiver&;
 using DrawsRef = const LightDraws&;
 
+inline bool emitters_alone(const LightDraws& draws) {
+  return draws.emitters_alone;
+}
 inline uint asked_lights(const LightDraws& draws) {
-  return static_cast<uint>(lights_of(draws.world).asked().size());
+  return draws.emitters_alone ? 0u : static_cast<uint>(lights_of(draws.world).asked().size());
 }
 inline uint fetch_asked(const LightDraws& draws, uint slot) {
   return lights_of(draws.world).asked()[slot];
@@ -82,7 +87,9 @@ inline LightRecord fetch_light(const LightDraws& draws, uint light) {
   return lights_of(draws.world).lights()[light];
 }
 inline uint tree_samples(const LightDraws& draws) {
-  return lights_of(draws.world).nodes().empty() ? 0u : static_cast<uint>(draws.tree_samples);
+  const bool empty = draws.emitters_alone ? emissive_of(draws.world).empty()
+                                          : lights_of(draws.world).nodes().empty();
+  return empty ? 0u : static_cast<uint>(draws.tree_samples);
 }
 inline void pick_lights(const LightDraws& draws, const vec3& position_ws, const vec3& normal_ws,
                         uint count, LightPicks& picks) {

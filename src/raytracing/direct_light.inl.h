@@ -8,6 +8,7 @@
 //   ReceiverRef  what light is to be drawn for: its member `point` is such a point
 //   DrawsRef     lights to draw from
 // and
+//   bool emitters_alone(DrawsRef draws)                    the tree's other lights are left out
 //   uint asked_lights(DrawsRef draws)
 //   uint fetch_asked(DrawsRef draws, uint slot)            which light is asked in a slot
 //   LightRecord fetch_light(DrawsRef draws, uint light)
@@ -79,6 +80,7 @@ LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, Lig
   if (pick.probability <= 0.0f) return no_candidate();
   uint emitters = emitter_count(draws);
   if (pick.light >= emitters) {
+    if (emitters_alone(draws)) return no_candidate();
     LightRecord light = fetch_light(draws, pick.light - emitters);
     LightCandidate punctual = punctual_candidate(light, point);
     punctual.perpendicular_irradiance /= pick.probability;

@@ -27,6 +27,8 @@ struct ShadeHitsSettings {
       0.0f;  ///< Width of a ray's cone per metre, which picks MIP levels; 0: full resolution.
   float max_albedo = 1.0f;   ///< Albedo is clamped to this, 0 to 1.
   int emissive_samples = 1;  ///< Points drawn on emissive triangles a hit, >= 1.
+  /// Directional, point and spot lights are left out. Read by HitShading::reflected_light alone.
+  bool emitters_alone = false;
   /// A ray that meets a side that bounds solid matter comes from inside it and does not count;
   /// null: all rays count. It must outlive the shading.
   const SolidSides* solid_sides = nullptr;

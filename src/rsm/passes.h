@@ -21,9 +21,9 @@ bool blurs(const RsmSettings& settings);
 std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
                            const RsmSettings& settings, Mosaic& mosaic);
 
-/// Copies the view likewise, and gathers each map's texels around every pixel's projection:
-/// RsmPattern::disk.
-void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+/// Copies the view likewise, and gathers the texels of each of `maps` maps around every pixel's
+/// projection: RsmPattern::disk.
+void gather_disks(const RsmView& view, std::size_t maps, const FetchMap& fetch,
                   const RsmSettings& settings, Mosaic& mosaic);
 
 /// Blurs the light inside each of m x m sub-images, horizontally, then vertically.

@@ -140,7 +140,7 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
   return rays;
 }
 
-void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+void gather_disks(const RsmView& view, std::size_t maps, const FetchMap& fetch,
                   const RsmSettings& settings, Mosaic& mosaic) {
   const int n = settings.sub_maps, p = mosaic.sub_images();
   const auto count = static_cast<uint>((settings.texels + n * n - 1) / (n * n) * n * n);
@@ -153,7 +153,8 @@ void gather_disks(const RsmView& view, std::span<const ReflectiveShadowMap> maps
   const auto fill = [&](int y) { mosaic.fill_row(view, y); };
   const auto nothing = [](int) {};
   for_each_row(mosaic, fill, [&](const RowOf& at, const Planes&) { clear(row_at(at)); });
-  for (const ReflectiveShadowMap& map : maps) {
+  for (std::size_t m = 0; m < maps; ++m) {
+    const ReflectiveShadowMap& map = fetch(m);
     const float radius = settings.disk_radius * static_cast<float>(map.resolution);
     std::vector<DiskSample> samples(count);
     for (uint k = 0; k < count; ++k) samples[k] = disk_sample(k, count, radius);

@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "core/stopwatch.h"
+#include "lambent/world.h"
 #include "rsm/deinterleave.h"
 #include "rsm/maps/lights.h"
+#include "rsm/maps/map.h"
 #include "rsm/mosaic.h"
 #include "rsm/order.h"
 #include "rsm/passes.h"
@@ -19,7 +21,7 @@ namespace lambent {
 namespace {
 
 constexpr int kMaxResolution = 4096, kMaxTexels = 65536, kMaxSubImages = 16, kMaxBlurRadius = 4;
-constexpr int kMaxVisibilityRays = 64, kMaxDownscale = 16;
+constexpr int kMaxVisibilityRays = 64, kMaxDownscale = 16, kMaxDirectLights = 65536;
 constexpr float kMaxDiskRadius = 2.0f, kMinSoftening = 0.01f, kMaxSoftening = 100.0f;
 
 // Distances of the taps of the irregular blur [pixels of a sub-image]: beyond the regular one's,
@@ -88,12 +90,13 @@ Layer mosaic_layer(std::span<const glm::vec3> interleaved, int width, int height
 /// The passes on the processor.
 class PassesOnHost final : public RsmPasses {
  public:
-  PassesOnHost(const World& world, const RsmView& view, std::span<const ReflectiveShadowMap> maps,
+  PassesOnHost(const World& world, const RsmView& view, std::size_t maps, const FetchMap& fetch,
                const RsmLights& lights, const RsmSettings& settings, Mosaic& mosaic,
                RsmIrradiance& result)
       : world_(world),
         view_(view),
         maps_(maps),
+        fetch_(fetch),
         lights_(lights),
         settings_(settings),
         mosaic_(mosaic),
@@ -108,7 +111,7 @@ class PassesOnHost final : public RsmPasses {
     if (settings_.pattern == RsmPattern::whole) {
       result_.rays = gather_whole(world_, view_, lights_, settings_, mosaic_);
     } else {
-      gather_disks(view_, maps_, settings_, mosaic_);
+      gather_disks(view_, maps_, fetch_, settings_, mosaic_);
     }
   }
   void blur_sub_images(std::span<const BlurTap> taps) override {
@@ -125,7 +128,8 @@ class PassesOnHost final : public RsmPasses {
  private:
   const World& world_;
   const RsmView& view_;
-  std::span<const ReflectiveShadowMap> maps_;
+  std::size_t maps_;
+  const FetchMap& fetch_;
   const RsmLights& lights_;
   const RsmSettings& settings_;
   Mosaic& mosaic_;
@@ -172,6 +176,11 @@ void run_rsm_passes(const RsmSettings& settings, bool keep_stages, RsmPasses& pa
 
 struct RsmGatherer::Buffers {
   Mosaic mosaic;
+  ReflectiveShadowMap map;  // that is being read, of those that are made here
+
+  /// Of settings and a view in range.
+  void gather(const World& world, std::size_t maps, const FetchMap& fetch, const RsmView& view,
+              const RsmSettings& settings, RsmIrradiance& result, bool keep_stages);
 };
 
 RsmGatherer::RsmGatherer() : buffers_(std::make_unique<Buffers>()) {}
@@ -190,7 +199,8 @@ Expected<void> check(const RsmSettings& s) {
       within("sub_blur_radius", s.sub_blur_radius, 0, kMaxBlurRadius),
       within("plane_tolerance", s.plane_tolerance, std::numeric_limits<float>::min(), 1.0f),
       within("visibility_rays", s.visibility_rays, 0, kMaxVisibilityRays),
-      within("downscale", s.downscale, 1, kMaxDownscale)};
+      within("downscale", s.downscale, 1, kMaxDownscale),
+      within("direct_lights", s.direct_lights, 0, kMaxDirectLights)};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }
@@ -205,6 +215,13 @@ Expected<void> check(const RsmSettings& s) {
   if (s.pattern == RsmPattern::disk && s.visibility_rays > 0) {
     return fail("", "visibility_rays", "go with RsmPattern::whole alone");
   }
+  if (s.merge_maps && (s.pattern != RsmPattern::whole || s.texels == 0)) {
+    return fail("", "merge_maps", "goes with RsmPattern::whole and a number of texels alone");
+  }
+  if (s.direct && s.from_camera) {
+    return fail("", "direct", "is of lights' own maps, and does not go with from_camera");
+  }
+  if (s.direct_lights > 0 && !s.direct) return fail("", "direct_lights", "go with direct alone");
   return {};
 }
 
@@ -212,11 +229,9 @@ bool blurs(const RsmSettings& settings) {
   return settings.sub_blur_radius > 0 || settings.irregular_blur || blurs_picture(settings);
 }
 
-Expected<void> RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap> maps,
-                                   const RsmView& view, const RsmSettings& settings,
-                                   RsmIrradiance& result, bool keep_stages) {
-  if (const Expected<void> fine = check(settings); !fine) return fine;
-  if (const Expected<void> fine = check_view(view); !fine) return fine;
+void RsmGatherer::Buffers::gather(const World& world, std::size_t maps, const FetchMap& fetch,
+                                  const RsmView& view, const RsmSettings& settings,
+                                  RsmIrradiance& result, bool keep_stages) {
   const std::size_t pixels = static_cast<std::size_t>(view.width) * view.height;
   result.width = view.width;
   result.height = view.height;
@@ -228,13 +243,51 @@ Expected<void> RsmGatherer::gather(const World& world, std::span<const Reflectiv
   // Choose the lights and lay them out as they will be read
   Stopwatch watch;
   const bool whole = settings.pattern == RsmPattern::whole;
-  const RsmLights lights = whole ? choose_lights(maps, view, settings) : RsmLights();
+  const RsmLights lights = whole ? choose_lights(maps, fetch, view, settings) : RsmLights();
   result.passes.push_back({"rsm.choose", watch.lap()});
   const bool restructured = settings.layout == RsmLayout::restructured;
-  buffers_->mosaic.reshape(view.width, view.height, restructured ? settings.sub_images : 1,
-                           blur_reach(settings));
-  PassesOnHost passes(world, view, maps, lights, settings, buffers_->mosaic, result);
+  mosaic.reshape(view.width, view.height, restructured ? settings.sub_images : 1,
+                 blur_reach(settings));
+  PassesOnHost passes(world, view, maps, fetch, lights, settings, mosaic, result);
   run_rsm_passes(settings, keep_stages, passes);
+}
+
+Expected<void> RsmGatherer::gather(const World& world, std::span<const ReflectiveShadowMap> maps,
+                                   const RsmView& view, const RsmSettings& settings,
+                                   RsmIrradiance& result, bool keep_stages) {
+  if (const Expected<void> fine = check(settings); !fine) return fine;
+  if (const Expected<void> fine = check_view(view); !fine) return fine;
+  const auto fetch = [&](std::size_t m) -> const ReflectiveShadowMap& { return maps[m]; };
+  buffers_->gather(world, maps.size(), fetch, view, settings, result, keep_stages);
+  return {};
+}
+
+Expected<void> RsmGatherer::gather(const World& world, const Camera& camera, float aspect,
+                                   const RsmView& view, const RsmSettings& settings,
+                                   RsmIrradiance& result, bool keep_stages) {
+  if (const Expected<void> fine = check_map_request(camera, aspect, settings); !fine) return fine;
+  if (const Expected<void> fine = check_view(view); !fine) return fine;
+  double map_ms = 0.0;
+  const auto fetch = [&](std::size_t m) -> const ReflectiveShadowMap& {
+    Stopwatch watch;
+    ReflectiveShadowMap& map = buffers_->map;
+    if (settings.from_camera) {
+      render_rsm(world, camera, aspect, settings, map);
+    } else {
+      render_rsm(world, world.scene().lights[m], settings, map);
+    }
+    map_ms += watch.lap();
+    return map;
+  };
+  const std::size_t maps = settings.from_camera ? 1 : world.scene().lights.size();
+  buffers_->gather(world, maps, fetch, view, settings, result, keep_stages);
+
+  // Maps are made while they are chosen from, or gathered
+  const char* within = settings.pattern == RsmPattern::whole ? "rsm.choose" : "rsm.gather";
+  for (PassTime& pass : result.passes) {
+    if (pass.name == within) pass.ms -= map_ms;
+  }
+  result.passes.insert(result.passes.begin(), {"rsm.map", map_ms});
   return {};
 }
 

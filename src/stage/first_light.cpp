@@ -5,8 +5,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include "lambent/first_picture.h"
-#include "scene/limits.h"
-#include "shared/color.h"
 #include "shared/rays.h"
 #include "stage/lamps.h"
 #include "stage/seen.h"
@@ -58,28 +56,6 @@ bool has_lights_or_sky(const Scene& scene) {
   if (scene.environment.radiance != glm::vec3(0.0f)) return true;
   return std::any_of(scene.lights.begin(), scene.lights.end(),
                      [](const Light& light) { return light.intensity != glm::vec3(0.0f); });
-}
-
-/// The scene's light where it is a sun: directional, from above, and the only one. Several are
-/// somebody's setting, in which others stand for the sky. Null: there is none.
-const Light* find_lone_sun(const Scene& scene) {
-  const Light* sun = nullptr;
-  for (const Light& light : scene.lights) {
-    if (light.intensity == glm::vec3(0.0f)) continue;
-    if (sun != nullptr || light.type != Light::Type::directional) return nullptr;
-    sun = &light;
-  }
-  return sun != nullptr && sun->direction_ws.y < 0.0f ? sun : nullptr;
-}
-
-/// Whether a scene has a sun without a sky, and the camera sees something of what the sky would
-/// light, or itself.
-bool lacks_sky(const World& world, const Camera& camera) {
-  const Scene& scene = world.scene();
-  if (scene.environment.radiance != glm::vec3(0.0f) || find_lone_sun(scene) == nullptr)
-    return false;
-  const SeenView view = pass_moving_surfaces(world, camera);
-  return view.sky_share > 0.0f || measure_view_light(world, view).sky_visibility > 0.0f;
 }
 
 /// Whether a scene is a piece of ground with things on it, rather than a thing.
@@ -162,8 +138,6 @@ std::string_view name_of(FirstLight light) {
   switch (light) {
     case FirstLight::scene:
       return "scene";
-    case FirstLight::sky:
-      return "sky";
     case FirstLight::studio:
       return "studio";
     case FirstLight::sun:
@@ -175,9 +149,7 @@ std::string_view name_of(FirstLight light) {
 }
 
 FirstLight choose_first_light(const World& world, const Camera& camera) {
-  if (has_lights_or_sky(world.scene())) {
-    return lacks_sky(world, camera) ? FirstLight::sky : FirstLight::scene;
-  }
+  if (has_lights_or_sky(world.scene())) return FirstLight::scene;
   const SeenView view = pass_moving_surfaces(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
@@ -200,13 +172,7 @@ void set_first_light(FirstLight light, const World& world, const Camera& camera,
   if (light == FirstLight::scene) return;
   const SeenView view = pass_moving_surfaces(world, camera);
   const std::uint32_t revision = scene.environment.revision + 1;
-  if (light == FirstLight::sky) {
-    const Light* sun = find_lone_sun(scene);
-    const float strength = sun != nullptr ? luminance(sun->intensity) : 0.0f;
-    scene.environment = {};
-    scene.environment.radiance =
-        glm::min(kFirstSky * (strength / luminance(kFirstSunIrradiance)), glm::vec3(kMaxRadiance));
-  } else if (light == FirstLight::studio) {
+  if (light == FirstLight::studio) {
     glm::vec3 front(camera.world_from_view[2]);  // the camera looks along its -Z
     front.y = 0.0f;
     front = glm::length(front) > 0.0f ? glm::normalize(front) : glm::vec3(0.0f, 0.0f, 1.0f);

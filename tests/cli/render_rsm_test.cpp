@@ -14,6 +14,7 @@ namespace {
 using test::ProgramResult;
 using test::run_program;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class RenderRsm : public ::testing::Test {
  protected:
@@ -85,6 +86,31 @@ TEST_F(RenderRsm, WithTheFieldCountsEmissionOnce) {
   EXPECT_NEAR(mean("indirect") / all, 1.0, 1e-4);
 }
 
+TEST_F(RenderRsm, TellsOfManyLightsThatAreSlow) {
+  const std::string common = "house --size 8x5 --samples 1 --rsm-size 16 --method rsm ";
+  EXPECT_THAT(render(common).errors, Not(HasSubstr("--rsm-merge-maps")));
+  const ProgramResult many = render(common + "--rsm-texels 1025");
+  EXPECT_EQ(many.status, 0);
+  EXPECT_THAT(many.errors, HasSubstr("16 lights have 16400 texels to gather, 1025 each"));
+  EXPECT_THAT(many.errors, HasSubstr("--rsm-merge-maps"));
+  EXPECT_THAT(render(common + "--rsm-texels 1025 --rsm-merge-maps").errors,
+              Not(HasSubstr("texels to gather")));
+}
+
+TEST_F(RenderRsm, AsksLightsInSubImages) {
+  const std::string common = "house --size 48x27 --samples 1 --layers --rsm-size 16 --method ";
+  ASSERT_EQ(render(common + "rsm").status, 0);
+  const double plain = mean("direct");
+  for (const std::string options :
+       {"rsm --rsm-direct", "rsm --rsm-direct --rsm-direct-lights 4 --rsm-merge-maps",
+        "rsm+field --probes 4x4x4 --rays 32 --updates 1 --rsm-direct --rsm-direct-lights 65536"}) {
+    const ProgramResult result = render(common + options);
+    ASSERT_EQ(result.status, 0) << options << ": " << result.errors;
+    EXPECT_NEAR(mean("direct") / plain, 1.0, 0.02) << options;
+    EXPECT_GT(mean("indirect"), 0.0) << options;
+  }
+}
+
 struct BadUse {
   const char* arguments;
   const char* named;
@@ -103,7 +129,16 @@ TEST_F(RenderRsm, RefusesWhatMakesNoSenseAndSaysWhy) {
         BadUse{"--method rsm+field --rsm-from-camera", "--rsm-from-camera"},
         BadUse{"--method rsm --rsm-pattern square", "--rsm-pattern"},
         BadUse{"--method rsm --rsm-radius 0.5", "--rsm-radius"},
-        BadUse{"--method rsm --rsm-pattern disk --rsm-texels 0", "--rsm-texels"}}) {
+        BadUse{"--method rsm --rsm-pattern disk --rsm-texels 0", "--rsm-texels"},
+        BadUse{"--method field --rsm-direct", "--rsm-direct"},
+        BadUse{"--method direct --rsm-direct", "--rsm-direct"},
+        BadUse{"--method rsm --rsm-direct --rsm-from-camera", "--rsm-direct"},
+        BadUse{"--method rsm --rsm-direct-lights 4", "--rsm-direct-lights"},
+        BadUse{"--method rsm --rsm-direct --rsm-direct-lights -1", "--rsm-direct-lights"},
+        BadUse{"--method rsm --rsm-direct --rsm-direct-lights 65537", "--rsm-direct-lights"},
+        BadUse{"--method field --rsm-merge-maps", "--rsm-merge-maps"},
+        BadUse{"--method rsm --rsm-merge-maps --rsm-texels 0", "--rsm-merge-maps"},
+        BadUse{"--method rsm --rsm-merge-maps --rsm-pattern disk", "--rsm-merge-maps"}}) {
     const ProgramResult result = render(std::string("cornell-spot --size 8x8 ") + use.arguments);
     EXPECT_EQ(result.status, 2) << use.arguments;
     EXPECT_THAT(result.errors, HasSubstr(use.named)) << use.arguments;

@@ -8,6 +8,7 @@
 #include "lambent/rsm.h"
 #include "lambent/world.h"
 #include "scenes/builtin.h"
+#include "support/lit_box.h"
 #include "support/vulkan_device.h"
 
 namespace lambent {
@@ -43,7 +44,22 @@ struct Job {
   int updates = 2;
   bool with_rsm = false;
   std::vector<FogVolume> fog = {};
+  int lights = 0;  // that shine in place of the scene's, if any, and how many a pixel asks
+  int direct_lights = 0;
+  bool merge_maps = false;
 };
+
+/// The light of maps alone, and direct light in their sub-images.
+LayeredImage render_directly(const Scene& scene, const World& world, const Job& job) {
+  IndirectSources sources;
+  sources.rsm.emplace();
+  sources.rsm->resolution = 32;
+  sources.rsm->texels = 256;
+  sources.rsm->direct = true;
+  sources.rsm->direct_lights = job.direct_lights;
+  sources.rsm->merge_maps = job.merge_maps;
+  return Renderer(world, sources).render(scene.cameras.front(), job.frame).value().image;
+}
 
 LayeredImage render(const Scene& scene, const World& world, const Job& job) {
   Expected<IrradianceField> field = IrradianceField::make(job.field, open_bounds(world));
@@ -62,6 +78,11 @@ class Frame : public test::OnDevice {
   static Frames render_both(const Job& job) {
     Scene scene = *scenes::make(job.scene);
     scene.fog = job.fog;
+    if (job.lights > 0) {
+      scene.lights = test::lit_box(job.scene, job.lights).lights;
+      const World here(scene), there(scene, shared_device());
+      return {render_directly(scene, here, job), render_directly(scene, there, job)};
+    }
     const World here(scene), there(scene, shared_device());
     return {render(scene, here, job), render(scene, there, job)};
   }
@@ -205,6 +226,47 @@ TEST_F(Frame, WithMapsIsTheSame) {
   job.with_rsm = true;
   job.updates = 1;
   expect_alike(render_both(job));
+}
+
+// Suns, points and spots over metals, through glass and through fog, all asked or shared out. A
+// picture that is wider than a workgroup's part of a sub-image, and several samples.
+TEST_F(Frame, WithDirectLightInSubImagesIsTheSame) {
+  FogVolume fog;
+  fog.size = glm::vec3(20.0f);
+  fog.density = 0.05f;
+  for (const char* scene : {"spheres", "glass"}) {
+    for (const int direct_lights : {0, 3}) {
+      Job job = small(scene);
+      job.lights = 20;
+      job.direct_lights = direct_lights;
+      job.frame.width = 70;
+      job.frame.samples = 2;
+      if (direct_lights > 0) job.fog = {fog};
+      const Frames frames = render_both(job);
+      for (const char* layer : {"direct", "glossy"}) {
+        EXPECT_GT(frames.cpu.find(layer)->pixels.size(), 0u);
+        EXPECT_LE(relative_rmse(frames, layer), kTolerance) << scene << ", " << layer;
+      }
+    }
+  }
+}
+
+// More lights than fit into memory at once for a band's rays.
+TEST_F(Frame, WithDirectLightOfManyLightsIsTheSame) {
+  Job job = small("cornell-spot");
+  job.lights = 300;
+  job.frame.width = 128;
+  job.frame.height = 96;
+  EXPECT_LE(relative_rmse(render_both(job), "direct"), kTolerance);
+}
+
+// Clusters that are brought together are others where hits are rounded differently.
+TEST_F(Frame, WithMergedMapsIsAlike) {
+  constexpr double kOtherClusters = 0.1;
+  Job job = small("cornell-spot");
+  job.lights = 12;
+  job.merge_maps = true;
+  EXPECT_LE(relative_rmse(render_both(job), "indirect"), kOtherClusters);
 }
 
 }  // namespace

@@ -177,15 +177,17 @@ TEST_F(RsmMapsTwin, LightTheViewAlikeWithoutLeavingTheDevice) {
 TEST_F(RsmMapsTwin, ChooseTexelsThatAreAsGood) {
   const TwinStage stage(lit_box(), shared_device());
   const TwinView view(stage, device());
-  RsmSettings full = small_maps(64);
+  RsmSettings full = small_maps(64), merged = small_maps(64);
   full.layout = RsmLayout::full;
-  for (const RsmSettings& settings : {small_maps(64), full}) {
+  merged.merge_maps = true;
+  for (const RsmSettings& settings : {small_maps(64), full, merged}) {
     RsmMapsOnDevice maps;
     const std::vector<vec3> light = light_on_device(stage, view, settings, maps);
     const std::vector<ReflectiveShadowMap> same = download_maps(device(), maps);
     const std::vector<vec3> expected = light_on_host(stage, view, same, settings);
     RsmSettings exhaustive = settings;
     exhaustive.texels = 0;
+    exhaustive.merge_maps = false;
     const std::vector<vec3> truth = light_on_host(stage, view, same, exhaustive);
     const double error = relative_rmse(truth, expected);
     EXPECT_LT(relative_rmse(expected, light), error);
@@ -211,6 +213,32 @@ TEST_F(RsmMapsTwin, ChooseAllLightFromTheSamePointsOfView) {
     expected_sum += expected.restructured[i].flux;
   }
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(sum[c], expected_sum[c], 0.01f * expected_sum[c]);
+}
+
+// Memory for one map serves all lights, and the clusters are the same.
+TEST_F(RsmMapsTwin, ChooseTheSameOfMapsMadeOneAfterTheOther) {
+  const TwinStage stage(lit_box(), shared_device());
+  const TwinView view(stage, device());
+  auto& mapper = device().kept<RsmMapperVulkan>();
+  for (const bool merge : {false, true}) {
+    RsmSettings settings = small_maps(45);
+    settings.merge_maps = merge;
+    RsmMapsOnDevice all, one;
+    mapper.render(stage.world, stage.camera(), kAspect, settings, all);
+    const RsmLights expected = mapper.choose(all, view.on_device, settings);
+    EXPECT_EQ(expected.restructured.size(), merge ? 208u : 4u * 208u);
+    mapper.prepare(stage.world, stage.camera(), kAspect, settings, one);
+    ASSERT_TRUE(one.one_at_a_time);
+    EXPECT_LT(one.texels.bytes(), all.texels.bytes());
+    double map_ms = 0.0;
+    const RsmLights lights =
+        mapper.choose(one, view.on_device, settings, device_world_of(stage.world), &map_ms);
+    EXPECT_EQ(lights.places, expected.places);
+    ASSERT_EQ(lights.restructured.size(), expected.restructured.size());
+    for (std::size_t k = 0; k < lights.restructured.size(); ++k) {
+      EXPECT_EQ(lights.restructured[k].flux, expected.restructured[k].flux);
+    }
+  }
 }
 
 }  // namespace

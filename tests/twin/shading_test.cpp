@@ -301,7 +301,7 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   GBuffer gbuffer;
   trace_gbuffer(world, camera, frame, band, 0, gbuffer);
   ReflectedLight host;
-  shade_direct(world, gbuffer, frame, band, 0, host);
+  shade_direct(world, gbuffer, frame, band, 0, false, host);
 
   std::vector<Ray> rays;
   rays.reserve(static_cast<std::size_t>(frame.width * frame.height));

@@ -6,7 +6,6 @@
 #include "raytracing/world_access.h"
 #include "scenes/builtin.h"
 #include "stage/seen.h"
-#include "stage/studio.h"
 #include "support/box_scenes.h"
 #include "support/hand_made.h"
 
@@ -36,52 +35,6 @@ TEST(FirstLight, IsTheScenesWhereItHasOne) {
   Scene sky = scene_of({box_mesh({-1, -1, -1}, {1, 1, 1})});
   sky.environment.radiance = glm::vec3(1.0f);
   EXPECT_EQ(chosen(sky), FirstLight::scene);
-}
-
-/// A ground with a box on it in the sun.
-Scene sunny_ground() {
-  Scene scene = scene_of({box_mesh({-9, -1, -9}, {9, 0, 9}), box_mesh({-2, 0, -2}, {0, 3, 0})});
-  Light& sun = scene.lights.emplace_back();
-  sun.type = Light::Type::directional;
-  sun.direction_ws = glm::normalize(glm::vec3(0.3f, -1.0f, 0.2f));
-  sun.intensity = 50.0f * kFirstSunIrradiance;
-  return scene;
-}
-
-TEST(FirstLight, IsTheScenesSunWithASkyAsMuchBrighterAsThatIs) {
-  Scene scene = sunny_ground();
-  ASSERT_EQ(chosen(scene), FirstLight::sky);
-  World world(scene);
-  const std::vector<Light> before = scene.lights;
-  set_first_light(FirstLight::sky, world, first_view(world).value().camera, scene);
-  EXPECT_EQ(scene.lights, before);
-  EXPECT_NEAR(scene.environment.radiance.y, 50.0f * kFirstSky.y, 1e-2f);
-  EXPECT_NEAR(scene.environment.radiance.z / scene.environment.radiance.x,
-              kFirstSky.z / kFirstSky.x, 1e-4f);
-}
-
-TEST(FirstLight, IsNotGivenASkyWhereALightIsNoSunOrOneOfSeveral) {
-  Scene from_below = sunny_ground();
-  from_below.lights[0].direction_ws *= -1.0f;
-  EXPECT_EQ(chosen(from_below), FirstLight::scene);
-  Scene with_lamp = sunny_ground();
-  with_lamp.lights.emplace_back();
-  EXPECT_EQ(chosen(with_lamp), FirstLight::scene);
-  Scene of_two = sunny_ground();
-  of_two.lights.push_back(of_two.lights[0]);
-  EXPECT_EQ(chosen(of_two), FirstLight::scene);
-  // Black lights are none
-  of_two.lights[1].intensity = glm::vec3(0.0f);
-  EXPECT_EQ(chosen(of_two), FirstLight::sky);
-}
-
-TEST(FirstLight, IsNotGivenASkyThatNothingSeenWouldSee) {
-  Scene closed =
-      scene_of({box_mesh({-4, 0, -4}, {4, 3, 4}, true), box_mesh({-1, 0, -1}, {0, 1, 0})});
-  closed.lights = sunny_ground().lights;
-  const World world(closed);
-  const Camera inside = look_at({3, 1.5f, 3}, {0, 1, 0}, 1.0f);
-  EXPECT_EQ(choose_first_light(world, inside), FirstLight::scene);
 }
 
 TEST(FirstLight, DoesNotTakeALightWithoutIntensityForOne) {

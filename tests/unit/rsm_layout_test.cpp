@@ -171,7 +171,11 @@ TEST(RsmLights, KeepAllLightHoweverManyTheyAre) {
 TEST(RsmLights, LieInTheRestructuredBufferAsWhereTheyWereRendered) {
   const NumberedView view(8, 8);
   const ReflectiveShadowMap map = numbered_map(128);
-  const RsmLights lights = choose_lights({&map, 1}, view.view(), {});
+  RsmSettings settings;
+  EXPECT_TRUE(choose_lights({&map, 1}, view.view(), settings).rendered.empty());  // is not read
+  settings.layout = RsmLayout::full;
+  const RsmLights lights = choose_lights({&map, 1}, view.view(), settings);
+  ASSERT_EQ(lights.rendered.size(), map.texels.size() + 1);
   for (std::size_t k = 0; k < lights.restructured.size(); ++k) {
     EXPECT_EQ(lights.restructured[k].flux, lights.rendered[lights.places[k]].flux);
   }

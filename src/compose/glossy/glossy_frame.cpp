@@ -252,7 +252,7 @@ std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t g
   for (std::uint32_t bounce = 1; going > 0 && bounce <= kMaxWays; ++bounce) {
     traced += follow_rays(settings, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
-                           static_cast<int>(coat_salt(salt_, bounce)), direct_);
+                           static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
     going = light_hits(settings, bounce);
   }
   return traced;

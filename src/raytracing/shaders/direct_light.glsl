@@ -31,8 +31,11 @@ void group_importances(SceneArray scene, uint group, vec3 position_ws, vec3 norm
 
 #include "scene/light_tree/light_tree.inl.h"
 
+bool emitters_alone(LightDrawsArguments draws) {
+  return draws.emitters_alone != 0u;
+}
 uint asked_lights(LightDrawsArguments draws) {
-  return draws.scene.at[0].asked_count;
+  return emitters_alone(draws) ? 0u : draws.scene.at[0].asked_count;
 }
 uint fetch_asked(LightDrawsArguments draws, uint slot) {
   return draws.scene.at[0].asked.at[slot];
@@ -40,15 +43,16 @@ uint fetch_asked(LightDrawsArguments draws, uint slot) {
 LightRecord fetch_light(LightDrawsArguments draws, uint light) {
   return draws.scene.at[0].lights.at[light];
 }
-uint tree_samples(LightDrawsArguments draws) {
-  return light_tree_size(draws.scene) > 0u ? draws.tree_samples : 0u;
-}
 void pick_lights(LightDrawsArguments draws, vec3 position_ws, vec3 normal_ws, uint count,
                  inout LightPicks picks) {
   pick_lights(draws.scene, position_ws, normal_ws, count, picks);
 }
 uint emitter_count(LightDrawsArguments draws) {
   return draws.scene.at[0].emitter_count;
+}
+uint tree_samples(LightDrawsArguments draws) {
+  uint lights = emitters_alone(draws) ? emitter_count(draws) : light_tree_size(draws.scene);
+  return lights > 0u ? draws.tree_samples : 0u;
 }
 EmitterRecord fetch_emitter(LightDrawsArguments draws, uint emitter) {
   return draws.scene.at[0].emitters.at[emitter];

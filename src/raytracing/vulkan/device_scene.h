@@ -75,6 +75,7 @@ class DeviceScene {
   std::uint32_t asked_lights() const { return asked_lights_; }
   /// Whether there are more, from which points draw.
   bool has_light_tree() const { return tree_size_ > 0; }
+  bool has_emitters() const { return emitter_count_ > 0; }
   const vulkan::Device& device() const { return device_; }
   /// Memory held on the device.
   std::size_t bytes() const;

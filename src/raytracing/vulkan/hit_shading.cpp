@@ -41,9 +41,9 @@ template <class Work>
 void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
                                 const ShadeHitsSettings& settings, Work work) {
   Chunk chunk{};
-  chunk.samples =
-      scene.has_light_tree() ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
-  chunk.slots = scene.asked_lights() + chunk.samples;
+  const bool draws = settings.emitters_alone ? scene.has_emitters() : scene.has_light_tree();
+  chunk.samples = draws ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
+  chunk.slots = (settings.emitters_alone ? 0 : scene.asked_lights()) + chunk.samples;
   const std::uint32_t most = std::clamp(kMaxSlots / std::max(chunk.slots, 1u), 1u, kMaxInvocations);
   chunk.count = std::min(most, count);
   reserve(chunk);
@@ -83,6 +83,7 @@ LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray po
   arguments.seed = settings.seed;
   arguments.media = stage.media.records;
   arguments.media_count = stage.media.count;
+  arguments.emitters_alone = settings.emitters_alone ? 1 : 0;
   return arguments;
 }
 

@@ -106,8 +106,8 @@ class HitShading {
                       const DeviceSeenHits& hits, std::uint32_t first_index, bool traces_coats,
                       const DevicePixels& out);
 
-  /// As shade_direct. Of the settings, the emissive samples, the salt (the frame's sample) and the
-  /// seed count.
+  /// As shade_direct. Of the settings, the emissive samples, whether emitters are alone, the salt
+  /// (the frame's sample) and the seed count.
   void reflected_light(vulkan::Recorder& recorder, const DeviceStage& stage,
                        const DevicePixels& pixels, std::uint32_t count,
                        const ShadeHitsSettings& settings, const DeviceReflectedLight& out);

@@ -96,6 +96,8 @@ struct LightDrawsArguments {
   uint salt;
   uint seed;
   uint media_count;
+  uint emitters_alone;  ///< 1: directional, point and spot lights are left out.
+  uint padding;
 };
 
 /// Sums what arrives, slot after slot.

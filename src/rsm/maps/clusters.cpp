@@ -74,8 +74,41 @@ int widest_axis(std::span<const Cluster> clusters, float normal_scale) {
   return best;
 }
 
+/// Area of all clusters [m^2]. Where they overlap, areas do not add up; their extent tells: a
+/// square of area A has a mean squared distance from its middle of A / 6, and so have squares of
+/// the clusters' own areas.
+float area_of(std::span<const Cluster> clusters, bool overlap) {
+  float sum = 0.0f;
+  vec3 middle(0.0f);
+  for (const Cluster& cluster : clusters) {
+    sum += cluster.texel.area;
+    middle += cluster.texel.area * cluster.texel.position_ws;
+  }
+  if (!overlap || !(sum > 0.0f)) return sum;
+  middle /= sum;
+  float moment = 0.0f;
+  for (const Cluster& cluster : clusters) {
+    const vec3 offset = cluster.texel.position_ws - middle;
+    moment += cluster.texel.area * (6.0f * dot(offset, offset) + cluster.texel.area);
+  }
+  return std::min(sum, moment / sum);
+}
+
+/// How clusters are merged.
+struct Merging {
+  float normal_scale;
+  bool overlap;
+
+  /// Whether a cluster tells better than another which surface both stand for. Where they overlap,
+  /// what one light sends to the far side of a wall must not carry off what others send to this
+  /// one.
+  bool leads(const Cluster& a, const Cluster& b) const {
+    return overlap ? a.brought > b.brought : power_of(a.texel.flux) > power_of(b.texel.flux);
+  }
+};
+
 /// Fills result with one cluster for each of its places.
-void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> result) {
+void merge(std::span<Cluster> clusters, const Merging& by, std::span<Cluster> result) {
   if (clusters.size() == 1) {
     // Part its light among its places
     Cluster part = clusters.front();
@@ -87,10 +120,9 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
   }
   if (result.size() == 1) {
     const Cluster* brightest = &clusters.front();
-    float area = 0.0f;
+    const float area = area_of(clusters, by.overlap);
     for (const Cluster& cluster : clusters) {
-      area += cluster.texel.area;
-      if (power_of(cluster.texel.flux) > power_of(brightest->texel.flux)) brightest = &cluster;
+      if (by.leads(cluster, *brightest)) brightest = &cluster;
     }
     const RsmTexelRecord seed = to_record(brightest->texel);
     ClusterSum sum = empty_cluster();
@@ -99,14 +131,16 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
       add_to_cluster(sum, to_record(cluster.texel), seed, std::sqrt(area));
       brought += cluster.brought;
     }
+    sum.area = area;
     result.front() = {to_texel(cluster_texel(sum, seed)), brightest->place, 0.0f, brought};
     return;
   }
 
   // Split where the weight is parted as the places are
-  const int axis = widest_axis(clusters, normal_scale);
+  const int axis = widest_axis(clusters, by.normal_scale);
   std::sort(clusters.begin(), clusters.end(), [&](const Cluster& a, const Cluster& b) {
-    const float key_a = key_of(a, normal_scale)[axis], key_b = key_of(b, normal_scale)[axis];
+    const float key_a = key_of(a, by.normal_scale)[axis];
+    const float key_b = key_of(b, by.normal_scale)[axis];
     return key_a != key_b ? key_a < key_b : a.place < b.place;
   });
   double total = 0.0;
@@ -123,7 +157,7 @@ void merge(std::span<Cluster> clusters, float normal_scale, std::span<Cluster> r
   const auto places =
       std::clamp<std::size_t>(static_cast<std::size_t>(fair + 0.5), 1, result.size() - 1);
   const auto half = [&](std::size_t i) {
-    merge(i == 0 ? clusters.first(split) : clusters.subspan(split), normal_scale,
+    merge(i == 0 ? clusters.first(split) : clusters.subspan(split), by,
           i == 0 ? result.first(places) : result.subspan(places));
   };
   if (clusters.size() >= kParallelClusters) {
@@ -153,7 +187,8 @@ std::vector<Cluster> cluster_blocks(const ReflectiveShadowMap& map) {
   return clusters;
 }
 
-std::vector<Cluster> merge_clusters(std::vector<Cluster> clusters, std::uint32_t count) {
+std::vector<Cluster> merge_clusters(std::vector<Cluster> clusters, std::uint32_t count,
+                                    bool overlap) {
   std::vector<Cluster> result;
   double total = 0.0;
   Bounds bounds;
@@ -163,7 +198,7 @@ std::vector<Cluster> merge_clusters(std::vector<Cluster> clusters, std::uint32_t
   }
   if (!(total > 0.0) || count == 0) return result;
   result.resize(count);
-  merge(clusters, kNormalScale * length(bounds.max - bounds.min), result);
+  merge(clusters, {kNormalScale * length(bounds.max - bounds.min), overlap}, result);
   return result;
 }
 

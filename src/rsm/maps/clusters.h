@@ -25,7 +25,9 @@ std::vector<Cluster> cluster_blocks(const ReflectiveShadowMap& map);
 /// Brings clusters together until there are `count`, of about the same weight, each as compact as
 /// can be in position and normal. Clusters that outweigh a share appear several times, each time
 /// with its part of the light: there are `count` in any case, unless there is no weight at all.
-/// Neighbours in the result are neighbours in the scene.
-std::vector<Cluster> merge_clusters(std::vector<Cluster> clusters, std::uint32_t count);
+/// Neighbours in the result are neighbours in the scene. `overlap`: they are of several maps, and
+/// may show the same pieces of surfaces.
+std::vector<Cluster> merge_clusters(std::vector<Cluster> clusters, std::uint32_t count,
+                                    bool overlap = false);
 
 }  // namespace lambent

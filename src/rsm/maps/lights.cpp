@@ -23,7 +23,8 @@ constexpr std::size_t kClustersPerTask = 256;
 // the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
 // their error falls with their size.
 constexpr float kBroughtExponent = 0.4f;
-// Clusters are scaled by at most this factor to bring what their texels brought.
+// Clusters are scaled by at most this factor to bring what their texels brought; those of several
+// maps, which may hold light of a wall's far side, are dimmed as far as it takes.
 constexpr float kMaxScale = 2.0f;
 // Weight that power alone has beside what is brought to the points: light that none of them sees is
 // not left to a few huge clusters.
@@ -94,11 +95,13 @@ ViewPoints view_points(const RsmView& view, std::uint32_t seed) {
 }
 
 std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<const TermSums> sums,
-                                     const ViewPoints& points, const RsmSettings& settings) {
+                                     const ViewPoints& points, const RsmSettings& settings,
+                                     bool overlap) {
   weigh(sums, clusters);
   const auto subs = static_cast<std::uint32_t>(settings.sub_maps * settings.sub_maps);
   clusters = merge_clusters(std::move(clusters),
-                            (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs);
+                            (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs,
+                            overlap);
 
   // One normal and one place do not bring quite what many did: scale each cluster to do so
   const std::vector<TermSums> now = brought_to(points, clusters);
@@ -106,7 +109,8 @@ std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<co
     RsmTexel& texel = clusters[i].texel;
     const float brings = luminance(texel.flux) * now[i].terms;
     if (!(brings > 0.0f) || points.count == 0) continue;
-    const float scale = std::clamp(clusters[i].brought / brings, 1.0f / kMaxScale, kMaxScale);
+    const float least = overlap ? 0.0f : 1.0f / kMaxScale;
+    const float scale = std::clamp(clusters[i].brought / brings, least, kMaxScale);
     texel.flux *= scale;
   }
   return clusters;
@@ -205,23 +209,45 @@ std::vector<Cluster> all_texels(const ReflectiveShadowMap& map) {
   return chosen;
 }
 
-void place_rendered(std::span<const ReflectiveShadowMap> maps, RsmLights& lights) {
-  lights.rendered.clear();
-  for (const ReflectiveShadowMap& map : maps) {
-    lights.rendered.insert(lights.rendered.end(), map.texels.begin(), map.texels.end());
-  }
+void place_rendered(std::vector<RsmTexel> texels, RsmLights& lights) {
+  lights.rendered = std::move(texels);
   lights.rendered.emplace_back().softening = 1.0f;
   for (std::size_t k = 0; k < lights.places.size(); ++k) {
     lights.rendered[lights.places[k]] = lights.restructured[k];
   }
 }
 
-RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+ChosenOfMap merge_maps(std::span<const ChosenOfMap> maps, const ViewPoints& points,
+                       const RsmSettings& settings) {
+  ChosenOfMap all;
+  for (const ChosenOfMap& map : maps) {
+    // A cluster that outweighed its share was parted among neighbours: make it whole again
+    const std::size_t first = all.chosen.size();
+    for (const Cluster& cluster : map.chosen) {
+      const std::uint32_t place = all.texels + cluster.place;
+      if (all.chosen.size() > first && all.chosen.back().place == place) {
+        all.chosen.back().texel.flux += cluster.texel.flux;
+      } else {
+        all.chosen.push_back(cluster);
+        all.chosen.back().place = place;
+      }
+    }
+    all.texels += map.texels;
+  }
+  const std::vector<TermSums> sums = brought_to(points, all.chosen);
+  all.chosen = choose_clusters(std::move(all.chosen), sums, points, settings, true);
+  return all;
+}
+
+RsmLights choose_lights(std::size_t maps, const FetchMap& fetch, const RsmView& view,
                         const RsmSettings& settings) {
   const ViewPoints points =
       settings.view_importance ? view_points(view, settings.seed) : ViewPoints(0);
+  const bool full = settings.layout == RsmLayout::full;
   std::vector<ChosenOfMap> chosen;
-  for (const ReflectiveShadowMap& map : maps) {
+  std::vector<RsmTexel> rendered;
+  for (std::size_t m = 0; m < maps; ++m) {
+    const ReflectiveShadowMap& map = fetch(m);
     ChosenOfMap of_map;
     of_map.texels = static_cast<std::uint32_t>(map.texels.size());
     if (settings.texels == 0) {
@@ -232,10 +258,18 @@ RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView
       of_map.chosen = choose_clusters(std::move(clusters), sums, points, settings);
     }
     chosen.push_back(std::move(of_map));
+    if (full) rendered.insert(rendered.end(), map.texels.begin(), map.texels.end());
   }
+  if (merges_maps(settings, maps)) chosen = {merge_maps(chosen, points, settings)};
   RsmLights lights = deal_lights(chosen, settings);
-  place_rendered(maps, lights);
+  if (full) place_rendered(std::move(rendered), lights);
   return lights;
+}
+
+RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
+                        const RsmSettings& settings) {
+  const auto fetch = [&](std::size_t m) -> const ReflectiveShadowMap& { return maps[m]; };
+  return choose_lights(maps.size(), fetch, view, settings);
 }
 
 }  // namespace lambent

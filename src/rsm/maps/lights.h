@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,8 +16,9 @@ namespace lambent {
 
 /// The texels that are gathered, twice: where they were rendered, and restructured.
 struct RsmLights {
-  /// All texels of all maps, one map after the other, where they were rendered, and at the end one
-  /// that brings nothing. Those that stand for a cluster hold the light of all of it.
+  /// RsmLayout::full: all texels of all maps, one map after the other, where they were rendered,
+  /// and at the end one that brings nothing. Those that stand for a cluster hold the light of all
+  /// of it. Other layouts do not read it, and it is empty.
   std::vector<RsmTexel> rendered;
   /// The chosen ones, sub-map after sub-map, each contiguous and all of one length.
   std::vector<RsmTexel> restructured;
@@ -28,10 +30,18 @@ struct RsmLights {
   std::uint32_t count(int sub_map) const { return starts[sub_map + 1] - starts[sub_map]; }
 };
 
+/// Gives a map by its index. Maps are asked for once each, in their order, and are not read any
+/// more when the next is asked for: they may all share one map's memory.
+using FetchMap = std::function<const ReflectiveShadowMap&(std::size_t)>;
+
 /// Brings the texels of each map together in settings.texels clusters (rounded up to fill all
 /// sub-maps alike), more of them where they matter to the view, if that is asked for: no light is
-/// lost. All texels, as they are, where settings.texels is 0. Each lands in exactly one sub-map,
-/// and every sub-map alone stands for all light.
+/// lost. With settings.merge_maps, those of all maps together. All texels, as they are, where
+/// settings.texels is 0. Each lands in exactly one sub-map, and every sub-map alone stands for all
+/// light.
+RsmLights choose_lights(std::size_t maps, const FetchMap& fetch, const RsmView& view,
+                        const RsmSettings& settings);
+/// The same of maps that are all there.
 RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                         const RsmSettings& settings);
 
@@ -51,9 +61,10 @@ ViewPoints view_points(const RsmView& view, std::uint32_t seed);
 // The steps of choose_lights, for those that have made the ones before elsewhere.
 
 /// Brings the clusters of a map's blocks together in settings.texels, by what each brings to the
-/// points (`sums`; all 1 where there are no points).
+/// points (`sums`; all 1 where there are no points). `overlap` as of merge_clusters.
 std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<const TermSums> sums,
-                                     const ViewPoints& points, const RsmSettings& settings);
+                                     const ViewPoints& points, const RsmSettings& settings,
+                                     bool overlap = false);
 
 /// What was chosen of a map, and how many texels it has.
 struct ChosenOfMap {
@@ -61,14 +72,24 @@ struct ChosenOfMap {
   std::uint32_t texels = 0;
 };
 
+/// Whether the texels of so many maps are brought together across maps.
+inline bool merges_maps(const RsmSettings& settings, std::size_t maps) {
+  return settings.merge_maps && settings.texels > 0 && maps > 1;
+}
+
+/// Brings what was chosen of each map together once more, in settings.texels clusters of all maps:
+/// surfaces that several lights reach send all of their light from the same clusters.
+ChosenOfMap merge_maps(std::span<const ChosenOfMap> maps, const ViewPoints& points,
+                       const RsmSettings& settings);
+
 /// Deals what was chosen to sub-maps. `rendered` stays empty.
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings);
 
 /// All texels that are lit, as they are, neighbours after each other.
 std::vector<Cluster> all_texels(const ReflectiveShadowMap& map);
 
-/// Fills in `rendered`.
-void place_rendered(std::span<const ReflectiveShadowMap> maps, RsmLights& lights);
+/// Makes `rendered` of all texels of all maps.
+void place_rendered(std::vector<RsmTexel> texels, RsmLights& lights);
 
 /// The order in which a curve that keeps neighbours together (Morton 1966) visits the texels of a
 /// square map of any size.

@@ -107,13 +107,14 @@ void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, S
   });
 }
 
-Expected<void> check_view(const Camera& camera, float aspect) {
+}  // namespace
+
+Expected<void> check_map_request(const Camera& camera, float aspect, const RsmSettings& settings) {
+  if (Expected<void> fine = check(settings); !fine) return fine;
   if (const char* flaw = flaw_of(camera)) return fail("", "camera", flaw);
   if (aspect > 0.0f && std::isfinite(aspect)) return {};
   return fail("", "aspect", "must be above 0");
 }
-
-}  // namespace
 
 RsmProjection fit_projection(const Scene& scene, const Light& light) {
   if (light.type == Light::Type::directional) return fit_orthographic(scene, light.direction_ws);
@@ -212,8 +213,8 @@ Expected<ReflectiveShadowMap> render_rsm(const World& world, const Light& light,
 
 Expected<ReflectiveShadowMap> render_rsm(const World& world, const Camera& camera, float aspect,
                                          const RsmSettings& settings) {
-  if (const auto fine = check(settings); !fine) return tl::unexpected(fine.error());
-  if (const auto fine = check_view(camera, aspect); !fine) return tl::unexpected(fine.error());
+  const Expected<void> fine = check_map_request(camera, aspect, settings);
+  if (!fine) return tl::unexpected(fine.error());
   ReflectiveShadowMap map;
   render_rsm(world, camera, aspect, settings, map);
   return map;
@@ -221,8 +222,8 @@ Expected<ReflectiveShadowMap> render_rsm(const World& world, const Camera& camer
 
 Expected<std::vector<ReflectiveShadowMap>> render_rsms(const World& world, const Camera& camera,
                                                        float aspect, const RsmSettings& settings) {
-  if (const auto fine = check(settings); !fine) return tl::unexpected(fine.error());
-  if (const auto fine = check_view(camera, aspect); !fine) return tl::unexpected(fine.error());
+  const Expected<void> fine = check_map_request(camera, aspect, settings);
+  if (!fine) return tl::unexpected(fine.error());
   std::vector<ReflectiveShadowMap> maps;
   render_rsms(world, camera, aspect, settings, maps);
   return maps;

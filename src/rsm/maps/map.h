@@ -18,6 +18,9 @@ RsmProjection camera_projection(const Camera& camera, float aspect);
 /// How what the camera sees is lit for its map.
 ShadeHitsSettings camera_shading(const RsmSettings& settings);
 
+/// Fails as render_rsms does.
+Expected<void> check_map_request(const Camera& camera, float aspect, const RsmSettings& settings);
+
 /// The public functions of these names, for what they accept; `map` and `maps` keep their memory.
 void render_rsm(const World& world, const Light& light, const RsmSettings& settings,
                 ReflectiveShadowMap& map);

@@ -232,12 +232,14 @@ void RsmGathererVulkan::light(RsmMapperVulkan& mapper, const RsmMapsOnDevice& ma
                               const DeviceWorld& world, RsmIrradiance& result, bool keep_stages) {
   start(view.width, view.height, result);
   Stopwatch watch;
+  double map_ms = 0.0;
   if (settings.pattern == RsmPattern::whole) {
-    set_lights(mapper.choose(maps, view, settings), settings);
+    set_lights(mapper.choose(maps, view, settings, &world, &map_ms), settings);
   } else {
     set_maps(maps, settings);
   }
-  result.passes.push_back({"rsm.choose", watch.lap()});
+  if (maps.one_at_a_time) result.passes.push_back({"rsm.map", map_ms});
+  result.passes.push_back({"rsm.choose", watch.lap() - map_ms});
   run(view, settings, &world.tracer(), world.scene().textures(), keep_stages, result);
 }
 

@@ -45,8 +45,8 @@ class RsmGathererVulkan {
   /// buffer may be larger.
   const vulkan::Buffer& irradiance() const { return picture_.picture; }
 
-  /// Gathers the light of maps that `mapper` made, and leaves it on the device; the result's times,
-  /// rays and stages are filled in. Waits.
+  /// Gathers the light of maps that `mapper` made or prepared, and leaves it on the device; the
+  /// result's times, rays and stages are filled in. Waits.
   void light(RsmMapperVulkan& mapper, const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
              const RsmSettings& settings, const DeviceWorld& world, RsmIrradiance& result,
              bool keep_stages = false);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/stopwatch.h"
 #include "lambent/world.h"
 #include "raytracing/world_access.h"
 #include "rsm/maps/map.h"
@@ -18,14 +19,27 @@
 
 namespace lambent {
 
+bool keeps_one_map(const RsmSettings& settings) {
+  return settings.pattern == RsmPattern::whole && settings.layout != RsmLayout::full &&
+         settings.texels > 0 && !settings.from_camera;
+}
+
+ReflectiveShadowMap download_map(const vulkan::Device& device, const RsmMapsOnDevice& maps,
+                                 std::size_t map) {
+  ReflectiveShadowMap result;
+  result.projection = maps.projections[map];
+  result.resolution = maps.resolution;
+  result.texels.resize(maps.texels_of_map());
+  vulkan::read(device, maps.texels, std::span(result.texels), maps.first_texel(map));
+  return result;
+}
+
 std::vector<ReflectiveShadowMap> download_maps(const vulkan::Device& device,
                                                const RsmMapsOnDevice& maps) {
-  std::vector<ReflectiveShadowMap> result(maps.projections.size());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    result[i].projection = maps.projections[i];
-    result[i].resolution = maps.resolution;
-    result[i].texels.resize(maps.texels_of_map());
-    vulkan::read(device, maps.texels, std::span(result[i].texels), i * maps.texels_of_map());
+  assert(!maps.one_at_a_time);
+  std::vector<ReflectiveShadowMap> result;
+  for (std::size_t i = 0; i < maps.projections.size(); ++i) {
+    result.push_back(download_map(device, maps, i));
   }
   return result;
 }
@@ -86,22 +100,21 @@ void RsmMapperVulkan::make_camera_texels(vulkan::Recorder& to, const DeviceWorld
   to.barrier();
 }
 
-void RsmMapperVulkan::render(const World& world, const Camera& camera, float aspect,
-                             const RsmSettings& settings, RsmMapsOnDevice& maps) {
+void RsmMapperVulkan::reserve(const World& world, const Camera& camera, float aspect,
+                              const RsmSettings& settings, RsmMapsOnDevice& maps) {
   assert(check(settings) && device_world_of(world) != nullptr);
-  const DeviceWorld& on_device = *device_world_of(world);
-  const Scene& scene = world.scene();
   maps.resolution = settings.resolution;
   maps.projections.clear();
   if (settings.from_camera) {
     maps.projections.push_back(camera_projection(camera, aspect));
   } else {
-    for (const Light& light : scene.lights) {
-      maps.projections.push_back(fit_projection(scene, light));
+    for (const Light& light : world.scene().lights) {
+      maps.projections.push_back(fit_projection(world.scene(), light));
     }
   }
   const std::size_t rays = maps.texels_of_map();
-  maps.texels.reserve(device_, maps.projections.size() * rays * sizeof(RsmTexel), "rsm.maps");
+  const std::size_t kept = maps.one_at_a_time ? 1 : maps.projections.size();
+  maps.texels.reserve(device_, kept * rays * sizeof(RsmTexel), "rsm.maps");
   rays_.reserve(device_, rays * sizeof(RayRecord), "rsm.map_rays");
   hits_.reserve(device_, rays * sizeof(HitRecord), "rsm.map_hits");
   if (settings.from_camera) {
@@ -110,11 +123,35 @@ void RsmMapperVulkan::render(const World& world, const Camera& camera, float asp
     irradiance_.reserve(device_, rays * sizeof(vec3), "rsm.map_irradiance");
     first_index_.reserve(device_, sizeof(std::uint32_t), "rsm.map_first_index");
   }
+}
+
+void RsmMapperVulkan::render(const World& world, const Camera& camera, float aspect,
+                             const RsmSettings& settings, RsmMapsOnDevice& maps) {
+  maps.one_at_a_time = false;
+  reserve(world, camera, aspect, settings, maps);
+  const DeviceWorld& on_device = *device_world_of(world);
   device_.run([&](vulkan::Recorder& to) {
     to.bind_textures(on_device.scene().textures());
     if (settings.from_camera) return make_camera_texels(to, on_device, maps, settings);
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) make_texels(to, on_device, maps, i);
+    for (std::size_t i = 0; i < maps.projections.size(); ++i) make_texels(to, on_device, maps, i);
   });
+}
+
+void RsmMapperVulkan::prepare(const World& world, const Camera& camera, float aspect,
+                              const RsmSettings& settings, RsmMapsOnDevice& maps) {
+  if (!keeps_one_map(settings)) return render(world, camera, aspect, settings, maps);
+  maps.one_at_a_time = true;
+  reserve(world, camera, aspect, settings, maps);
+}
+
+double RsmMapperVulkan::make(const DeviceWorld& world, const RsmMapsOnDevice& maps,
+                             std::size_t light) {
+  Stopwatch watch;
+  device_.run([&](vulkan::Recorder& to) {
+    to.bind_textures(world.scene().textures());
+    make_texels(to, world, maps, light);
+  });
+  return watch.lap();
 }
 
 ViewPoints RsmMapperVulkan::find_view_points(const RsmViewOnDevice& view,
@@ -162,7 +199,9 @@ std::vector<ClusterRecord> RsmMapperVulkan::cluster_blocks(const RsmMapsOnDevice
 }
 
 RsmLights RsmMapperVulkan::choose(const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
-                                  const RsmSettings& settings) {
+                                  const RsmSettings& settings, const DeviceWorld* world,
+                                  double* map_ms) {
+  assert(!maps.one_at_a_time || (world != nullptr && map_ms != nullptr));
   // Where every texel is gathered, or from where it was rendered, all go to the host
   const bool full = settings.layout == RsmLayout::full;
   std::vector<ReflectiveShadowMap> on_host;
@@ -177,6 +216,7 @@ RsmLights RsmMapperVulkan::choose(const RsmMapsOnDevice& maps, const RsmViewOnDe
       chosen[m].chosen = all_texels(on_host[m]);
       continue;
     }
+    if (maps.one_at_a_time) *map_ms += make(*world, maps, m);
     std::vector<Cluster> clusters;
     std::vector<TermSums> sums;
     for (const ClusterRecord& record : cluster_blocks(maps, m, weigh)) {
@@ -186,8 +226,14 @@ RsmLights RsmMapperVulkan::choose(const RsmMapsOnDevice& maps, const RsmViewOnDe
     }
     chosen[m].chosen = choose_clusters(std::move(clusters), sums, points, settings);
   }
+  if (merges_maps(settings, chosen.size())) chosen = {merge_maps(chosen, points, settings)};
   RsmLights lights = deal_lights(chosen, settings);
-  if (full) place_rendered(on_host, lights);
+  if (!full) return lights;
+  std::vector<RsmTexel> rendered;
+  for (const ReflectiveShadowMap& map : on_host) {
+    rendered.insert(rendered.end(), map.texels.begin(), map.texels.end());
+  }
+  place_rendered(std::move(rendered), lights);
   return lights;
 }
 

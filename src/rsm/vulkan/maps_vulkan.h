@@ -22,15 +22,27 @@ struct RsmMapsOnDevice {
   int resolution = 0;
   std::vector<RsmProjection> projections;  ///< One a map.
   vulkan::Buffer texels;                   ///< May be larger.
+  /// There is room for one map alone, which is made when it is read: see keeps_one_map.
+  bool one_at_a_time = false;
 
   std::size_t texels_of_map() const { return static_cast<std::size_t>(resolution) * resolution; }
   /// Where a map's texels begin.
   RsmTexelArray of(std::size_t map) const {
-    return {texels.address() + map * texels_of_map() * sizeof(RsmTexelRecord)};
+    return {texels.address() + first_texel(map) * sizeof(RsmTexelRecord)};
+  }
+  std::size_t first_texel(std::size_t map) const {
+    return one_at_a_time ? 0 : map * texels_of_map();
   }
 };
 
-/// Copies maps to the host. Waits.
+/// Whether maps are made and read one after the other, so that memory does not grow with the
+/// lights: where nothing that is gathered stays in them.
+bool keeps_one_map(const RsmSettings& settings);
+
+/// Copies a map, which must be there, to the host. Waits.
+ReflectiveShadowMap download_map(const vulkan::Device& device, const RsmMapsOnDevice& maps,
+                                 std::size_t map);
+/// The same of all maps.
 std::vector<ReflectiveShadowMap> download_maps(const vulkan::Device& device,
                                                const RsmMapsOnDevice& maps);
 
@@ -51,12 +63,24 @@ class RsmMapperVulkan {
   void render(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,
               RsmMapsOnDevice& maps);
 
+  /// The same, but where keeps_one_map nothing is rendered yet: `make` has to be called for each
+  /// map before it is read.
+  void prepare(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,
+               RsmMapsOnDevice& maps);
+  /// Renders a light's map. Waits; returns how long that took [ms].
+  double make(const DeviceWorld& world, const RsmMapsOnDevice& maps, std::size_t light);
+
   /// choose_lights. Blocks of texels are brought together and weighed on the device, and the few
-  /// clusters that are left on the host. Waits for the view, too.
+  /// clusters that are left on the host. Waits for the view, too. Where maps are there one at a
+  /// time, makes them; `map_ms` is the time that took.
   RsmLights choose(const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
-                   const RsmSettings& settings);
+                   const RsmSettings& settings, const DeviceWorld* world = nullptr,
+                   double* map_ms = nullptr);
 
  private:
+  /// Tells the projections, and makes room for maps and their rays.
+  void reserve(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,
+               RsmMapsOnDevice& maps);
   void trace(vulkan::Recorder& to, const DeviceWorld& world, const MapProjection& projection,
              int resolution);
   void make_texels(vulkan::Recorder& to, const DeviceWorld& world, const RsmMapsOnDevice& maps,

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights the pixels of each sub-map ask for their direct light.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "lambent/rsm.h"
+#include "rsm/direct_share.h"
+
+namespace lambent {
+
+struct DealtLights {
+  std::size_t lights = 0;         ///< Of the scene.
+  std::size_t per_sub_map = 0;    ///< That a pixel asks.
+  std::vector<DealtLight> dealt;  ///< `per_sub_map` after as many, each by rising index.
+
+  /// Whether lights are shared out: a pixel does not ask all of them.
+  bool shared() const { return per_sub_map < lights; }
+  std::span<const DealtLight> of(int sub_map) const {
+    return std::span(dealt).subspan(static_cast<std::size_t>(sub_map) * per_sub_map, per_sub_map);
+  }
+};
+
+/// Deals so many lights to settings.sub_maps^2 sub-maps: settings.direct_lights to each, or as many
+/// as it takes to deal all; all to each where settings.direct_lights is 0.
+DealtLights deal_direct_lights(std::size_t lights, const RsmSettings& settings);
+
+/// How far what arrives is blurred [pixels]: as far as lights are shared out; 1: not at all.
+int share_period(const DealtLights& lights, const RsmSettings& settings);
+
+}  // namespace lambent
