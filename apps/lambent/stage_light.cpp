@@ -93,9 +93,9 @@ std::string describe(FirstLight light, const Scene& scene) {
       break;
   }
   // glTF files have no sky: where a sun is all they bring, shade and windows are black
-  const bool has_sun =
-      std::any_of(scene.lights.begin(), scene.lights.end(),
-                  [](const Light& light) { return light.type == Light::Type::directional; });
+  const bool has_sun = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& each) {
+    return each.type == Light::Type::directional;
+  });
   const bool has_sky = scene.environment.radiance != glm::vec3(0.0f);
   return has_sun && !has_sky ? "the scene's, under a black sky (--sky lights it)" : "the scene's";
 }
