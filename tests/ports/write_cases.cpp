@@ -37,6 +37,11 @@ bool write(const std::string& path, bool r11g11b10f) {
   const std::vector<FieldQuery> queries = test::walked_queries(kQueries);
   std::vector<vec3> answers(queries.size());
   lookup_irradiance(store, {}, queries, answers);
+  std::vector<SeenPoint> points;
+  points.reserve(queries.size());
+  for (const FieldQuery& query : queries) {
+    points.push_back({query.position_ws, query.normal_ws, query.to_viewer_ws});
+  }
 
   const CaseCounts counts = {static_cast<std::uint32_t>(store.volumes()),
                              static_cast<std::uint32_t>(store.probes()),
@@ -48,7 +53,7 @@ bool write(const std::string& path, bool r11g11b10f) {
   put(file, store.offset_words());
   put(file, store.irradiance_words());
   put(file, store.distance_words());
-  put(file, std::span<const FieldQuery>(queries));
+  put(file, std::span<const SeenPoint>(points));
   put(file, std::span<const vec3>(answers));
   file.close();
   return file.good();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for HLSL, to be included in a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
+// as a camera sees it: unlike FieldQuery, it knows no viewer who is nearer than the bias reaches.
 // A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
 // reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
 // The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for WebGL 2, to be put into a fragment shader of yours:
 //   vec3 field_irradiance(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) -> [W/m^2]
+// as a camera sees it: unlike FieldQuery, it knows no viewer who is nearer than the bias reaches.
 // A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
 // reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
 // Textures are those of LightTextures (src/stream/light/light_textures.h); tiles are filtered
