@@ -21,8 +21,10 @@ constexpr double kStep = 0.5;
 constexpr double kLeastQuantiser = 0.0, kMostQuantiser = 45.0;
 // A picture that refines the one before is so much more exact, at least.
 constexpr double kRefine = 3.0;
-// A fine one that removes less than this share of the error shows that 10 bits have no more.
+// Two fine ones in a row that remove less than this share of the error each show that 10 bits have
+// no more. One does not: errors do not fall evenly with the quantiser.
 constexpr double kFine = 8.0, kLeastGain = 0.02;
+constexpr int kMostVain = 2;
 
 }  // namespace
 
@@ -51,6 +53,7 @@ Expected<TextureEncoding::Encoded> TextureEncoding::encode(const FieldGeometry& 
   atlas->draw(layout, light.tiles, scale_, picture_);
   std::vector<std::vector<std::byte>> pictures;
   double first_share = 0.0, last_share = 0.0;
+  int vain = 0;
   for (double quantiser = quantiser_;;) {
     const bool begins = encoded.is_key && pictures.empty();
     auto bytes = writer_->write(picture_, begins, static_cast<int>(std::lround(quantiser)), shown_);
@@ -63,7 +66,9 @@ Expected<TextureEncoding::Encoded> TextureEncoding::encode(const FieldGeometry& 
     if (pictures.size() == 1) first_share = share;
     if (share <= 1.0 || pictures.size() == kMaxTexturePictures) break;
     if (quantiser <= kLeastQuantiser) break;
-    if (quantiser < kFine && pictures.size() > 1 && share > (1.0 - kLeastGain) * last_share) break;
+    const bool gained = pictures.size() == 1 || share <= (1.0 - kLeastGain) * last_share;
+    vain = quantiser < kFine && !gained ? vain + 1 : 0;
+    if (vain == kMostVain) break;
     last_share = share;
     quantiser =
         std::max(quantiser - std::max(kRefine, kStepsOfHalf * std::log2(share)), kLeastQuantiser);
