@@ -35,6 +35,9 @@ struct FrameSettings {
   int samples = 1;
   /// Samples of emissive triangles and of many lights for direct light, >= 1; a shadow ray each.
   int emissive_samples = 4;
+  /// The same at each surface that a ray of a reflection or through glass meets, >= 1: no filter
+  /// takes the noise from what these show.
+  int reflected_emissive_samples = 4;
   /// Rays a sample sends out to gather its indirect light (final gathering), >= 0; 0 looks the
   /// field up instead. Finds light and shade finer than the probes' spacing, at the price of noise
   /// and of two rays for each.

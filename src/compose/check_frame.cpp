@@ -62,6 +62,7 @@ FrameSettings quality_settings(Quality quality) {
       settings.samples = 4;
       settings.gather_rays = 16;
       settings.glossy_rows = 1;
+      settings.reflected_emissive_samples = 16;
       settings.fog = {8, 96, 16};
       settings.denoise = true;
       break;
@@ -70,14 +71,16 @@ FrameSettings quality_settings(Quality quality) {
 }
 
 Expected<void> check(const FrameSettings& s) {
-  const Expected<void> checks[] = {check_side("width", s.width),
-                                   check_side("height", s.height),
-                                   check_least("first row", s.first_row, 0),
-                                   check_least("rows", s.rows, 0),
-                                   check_least("samples", s.samples, 1),
-                                   check_least("emissive samples", s.emissive_samples, 1),
-                                   check_least("gather rays", s.gather_rays, 0),
-                                   check_glossy_rows(s.glossy_rows)};
+  const Expected<void> checks[] = {
+      check_side("width", s.width),
+      check_side("height", s.height),
+      check_least("first row", s.first_row, 0),
+      check_least("rows", s.rows, 0),
+      check_least("samples", s.samples, 1),
+      check_least("emissive samples", s.emissive_samples, 1),
+      check_least("reflected emissive samples", s.reflected_emissive_samples, 1),
+      check_least("gather rays", s.gather_rays, 0),
+      check_glossy_rows(s.glossy_rows)};
   for (const Expected<void>& fine : checks) {
     if (!fine) return fine;
   }

@@ -73,7 +73,7 @@ TEST_F(FieldFiles, BakeSaysWhatIsWrong) {
 
 TEST_F(FieldFiles, RenderStartsFromThem) {
   // Two updates baked are as good as two updates made on the way
-  const std::string picture = " --size 32x18 --samples 1 ";
+  const std::string picture = " --size 32x18 --samples 1 --visibility moments ";
   ASSERT_EQ(run_program("render cornell --updates 2 -o " + exr + picture + kShape).status, 0);
   const std::string direct = bytes_of(exr);
   const ProgramResult result =

@@ -174,5 +174,29 @@ TEST(Reflections, ChangeWithRoughnessInNoLargerStepsThanTheReferences) {
   EXPECT_LE(largest, 1.5 * largest_of_reference);
 }
 
+// No filter takes the noise from what a mirror shows: samples of the lamp at its hits do.
+TEST(Reflections, AreSmootherWithMoreSamplesOfWhatEmits) {
+  const test::Stage stage(room_with_plate(0.0f));
+  FieldSettings settings;
+  settings.probe_count = {5, 4, 6};
+  const IrradianceField field = test::make_field(stage, settings, 2);
+  const auto noise_with = [&](int samples) {
+    FrameSettings frame;
+    frame.width = frame.height = 32;
+    frame.reflected_emissive_samples = samples;
+    Renderer renderer(stage.world, {.field = &field});
+    const LayeredImage one = renderer.render(stage.scene.cameras[0], frame).value().image;
+    frame.seed = 2;
+    const LayeredImage other = renderer.render(stage.scene.cameras[0], frame).value().image;
+    return compare_images(*one.find("glossy"), *other.find("glossy"), {.perceptual = false})
+        .value()
+        .relative_rmse;
+  };
+  const double few = noise_with(1), many = noise_with(16);
+  std::printf("noise with 1 sample %.4f, with 16 %.4f\n", few, many);
+  // What is left is of the gap between lamp and ceiling, where few samples arrive
+  EXPECT_LT(many, 0.7 * few);
+}
+
 }  // namespace
 }  // namespace lambent

@@ -133,6 +133,7 @@ TEST_F(Frame, WithReflectionsIsTheSame) {
   for (const int rows : {0, 1, 2}) {
     Job job = small("spheres");
     job.frame.glossy_rows = rows;
+    job.frame.reflected_emissive_samples = 3;
     job.frame.samples = 2;
     const Frames frames = render_both(job);
     EXPECT_LE(relative_rmse(frames, "glossy"), rows == 0 ? kTolerance : kGrazing) << rows;

@@ -89,6 +89,8 @@ TEST_F(RendererTest, RefusesSettingsOutOfRangeByName) {
   EXPECT_EQ(refused([](FrameSettings& s) { s.first_row = 1, s.rows = 6; }), "rows");
   EXPECT_EQ(refused([](FrameSettings& s) { s.samples = 0; }), "samples");
   EXPECT_EQ(refused([](FrameSettings& s) { s.emissive_samples = 0; }), "emissive samples");
+  EXPECT_EQ(refused([](FrameSettings& s) { s.reflected_emissive_samples = 0; }),
+            "reflected emissive samples");
   EXPECT_EQ(refused([](FrameSettings& s) { s.gather_rays = -1; }), "gather rays");
   EXPECT_EQ(refused([](FrameSettings& s) { s.glossy_rows = -1; }), "glossy rows");
   EXPECT_EQ(refused([](FrameSettings& s) { s.glossy_rows = 9; }), "glossy rows");

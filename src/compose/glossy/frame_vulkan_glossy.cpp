@@ -211,23 +211,24 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
     world_.tracer().closest_hits(to, {hits.rays, ways}, hits.hits);
     to.barrier();
     m.gather_shading.pixel_surfaces(to, stage(), hits, 0, false, met);
-    const CoatHitsArguments shaded = {hits.hits,
-                                      met.points,
-                                      met.surfaces,
-                                      {m.way_paths[from].address()},
-                                      {m.way_pixels[from].address()},
-                                      {m.way_queries.address()},
-                                      {m.coat_rays.address()},
-                                      ways,
-                                      bounce,
-                                      static_cast<uint>(request_->settings.emissive_samples),
-                                      first_index,
-                                      has_field ? 1u : 0u,
-                                      0u};
+    const CoatHitsArguments shaded = {
+        hits.hits,
+        met.points,
+        met.surfaces,
+        {m.way_paths[from].address()},
+        {m.way_pixels[from].address()},
+        {m.way_queries.address()},
+        {m.coat_rays.address()},
+        ways,
+        bounce,
+        static_cast<uint>(request_->settings.reflected_emissive_samples),
+        first_index,
+        has_field ? 1u : 0u,
+        0u};
     to.run(kernels_.coat_hits, shaded, ways);
     to.barrier();
     ShadeHitsSettings lighting;
-    lighting.emissive_samples = request_->settings.emissive_samples;
+    lighting.emissive_samples = request_->settings.reflected_emissive_samples;
     lighting.salt = salt;
     lighting.seed = way_seed_;
     m.gather_shading.reflected_light(to, stage(), met, ways, lighting,

@@ -171,7 +171,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       } else {
         rays_[i].radiance +=
             path.throughput * surface.emission *
-            found_emitter_weight(path.pdf, static_cast<uint>(settings.frame.emissive_samples));
+            found_emitter_weight(path.pdf,
+                                 static_cast<uint>(settings.frame.reflected_emissive_samples));
       }
       met_.coat_shares[i] = meet_coat(dot(surface.normal_ws, met_.to_viewer_ws[i]),
                                       settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
@@ -248,6 +249,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
 std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going) {
   FrameSettings lighting = settings.frame;
   lighting.denoise = false;  // light of emitters is not to be kept apart
+  lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
   for (std::uint32_t bounce = 1; going > 0 && bounce <= kMaxWays; ++bounce) {
     traced += follow_rays(settings, bounce);
