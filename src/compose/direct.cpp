@@ -3,11 +3,11 @@
 
 #include "compose/gbuffer.h"
 #include "core/parallel.h"
-#include "denoise/variance.h"
 #include "raytracing/direct_light.h"
 #include "raytracing/world_access.h"
 #include "scene/light_tree/unoccluded_light.h"
 #include "shared/demodulate.h"
+#include "shared/variance.h"
 
 namespace lambent {
 namespace {

@@ -9,12 +9,12 @@
 #include <atomic>
 
 #include "core/parallel.h"
-#include "denoise/variance.h"
 #include "field/field_access.h"
 #include "gather/gather_math.h"
 #include "raytracing/shade_hits.h"
 #include "raytracing/world_access.h"
 #include "shared/rays.h"
+#include "shared/variance.h"
 
 namespace lambent {
 namespace {

@@ -47,8 +47,8 @@ class Corrections : public test::OnDevice {
       const vec3 cells = vec3(next_uniform2(random), next_uniform(random));
       const vec3 normal = test::random_unit(random);
       samples.push_back({grid_position(grid, cells * vec3(grid.count - 1)), normal, volume,
-                         3.0f * next_uniform(random), 0.1f + 2.0f * next_uniform(random),
-                         next_uniform(random)});
+                         3.0f * next_uniform(random), next_uniform(random),
+                         0.1f + 2.0f * next_uniform(random), next_uniform(random)});
     }
     return samples;
   }
@@ -59,7 +59,8 @@ class Corrections : public test::OnDevice {
     // What is no sample changes nothing
     records.push_back({});
     for (const CorrectionSample& s : samples) {
-      records.push_back({s.position_ws, s.normal_ws, s.volume, s.gathered, s.looked_up, s.pick});
+      records.push_back(
+          {s.position_ws, s.normal_ws, s.volume, s.gathered, s.variance, s.looked_up, s.pick});
     }
     const vulkan::Buffer given = host_buffer<CorrectionSampleRecord>(device(), records, "samples");
     table.reserve(records.size());

@@ -33,7 +33,7 @@ std::vector<CorrectionSample> samples_on_floor(int count, Ratio ratio, std::uint
   std::vector<CorrectionSample> samples;
   for (int i = 0; i < count; ++i) {
     const vec3 position(place(random), 0.01f, place(random));
-    samples.push_back({position, kUp, 0, ratio(position.x) * 2.0f, 2.0f, pick(random)});
+    samples.push_back({position, kUp, 0, ratio(position.x) * 2.0f, 0.0f, 2.0f, pick(random)});
   }
   return samples;
 }
@@ -155,7 +155,8 @@ TEST(Corrections, ForgetWhatIsNeverConfirmed) {
   const ProbeGrid grids[] = {grid()};
   CorrectionTable table = taught(samples_on_floor(200, [](float) { return 0.5f; }));
   const std::size_t known = table.blocks().size();
-  const std::vector<CorrectionSample> elsewhere = {{{2.9f, 2.9f, 2.9f}, kUp, 0, 1.0f, 1.0f, 0.5f}};
+  const std::vector<CorrectionSample> elsewhere = {
+      {{2.9f, 2.9f, 2.9f}, kUp, 0, 1.0f, 0.0f, 1.0f, 0.5f}};
   for (uint number = 2; number < 60; ++number) table.learn(grids, elsewhere, number);
   EXPECT_LT(table.blocks().size(), known / 10);
 }

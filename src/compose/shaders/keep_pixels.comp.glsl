@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"
 #include "compose/pixel_math.h"
-#include "denoise/variance.h"
+#include "shared/variance.h"
 #include "raytracing/shaders/unoccluded_light.glsl"
 #include "shared/demodulate.h"
 

@@ -157,7 +157,7 @@ LAMBENT_FN int cell_of_block(ivec3 cell) {
 /// A cell's ratio, and on how many samples it rests, less what was forgotten.
 struct CorrectionCell {
   float ratio;    ///< 1 / kMaxCorrection to kMaxCorrection.
-  float samples;  ///< Below 256.
+  float samples;  ///< By their worth; below 256.
 };
 
 // Both numbers are stored as fixed-point numbers of 16 bits.
@@ -194,6 +194,43 @@ const float kBrightestLookup = 8.0f;
 // What is gathered counts as at most so many times the mean. Above are fireflies of the gather.
 const float kBrightestGather = 32.0f;
 
+// A sample counts as one where the variance of what it gathers, over the square of what the lookup
+// finds, is this on average, and as less where it is more: kSmoothPrior then stands for a standard
+// deviation of 11 % between cells and the level above them. Rooms with large lamps have this
+// variance, those with small bright places ten times it.
+const float kTypicalNoise = 0.1f;
+
+// A sample counts as no less than this, so that a cell's number of samples does not round to none.
+const float kLeastWorth = 1.0f / 32.0f;
+
+/// Of the samples of an update: the sums of the variances of what they gather, and of the squares
+/// of what lookups find.
+struct CorrectionNoise {
+  float variances;
+  float squares;
+};
+
+/// What a sample scales with, as far as others are concerned. `mean` is the mean of what lookups
+/// find, > 0.
+LAMBENT_FN float correction_scale(float looked_up, float mean) {
+  return 1.0f / max(mean, looked_up * (1.0f / kBrightestLookup));
+}
+
+/// What one sample adds to the noise of an update, from the variance of what it gathers.
+LAMBENT_FN CorrectionNoise correction_noise(float variance, float looked_up, float mean) {
+  float scale = correction_scale(looked_up, mean);
+  float level = looked_up * scale;
+  CorrectionNoise noise = {min(variance * (scale * scale), kBrightestGather * kBrightestGather),
+                           level * level};
+  return noise;
+}
+
+/// How many samples of typical noise one of an update counts as, at most 1.
+LAMBENT_FN float worth_of_samples(CorrectionNoise noise) {
+  float typical = kTypicalNoise * noise.squares;
+  return noise.variances > typical ? max(typical / noise.variances, kLeastWorth) : 1.0f;
+}
+
 /// A sample as it is summed up.
 struct CorrectionSum {
   uint gathered;
@@ -203,7 +240,7 @@ struct CorrectionSum {
 /// The sample at a point where a gather and a lookup find these irradiances. `mean` is the mean of
 /// what lookups find, > 0.
 LAMBENT_FN CorrectionSum correction_sum(float gathered, float looked_up, float mean) {
-  float steps = kCorrectionSumSteps / max(mean, looked_up * (1.0f / kBrightestLookup));
+  float steps = kCorrectionSumSteps * correction_scale(looked_up, mean);
   CorrectionSum sum = {uint(min(gathered * steps, kBrightestGather * kCorrectionSumSteps) + 0.5f),
                        uint(looked_up * steps + 0.5f)};
   return sum;
@@ -232,19 +269,20 @@ LAMBENT_FN CorrectionItem correction_item(vec3 coords, uint axis, uint level, ui
 struct LearnedCorrection {
   float gathered;   ///< Sum of CorrectionSum::gathered, less what was forgotten.
   float looked_up;  ///< Sum of CorrectionSum::looked_up, less what was forgotten.
-  float samples;    ///< Number of samples, less what was forgotten.
+  float samples;    ///< Number of samples by their worth, less what was forgotten.
 };
 
 // A cell with fewer samples than this is forgotten.
 const float kForgottenSamples = 1.0f / 64.0f;
 
-/// A cell after an update: it keeps a share of what it had, and gets `count` new samples.
+/// A cell after an update: it keeps a share of what it had, and gets new samples, so many by their
+/// worth.
 LAMBENT_FN LearnedCorrection updated_correction(LearnedCorrection cell, float keep,
-                                                CorrectionSum sum, uint count) {
+                                                CorrectionSum sum, float samples) {
   LearnedCorrection updated = {
       cell.gathered * keep + float(sum.gathered) * (1.0f / kCorrectionSumSteps),
       cell.looked_up * keep + float(sum.looked_up) * (1.0f / kCorrectionSumSteps),
-      cell.samples * keep + float(count)};
+      cell.samples * keep + samples};
   if (updated.samples < kForgottenSamples) {
     updated.gathered = 0.0f;
     updated.looked_up = 0.0f;

@@ -30,6 +30,7 @@ struct CorrectionSampleRecord {
   vec3 normal_ws;
   int volume;
   float gathered;
+  float variance;
   float looked_up;
   float pick;
 };
@@ -97,10 +98,16 @@ struct TrainingSamplesArguments {
   uint unused;
 };
 
-/// Arguments of correction_mean, which finds the mean of what lookups find.
+// What an update's samples have in common, as numbers of an array: the mean of what lookups find, 0
+// where there are no samples, and how many samples each one counts as.
+const uint kCorrectionMean = 0u;
+const uint kCorrectionWorth = 1u;
+const uint kCorrectionSummary = 2u;
+
+/// Arguments of correction_mean, which finds what the samples of an update have in common.
 struct CorrectionMeanArguments {
   CorrectionSampleArray samples;
-  FloatArray mean;  ///< One number; 0 where there are no samples.
+  FloatArray summary;  ///< kCorrectionSummary numbers.
   uint count;
   uint unused;
 };
@@ -108,7 +115,7 @@ struct CorrectionMeanArguments {
 /// Arguments of correction_items, which lists samples in the buckets of their blocks.
 struct CorrectionItemsArguments {
   CorrectionSampleArray samples;
-  FloatArray mean;
+  FloatArray summary;
   GridArray grids;
   CorrectionItemArray items;  ///< kCorrectionLevels for each sample.
   UintArray first_items;      ///< By bucket: the place of its first item, from 1; 0: none.
@@ -120,7 +127,7 @@ struct CorrectionItemsArguments {
 struct MergeCorrectionsArguments {
   CorrectionKeyArray keys;
   LearnedArray learned;
-  FloatArray mean;
+  FloatArray summary;
   CorrectionItemArray items;
   UintArray first_items;
   uint buckets;

@@ -73,6 +73,17 @@ LAMBENT_FORCE_INLINE const CorrectionItem& fetch_item(const Learning& table, uin
 
 #include "field/correction/learn.inl.h"
 
+/// How many samples one of an update counts as. `mean` is that of what lookups find.
+float worth_of(std::span<const CorrectionSample> samples, float mean) {
+  double variances = 0.0, squares = 0.0;
+  for (const CorrectionSample& sample : samples) {
+    const CorrectionNoise noise = correction_noise(sample.variance, sample.looked_up, mean);
+    variances += noise.variances;
+    squares += noise.squares;
+  }
+  return worth_of_samples({static_cast<float>(variances), static_cast<float>(squares)});
+}
+
 }  // namespace
 
 CorrectionTable::CorrectionTable(int probes) : probes_(probes) {}
@@ -183,11 +194,11 @@ void CorrectionTable::learn(std::span<const ProbeGrid> grids,
   empty_ = false;
   list_items(grids, samples, mean);
   const Learning learning = {keys_.data(), first_slot_, learned_.data(), items_.data()};
-  const float keep = kept_corrections(number);
+  const float keep = kept_corrections(number), worth = worth_of(samples, mean);
   parallel_chunks(first_items_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t b = begin; b < end; ++b) {
       merge_bucket(learning, static_cast<uint>(first_slot_ + b * kCorrectionBucket),
-                   first_items_[b], keep);
+                   first_items_[b], keep, worth);
       first_items_[b] = 0;
     }
   });
@@ -264,7 +275,7 @@ void CorrectionTable::forget(std::span<const ProbeGrid> grids, std::span<const f
       }
       if (least >= 1.0f) continue;
       for (LearnedCorrection& learned : learned_[slot - first_slot_]) {
-        learned = updated_correction(learned, least, {0u, 0u}, 0u);
+        learned = updated_correction(learned, least, {0u, 0u}, 0.0f);
       }
     }
   });

@@ -19,6 +19,7 @@ struct CorrectionSample {
   vec3 normal_ws;    ///< Unit.
   int volume;        ///< Index of the volume whose lookup it is.
   float gathered;    ///< Irradiance that a gather finds; its luminance [W/m^2].
+  float variance;    ///< Of `gathered`, by the rays that it is the mean of [(W/m^2)^2].
   float looked_up;   ///< Irradiance that the lookup finds; its luminance [W/m^2], > 0.
   float pick;        ///< Uniform in [0, 1): picks an axis of the normal.
 };

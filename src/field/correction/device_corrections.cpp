@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "shaders/correction_items_comp.h"
 #include "shaders/correction_mean_comp.h"
+#include "shaders/correction_items_comp.h"
 #include "shaders/forget_corrections_comp.h"
 #include "shaders/merge_corrections_comp.h"
 #include "shaders/refine_corrections_comp.h"
@@ -52,7 +52,7 @@ CorrectionArrays DeviceCorrections::arrays(CorrectionUse use) const {
 }
 
 std::size_t DeviceCorrections::bytes() const {
-  return bytes_of({&keys_, &learned_, &refined_, &items_, &first_items_, &mean_});
+  return bytes_of({&keys_, &learned_, &refined_, &items_, &first_items_, &summary_});
 }
 
 void DeviceCorrections::make_room() {
@@ -60,7 +60,7 @@ void DeviceCorrections::make_room() {
   lambent::reserve<LearnedCells>(device_, slots(), "learned corrections", learned_);
   lambent::reserve<Cells>(device_, slots(), "corrections", refined_);
   lambent::reserve<uint>(device_, buckets_, "lists of samples", first_items_);
-  lambent::reserve<float>(device_, 1, "mean of lookups", mean_);
+  lambent::reserve<float>(device_, kCorrectionSummary, "summary of samples", summary_);
   device_.run([&](vulkan::Recorder& to) {
     for (const vulkan::Buffer* buffer : {&keys_, &learned_, &refined_, &first_items_}) {
       to.fill(*buffer, 0u);
@@ -98,18 +98,19 @@ CorrectionTable DeviceCorrections::read() const {
 void DeviceCorrections::record_learn(vulkan::Recorder& to, GridArray grids,
                                      CorrectionSampleArray samples, std::uint32_t count,
                                      uint number) const {
-  const FloatArray mean{mean_.address()};
+  const FloatArray summary{summary_.address()};
   const CorrectionItemArray items{items_.address()};
   const UintArray first_items{first_items_.address()};
-  to.run(kernels_.mean, CorrectionMeanArguments{samples, mean, count, 0u}, 1);
+  to.run(kernels_.mean, CorrectionMeanArguments{samples, summary, count, 0u}, 1);
   to.barrier();
-  run_in_rows(to, kernels_.items,
-              CorrectionItemsArguments{samples, mean, grids, items, first_items, buckets_, count},
-              count);
+  run_in_rows(
+      to, kernels_.items,
+      CorrectionItemsArguments{samples, summary, grids, items, first_items, buckets_, count},
+      count);
   run_in_rows(to, kernels_.merge,
               MergeCorrectionsArguments{{keys_.address()},
                                         {learned_.address()},
-                                        mean,
+                                        summary,
                                         items,
                                         first_items,
                                         buckets_,

@@ -58,7 +58,7 @@ class DeviceCorrections {
   uint buckets_;
   // By slot; none until something is known
   vulkan::Buffer keys_, learned_, refined_;
-  vulkan::Buffer items_, first_items_, mean_;  // while it learns
+  vulkan::Buffer items_, first_items_, summary_;  // while it learns
 };
 
 }  // namespace lambent

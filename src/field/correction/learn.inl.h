@@ -42,9 +42,10 @@ LAMBENT_FN uint claim_slots(LearningRef table, uint first, uint items) {
   return used;
 }
 
-/// Adds the new samples of a slot's block to what its cells have learned, and stores that in the
-/// slot `into`. Returns how many samples that is.
-LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items, float keep) {
+/// Adds the new samples of a slot's block, each of which counts as `worth`, to what its cells have
+/// learned, and stores that in the slot `into`. Returns how many samples that is.
+LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items, float keep,
+                             float worth) {
   CorrectionKey key = fetch_key(table, slot);
   CorrectionSum sums[kCellCorners];
   uint counts[kCellCorners];
@@ -65,7 +66,7 @@ LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items
   float samples = 0.0f;
   for (int k = 0; k < kCellCorners; ++k) {
     LearnedCorrection cell =
-        updated_correction(fetch_learned(table, slot, k), keep, sums[k], counts[k]);
+        updated_correction(fetch_learned(table, slot, k), keep, sums[k], worth * float(counts[k]));
     store_learned(table, into, k, cell);
     samples += cell.samples;
   }
@@ -73,13 +74,14 @@ LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items
   return samples;
 }
 
-/// Takes the items from `items` on (0: none) into the blocks of the bucket that begins at the slot
-/// `first`. Blocks of which nothing is known any more are forgotten.
-LAMBENT_FN void merge_bucket(LearningRef table, uint first, uint items, float keep) {
+/// Takes the items from `items` on (0: none), each of which counts as `worth` samples, into the
+/// blocks of the bucket that begins at the slot `first`. Blocks of which nothing is known any more
+/// are forgotten.
+LAMBENT_FN void merge_bucket(LearningRef table, uint first, uint items, float keep, float worth) {
   uint used = claim_slots(table, first, items);
   uint kept = 0u;
   for (uint place = 0u; place < used; ++place) {
-    if (merge_block(table, first + place, first + kept, items, keep) > 0.0f) ++kept;
+    if (merge_block(table, first + place, first + kept, items, keep, worth) > 0.0f) ++kept;
   }
   CorrectionKey no_key = {0u, 0u};
   LearnedCorrection nothing = {0.0f, 0.0f, 0.0f};

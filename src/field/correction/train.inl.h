@@ -8,17 +8,31 @@
 //   vec3 fetch_radiance(GathersRef gathers, uint ray)
 //       gathered_radiance() of what the ray met
 
-/// Irradiance that a point's rays, from `first` on, gather; its luminance.
-LAMBENT_FN float gathered_luminance(GathersRef gathers, uint first, vec3 normal_ws,
-                                    vec3 geometric_normal_ws, float gi_share) {
+/// What a point's rays gather.
+struct GatheredLuminance {
+  float luminance;  ///< Of the irradiance.
+  float variance;   ///< Of that, as that of a mean of rays.
+};
+
+/// Irradiance that a point's rays, from `first` on, gather.
+LAMBENT_FN GatheredLuminance gathered_luminance(GathersRef gathers, uint first, vec3 normal_ws,
+                                                vec3 geometric_normal_ws, float gi_share) {
   vec3 sum = vec3(0.0f);
+  float squares = 0.0f;
   for (uint ray = first; ray < first + uint(kTrainingRays); ++ray) {
     // Below the surface there is no light
     if (dot(geometric_normal_ws, fetch_direction(gathers, ray)) <= 0.0f) continue;
-    sum += fetch_radiance(gathers, ray);
+    vec3 radiance = fetch_radiance(gathers, ray);
+    float level = luminance(radiance);
+    sum += radiance;
+    squares += level * level;
   }
-  return luminance(sum) * (kPi / float(kTrainingRays)) *
-         above_horizon(gi_share, dot(normal_ws, geometric_normal_ws));
+  float level = luminance(sum);
+  float scale =
+      (kPi / float(kTrainingRays)) * above_horizon(gi_share, dot(normal_ws, geometric_normal_ws));
+  GatheredLuminance gathered = {
+      level * scale, variance_of_sum(level, squares, uint(kTrainingRays)) * (scale * scale)};
+  return gathered;
 }
 
 /// Picks one of a point's rays, from `first` on, that met a surface which reflects the field's

@@ -164,11 +164,12 @@ std::uint64_t compare(const Training& training, std::span<const TrainingPoint> p
                    {&irradiance, 1});
     const float looked_up = point.gi_share * luminance(irradiance);
     if (!(looked_up > 0.0f)) continue;
+    const GatheredLuminance gathered = gathered_luminance(
+        gathers, i * kTrainingRays, point.at.normal_ws, point.geometric_normal_ws, point.gi_share);
     samples.push_back(
         {point.at.position_ws, point.at.normal_ws, static_cast<int>(corners.table) / kCellWraps,
-         gathered_luminance(gathers, i * kTrainingRays, point.at.normal_ws,
-                            point.geometric_normal_ws, point.gi_share),
-         looked_up, training_random(point.index, training.number, kTrainingAxes, training.seed)});
+         gathered.luminance, gathered.variance, looked_up,
+         training_random(point.index, training.number, kTrainingAxes, training.seed)});
   }
   return traced;
 }

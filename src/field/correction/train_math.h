@@ -6,6 +6,7 @@
 #include "field/correction/correction_math.h"
 #include "raytracing/surface_math.h"
 #include "shared/sampling.h"
+#include "shared/variance.h"
 
 LAMBENT_BEGIN
 

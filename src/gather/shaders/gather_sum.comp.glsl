@@ -3,7 +3,7 @@
 // so it is pi times their mean radiance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "denoise/variance.h"
+#include "shared/variance.h"
 #include "gather/gather_math.h"
 #include "gather/gather_records.h"
 #include "raytracing/surface_math.h"

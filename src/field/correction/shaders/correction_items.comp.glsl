@@ -15,7 +15,7 @@ void main() {
   uint i = gl_GlobalInvocationID.y * kCorrectionRow + gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   CorrectionSampleRecord drawn = args.samples.at[i];
-  float mean = args.mean.at[0];
+  float mean = args.summary.at[kCorrectionMean];
   if (!(mean > 0.0 && drawn.looked_up > 0.0)) return;
   ProbeGrid grid = args.grids.at[drawn.volume];
   CorrectionSum sum = correction_sum(drawn.gathered, drawn.looked_up, mean);

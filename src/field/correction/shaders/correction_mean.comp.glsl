@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the mean of what the lookups of an update's samples find, by one workgroup. Sums are made
-// in one order, so that they are the same on every run.
+// Finds what an update's samples have in common, by one workgroup. Sums are made in one order, so
+// that they are the same on every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -12,8 +12,21 @@ layout(push_constant, scalar) uniform Push {
   CorrectionMeanArguments args;
 };
 
-// Sum and number of the samples of each lane.
+// What the samples of each lane sum up to.
 shared vec2 sums[kLanes];
+
+/// The sum over all lanes.
+vec2 sum_of_lanes(uint lane, vec2 sum) {
+  sums[lane] = sum;
+  for (uint half_of = kLanes / 2u; half_of > 0u; half_of /= 2u) {
+    barrier();
+    if (lane < half_of) sums[lane] += sums[lane + half_of];
+  }
+  barrier();
+  vec2 all = sums[0];
+  barrier();
+  return all;
+}
 
 void main() {
   uint lane = gl_LocalInvocationIndex;
@@ -22,10 +35,19 @@ void main() {
     float looked_up = args.samples.at[i].looked_up;
     if (looked_up > 0.0) sum += vec2(looked_up, 1.0);
   }
-  sums[lane] = sum;
-  for (uint half_of = kLanes / 2u; half_of > 0u; half_of /= 2u) {
-    barrier();
-    if (lane < half_of) sums[lane] += sums[lane + half_of];
+  vec2 all = sum_of_lanes(lane, sum);
+  float mean = all.y > 0.0 ? all.x / all.y : 0.0;
+
+  sum = vec2(0.0);
+  for (uint i = lane; i < args.count; i += kLanes) {
+    CorrectionSampleRecord drawn = args.samples.at[i];
+    if (!(drawn.looked_up > 0.0)) continue;
+    CorrectionNoise noise = correction_noise(drawn.variance, drawn.looked_up, mean);
+    sum += vec2(noise.variances, noise.squares);
   }
-  if (lane == 0u) args.mean.at[0] = sums[0].y > 0.0 ? sums[0].x / sums[0].y : 0.0;
+  all = sum_of_lanes(lane, sum);
+  if (lane == 0u) {
+    args.summary.at[kCorrectionMean] = mean;
+    args.summary.at[kCorrectionWorth] = worth_of_samples(CorrectionNoise(all.x, all.y));
+  }
 }

@@ -25,6 +25,6 @@ void main() {
   for (int k = 0; k < kCellCorners; ++k) {
     uint at = slot * uint(kCellCorners) + uint(k);
     args.learned.at[at] =
-        updated_correction(args.learned.at[at], least, CorrectionSum(0u, 0u), 0u);
+        updated_correction(args.learned.at[at], least, CorrectionSum(0u, 0u), 0.0);
   }
 }

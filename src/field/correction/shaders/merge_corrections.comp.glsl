@@ -38,7 +38,8 @@ CorrectionItem fetch_item(MergeCorrectionsArguments table, uint item) {
 void main() {
   uint bucket = gl_GlobalInvocationID.y * kCorrectionRow + gl_GlobalInvocationID.x;
   // Where no lookup found light, nothing is learned and nothing is forgotten
-  if (bucket >= args.buckets || !(args.mean.at[0] > 0.0)) return;
-  merge_bucket(args, bucket * kCorrectionBucket, args.first_items.at[bucket], args.keep);
+  if (bucket >= args.buckets || !(args.summary.at[kCorrectionMean] > 0.0)) return;
+  merge_bucket(args, bucket * kCorrectionBucket, args.first_items.at[bucket], args.keep,
+               args.summary.at[kCorrectionWorth]);
   args.first_items.at[bucket] = 0u;
 }

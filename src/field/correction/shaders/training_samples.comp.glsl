@@ -52,7 +52,7 @@ void main() {
   QueryRecord query = args.queries.at[i];
   uint first = i * uint(kTrainingRays);
   uint follows = kNoTrainingRay;
-  float gathered = 0.0;
+  GatheredLuminance gathered = GatheredLuminance(0.0, 0.0);
   if (point.gi_share > 0.0) {
     gathered = gathered_luminance(args, first, query.normal_ws, point.geometric_normal_ws,
                                   point.gi_share);
@@ -67,7 +67,8 @@ void main() {
         known ? point.gi_share * looked_up_luminance(lookup.corners, query.normal_ws) : 0.0;
     args.samples.at[i * uint(kLookups) + l] =
         CorrectionSampleRecord(query.position_ws, query.normal_ws,
-                               int(lookup.corners.table) / kCellWraps, gathered, looked_up, pick);
+                               int(lookup.corners.table) / kCellWraps, gathered.luminance,
+                               gathered.variance, looked_up, pick);
   }
 
   if (follows == kNoTrainingRay) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How noisy light is, from the samples that it is made of.
-#ifndef LAMBENT_DENOISE_VARIANCE_H
-#define LAMBENT_DENOISE_VARIANCE_H
+#ifndef LAMBENT_SHARED_VARIANCE_H
+#define LAMBENT_SHARED_VARIANCE_H
 
 #include "shared/lang.h"
 
