@@ -7,6 +7,7 @@
 #include "lambent/renderer.h"
 #include "lambent/rsm.h"
 #include "lambent/world.h"
+#include "scene/unlit.h"
 #include "scenes/builtin.h"
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
@@ -109,6 +110,27 @@ TEST_F(Frame, OfCornellIsTheSame) {
 
 TEST_F(Frame, OfTwoRoomsIsTheSame) {
   expect_alike(render_both(small("two-rooms")));
+}
+
+// The red wall is unlit, and seen at eight times its colour.
+TEST_F(Frame, OfUnlitSurfacesIsTheSame) {
+  Job job = small("cornell");
+  job.frame.unlit_radiance = 8.0f;
+  Scene scene = *scenes::make(job.scene);
+  for (Material& material : scene.materials) {
+    material.unlit = material.emission == glm::vec3(0.0f) && material.base_color.x > 0.5f &&
+                     material.base_color.y < 0.2f;
+  }
+  ASSERT_TRUE(shows_unlit(scene));
+  const World here(scene), there(scene, shared_device());
+  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  expect_alike(frames);
+  const Image& emission = *frames.device.find("emission");
+  float reddest = 0.0f;
+  for (std::size_t i = 0; i < emission.pixels.size(); i += 3) {
+    reddest = std::max(reddest, emission.pixels[i] - emission.pixels[i + 1]);
+  }
+  EXPECT_NEAR(reddest, 8.0f * (0.63f - 0.065f), 1e-3f);
 }
 
 // Its bumps turn reflections: directions of rays hang on textures that both sides filter alike.
