@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "compose/unlit.h"
 #include "core/image/tone_map.h"
 #include "lambent/connect.h"
 #include "lambent/console.h"
@@ -14,7 +15,6 @@
 #include "lambent/renderer.h"
 #include "lambent/step.h"
 #include "lambent/words.h"
-#include "scene/unlit.h"
 #include "stream/client/lit_scene.h"
 #include "stream/textures/h265.h"
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
+#include "compose/unlit.h"
 #include "core/image/metrics.h"
 #include "core/image/tone_map.h"
 #include "core/memory.h"
@@ -21,7 +22,6 @@
 #include "lambent/renderer.h"
 #include "lambent/step.h"
 #include "reference/path_tracer.h"
-#include "scene/unlit.h"
 
 namespace lambent::cli {
 namespace {

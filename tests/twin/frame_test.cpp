@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compose/unlit.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "lambent/rsm.h"
 #include "lambent/world.h"
-#include "scene/unlit.h"
 #include "scenes/builtin.h"
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"

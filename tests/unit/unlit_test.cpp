@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "compose/unlit.h"
 #include "core/image/tone_map.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "lambent/world.h"
 #include "reference/path_tracer.h"
-#include "scene/unlit.h"
 #include "support/unlit_scene.h"
 
 namespace lambent {

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compose/unlit.h"
 #include "core/image/exposure.h"
 #include "core/stopwatch.h"
-#include "scene/unlit.h"
 
 namespace lambent::stream {
 namespace {
