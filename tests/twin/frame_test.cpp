@@ -128,9 +128,11 @@ TEST_F(Frame, OfUnlitSurfacesIsTheSame) {
   const Image& emission = *frames.device.find("emission");
   float reddest = 0.0f;
   for (std::size_t i = 0; i < emission.pixels.size(); i += 3) {
-    reddest = std::max(reddest, emission.pixels[i] - emission.pixels[i + 1]);
+    // The lamp, which emits green, too, is brighter
+    const bool of_lamp = emission.pixels[i + 1] > 1.0f;
+    if (!of_lamp) reddest = std::max(reddest, emission.pixels[i]);
   }
-  EXPECT_NEAR(reddest, 8.0f * (0.63f - 0.065f), 1e-3f);
+  EXPECT_NEAR(reddest, 8.0f * 0.63f, 1e-3f);
 }
 
 // Its bumps turn reflections: directions of rays hang on textures that both sides filter alike.
