@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of a scene of one's own, in the light that a server sends.
 #include <chrono>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "core/image/exposure.h"
+#include "compose/unlit.h"
 #include "core/image/tone_map.h"
 #include "lambent/connect.h"
 #include "lambent/console.h"
 #include "lambent/interrupts.h"
 #include "lambent/parse.h"
 #include "lambent/quality.h"
+#include "lambent/render_output.h"
 #include "lambent/renderer.h"
 #include "lambent/step.h"
 #include "lambent/words.h"
@@ -65,7 +65,7 @@ Expected<void> render_by_stream(const ConnectOptions& options,
   const auto light =
       add_first_light(options.stage.light, stream::camera_of(joined.welcome.camera), *scene, world);
   if (!light) return tl::unexpected(light.error());
-  const auto frame = settings_of(options);
+  auto frame = settings_of(options);
   if (!frame) return tl::unexpected(frame.error());
 
   stream::LitScene lit(*scene, world);
@@ -93,9 +93,16 @@ Expected<void> render_by_stream(const ConnectOptions& options,
     begin_step("rendering the picture");
     if (!renderer) renderer.emplace(world, IndirectSources{lit.field()});
     const Camera from = stream::camera_of(camera.value_or(joined.welcome.camera));
+    if (!stops && shows_unlit(world.scene())) {
+      // Unlit surfaces show their colours at the exposure of all others
+      frame->unlit_radiance = 0.0f;
+      if (const auto done = renderer->render(from, *frame, picture); !done) return done;
+      stops = automatic_stops(*picture.image.find(""));
+      frame->unlit_radiance = radiance_of_colors(ToneMap::aces, *stops);
+    }
     if (const auto done = renderer->render(from, *frame, picture); !done) return done;
     const Image& linear = *picture.image.find("");
-    if (!stops) stops = static_cast<float>(std::log2(display_exposure(linear)));
+    if (!stops) stops = automatic_stops(linear);
     const std::string path = name_of_frame(options, written.size());
     const auto done = write_png(path, display_image(linear, ToneMap::aces, *stops));
     if (!done) return done;

@@ -9,10 +9,13 @@
 #include <nlohmann/json.hpp>
 
 #include "compose/probe_view.h"
+#include "compose/unlit.h"
 #include "core/image/metrics.h"
+#include "core/image/tone_map.h"
 #include "core/memory.h"
 #include "lambent/console.h"
 #include "lambent/memory_check.h"
+#include "lambent/parse.h"
 #include "lambent/progress_bar.h"
 #include "lambent/quality.h"
 #include "lambent/render_output.h"
@@ -34,6 +37,12 @@ constexpr int kReferenceSamples = 64;
 
 // Of the picture that tells the field what is seen [pixels].
 constexpr int kSeenWidth = 48, kMaxSeenHeight = 96;
+
+// Longer side of the pictures that tell how bright a view is [pixels]: of pictures with millions of
+// pixels, and of others.
+constexpr int kLargePreviewSide = 512, kPreviewSide = 192;
+// Paths a pixel of such a picture.
+constexpr int kPreviewSamples = 16;
 
 const std::map<std::string, ProbeAspect> kProbeAspects = {{"irradiance", ProbeAspect::irradiance},
                                                           {"distance", ProbeAspect::distance},
@@ -60,8 +69,9 @@ Expected<IrradianceField> open_field(const RenderOptions& options, const World& 
 }
 
 ReferenceSettings reference_settings(const RenderOptions& options, const glm::ivec2& size,
-                                     int samples) {
+                                     int samples, float unlit_radiance) {
   ReferenceSettings settings;
+  settings.unlit_radiance = unlit_radiance;
   settings.width = size.x;
   settings.height = size.y;
   settings.samples = samples;
@@ -79,13 +89,11 @@ void book(const RenderedFrame& frame, Json& stats) {
   stats["camera_rays"] = stats.value("camera_rays", std::uint64_t{0}) + frame.rays;
 }
 
-/// The same view in few pixels: enough to tell how bright it is.
-FrameSettings preview_of(FrameSettings frame) {
-  constexpr int kPreviewSide = 512;  // [pixels], the longer one
-  const double scale = static_cast<double>(kPreviewSide) / std::max(frame.width, frame.height);
-  frame.width = std::max(1, static_cast<int>(std::lround(frame.width * scale)));
-  frame.height = std::max(1, static_cast<int>(std::lround(frame.height * scale)));
-  return frame;
+/// The size of the same view in few pixels: enough to tell how bright it is.
+glm::ivec2 preview_of(const glm::ivec2& size, int side) {
+  const double scale = std::min(1.0, static_cast<double>(side) / std::max(size.x, size.y));
+  return {std::max(1, static_cast<int>(std::lround(size.x * scale))),
+          std::max(1, static_cast<int>(std::lround(size.y * scale)))};
 }
 
 }  // namespace
@@ -172,8 +180,8 @@ Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
     paint_by_reference(camera, stats);
     return {};
   }
-  if (const auto lit = light(camera, stats); !lit) return lit;
   FrameSettings settings = frame_settings(options_, size_);
+  settings.unlit_radiance = unlit_radiance_;
   // Frames of which a mean is taken must have different noise. Averaged light draws its own
   const bool averages = settings.averaged_frames > 1;
   if (settings.temporal_antialiasing && !averages) settings.seed += painted_++;
@@ -186,19 +194,52 @@ Expected<void> FrameRenderer::paint(const Camera& camera, Json& stats) {
   return {};
 }
 
+/// Sets the radiance at which unlit surfaces show their colours, and where the options leave it
+/// open, first the exposure: it is that of all other surfaces, which a small picture without
+/// the unlit ones tells. In files of radiance, unlit surfaces have that of their colours.
+Expected<void> FrameRenderer::expose_unlit(const Camera& camera, const std::string& path,
+                                           std::optional<float>& stops) {
+  if (has_ending(path, ".exr") || !shows_unlit(world_.scene())) return {};
+  if (!stops) {
+    const glm::ivec2 size = preview_of(size_, kPreviewSide);
+    if (options_.method == "reference") {
+      frame_.image = render_reference(world_, camera,
+                                      reference_settings(options_, size, kPreviewSamples, 0.0f))
+                         .image;
+    } else {
+      FrameSettings preview = frame_settings(options_, size);
+      preview.unlit_radiance = 0.0f;
+      preview.averaged_frames = 1;
+      preview.temporal_antialiasing = false;
+      if (const auto done = render(camera, preview, {}); !done) return done;
+    }
+    stops = automatic_stops(*frame_.image.find(""));
+  }
+  unlit_radiance_ = radiance_of_colors(*tone_map_from_name(options_.tone_map), *stops);
+  return {};
+}
+
 Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::string& path,
                                             std::optional<float>& stops, Json& stats) {
   PictureFile file(options_, path, size_, stops);
+  if (options_.method != "reference") {
+    if (const auto lit = light(camera, stats); !lit) return lit;
+  }
+  if (const auto exposed = expose_unlit(camera, path, stops); !exposed) return exposed;
   if (!made_in_bands(options_, size_)) {
     if (const auto done = paint(camera, stats); !done) return done;
     if (const auto written = file.write(frame_.image); !written) return written;
     return file.finish();
   }
-  if (const auto lit = light(camera, stats); !lit) return lit;
   FrameSettings settings = frame_settings(options_, size_);
+  settings.unlit_radiance = unlit_radiance_;
   settings.averaged_frames = 1;  // of whole pictures alone
   if (file.needs_stops()) {
-    if (const auto done = render(camera, preview_of(settings), {}); !done) return done;
+    FrameSettings preview = settings;
+    const glm::ivec2 size = preview_of(size_, kLargePreviewSide);
+    preview.width = size.x;
+    preview.height = size.y;
+    if (const auto done = render(camera, preview, {}); !done) return done;
     stops = automatic_stops(*frame_.image.find(""));
   }
   settings.rows = rows_of_a_band(options_, size_);
@@ -218,8 +259,8 @@ Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::str
 void FrameRenderer::paint_by_reference(const Camera& camera, Json& stats) {
   begin_step("tracing paths");
   const int samples = options_.samples > 0 ? options_.samples : kReferenceSamples;
-  ReferenceResult result =
-      render_reference(world_, camera, reference_settings(options_, size_, samples), progress_);
+  ReferenceResult result = render_reference(
+      world_, camera, reference_settings(options_, size_, samples, unlit_radiance_), progress_);
   stats["samples"] = samples;
   stats["reference_ms"] = result.ms;
   stats["reference_rays"] = result.rays;
@@ -235,7 +276,8 @@ void FrameRenderer::paint_by_reference(const Camera& camera, Json& stats) {
 Expected<void> FrameRenderer::verify(const World& world, const Camera& camera, Json& stats) const {
   begin_step("comparing with the reference");
   const ReferenceResult reference = render_reference(
-      world, camera, reference_settings(options_, size_, options_.verify_samples), progress_);
+      world, camera, reference_settings(options_, size_, options_.verify_samples, unlit_radiance_),
+      progress_);
   std::printf("error against %d path-traced samples a pixel (their own: %.4f)\n",
               options_.verify_samples, reference.relative_standard_error);
   for (const char* name :

@@ -38,6 +38,8 @@ class FrameRenderer {
                         nlohmann::ordered_json& stats) const;
 
  private:
+  Expected<void> expose_unlit(const Camera& camera, const std::string& path,
+                              std::optional<float>& stops);
   Expected<void> paint(const Camera& camera, nlohmann::ordered_json& stats);
   Expected<void> light(const Camera& camera, nlohmann::ordered_json& stats);
   Expected<IndirectSources> sources() const;
@@ -55,6 +57,7 @@ class FrameRenderer {
   std::optional<IrradianceField> first_bounce_;  // what is taken out of it, of rsm+field
   std::optional<Renderer> renderer_;             // refers to both
   RenderedFrame frame_;
+  float unlit_radiance_ = 1.0f;
   std::uint32_t painted_ = 0;  // frames
 };
 

@@ -259,6 +259,10 @@ void print_human(const Scene& scene, const std::string& name) {
   } else {
     row("bounds", "%s to %s m", text_of(bounds.min).c_str(), text_of(bounds.max).c_str());
   }
+  const glm::dvec3& origin = source.origin;
+  if (origin != glm::dvec3(0.0)) {
+    row("origin", "%.10g %.10g %.10g m in the file's coordinates", origin.x, origin.y, origin.z);
+  }
   const Image& map = scene.environment.map;
   if (map.empty()) {
     row("environment", "%s W/(m2 sr)", text_of(scene.environment.radiance).c_str());
@@ -317,6 +321,7 @@ nlohmann::ordered_json json_of(const Scene& scene, const std::string& name) {
   const Bounds bounds = world_bounds(scene);
   json["bounds_min_m"] = bounds.empty() ? nlohmann::ordered_json() : list_of(bounds.min);
   json["bounds_max_m"] = bounds.empty() ? nlohmann::ordered_json() : list_of(bounds.max);
+  json["origin_in_file_m"] = {source.origin.x, source.origin.y, source.origin.z};
   json["environment_radiance"] = list_of(scene.environment.radiance);
   json["environment_width_px"] = scene.environment.map.width;
   json["environment_height_px"] = scene.environment.map.height;

@@ -62,19 +62,19 @@ struct Animation {
 /// A place in a hierarchy, relative to its parent.
 struct RigNode {
   int parent = -1;              ///< Index into Rig::nodes, below its own; -1: the world.
-  glm::vec3 translation{0.0f};  ///< [m]
+  glm::dvec3 translation{0.0};  ///< [m]; in double, as parents may stand far from the origin.
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};  ///< Unit; (w, x, y, z).
   glm::vec3 scale{1.0f};
   /// Stands for the three where it is not the identity; a node with such a matrix is not animated
   /// itself.
-  glm::mat4 parent_from_node{1.0f};
+  glm::dmat4 parent_from_node{1.0};
   std::vector<float> weights;  ///< Of morph targets, at rest.
 };
 
 /// Joints that carry the vertices of meshes.
 struct RigSkin {
-  std::vector<int> joints;                 ///< Indices into Rig::nodes; at least one.
-  std::vector<glm::mat4> joint_from_bind;  ///< One a joint.
+  std::vector<int> joints;                  ///< Indices into Rig::nodes; at least one.
+  std::vector<glm::dmat4> joint_from_bind;  ///< One a joint.
 };
 
 /// A mesh whose vertices follow morph weights and joints. No other instance shares it.
@@ -99,7 +99,7 @@ struct RigMesh {
 struct RigInstance {
   int instance = 0;  ///< Index into Scene::instances.
   int node = 0;      ///< Index into Rig::nodes.
-  glm::mat4 node_from_object{1.0f};
+  glm::dmat4 node_from_object{1.0};
 };
 
 /// A light that can be animated: where it is, and what glTF keeps apart of its numbers.

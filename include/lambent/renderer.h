@@ -72,6 +72,10 @@ struct FrameSettings {
   /// sight have no history. Give each frame a seed of its own, so that noise falls as well. Costs
   /// motion, and 76 bytes and about 0.2 us a pixel.
   bool temporal_antialiasing = false;
+  /// Radiance at which the camera sees a white surface of Material::unlit [W/(m^2 sr)], 0 to 1e10:
+  /// the inverse of the exposure shows such colours as they are. Seen by rays of reflections and
+  /// through glass they keep a radiance of 1, and so does the light that they send to others.
+  float unlit_radiance = 1.0f;
   FogSettings fog;         ///< Of the scene's fog (Scene::fog), where there is any.
   std::uint32_t seed = 1;  ///< Of all random numbers. Frames of different seeds differ in noise.
 };

@@ -208,6 +208,10 @@ struct SceneSource {
   std::vector<std::string> extensions;  ///< Used by the file, known to us or not.
   /// One sentence each: what was ignored or repaired, and where.
   std::vector<std::string> warnings;
+  /// Where the scene's origin is in the file's coordinates [m]. Scenes that stand far from the
+  /// file's origin are moved to their own, since 32-bit coordinates are coarse out there; all else
+  /// of the scene, animations too, is in the moved coordinates.
+  glm::dvec3 origin{0.0};
   /// How many the whole file holds, not only the scene that was loaded.
   int nodes = 0, animations = 0, skins = 0, morph_targets = 0, scenes = 0;
 };

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "lambent/world.h"
+#include "scene/limits.h"
 #include "scene/validate.h"
 
 namespace lambent {
@@ -85,6 +86,10 @@ Expected<void> check(const FrameSettings& s) {
     if (!fine) return fine;
   }
   if (const Expected<void> fine = check(s.fog); !fine) return fine;
+  // Written so that NaN fails
+  if (!(s.unlit_radiance >= 0.0f && s.unlit_radiance <= kMaxRadiance)) {
+    return fail("", "unlit radiance", "is not within 0 to 1e10 W/(m^2 sr)");
+  }
   if (s.averaged_frames < 1 || s.averaged_frames > kMostAveragedFrames) {
     return fail("", "averaged frames",
                 std::to_string(s.averaged_frames) + " is not between 1 and 1000");

@@ -84,8 +84,10 @@ void FramePassesVulkan::trace_pixels(Recorder& to, const CameraRaysArguments& ar
   world_.tracer().closest_hits(to, {arguments.rays, arguments.count}, hits);
   to.barrier();
   memory_.pixel_shading.pixel_surfaces(
-      to, stage(), {arguments.rays, hits, arguments.cones, arguments.count}, arguments.first_pixel,
-      traces_coats(*request_), {{memory_.points.address()}, {memory_.surfaces.address()}});
+      to, stage(),
+      {arguments.rays, hits, arguments.cones, arguments.count, request_->settings.unlit_radiance},
+      arguments.first_pixel, traces_coats(*request_),
+      {{memory_.points.address()}, {memory_.surfaces.address()}});
 }
 
 void FramePassesVulkan::reserve_pixels(std::size_t pixels) {

@@ -47,6 +47,10 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
           camera_cone(record, rays[x].direction, static_cast<uint>(settings.samples), jitter);
       gbuffer.surfaces[i] =
           seen_surface_at(world.scene(), rays[x], hits[x], width_at(cone, hits[x].distance));
+      Surface& surface = gbuffer.surfaces[i];
+      if (world.scene().materials[surface.material].unlit) {
+        surface.emission *= settings.unlit_radiance;
+      }
     }
   });
 }

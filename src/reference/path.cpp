@@ -30,11 +30,13 @@ float max_component(const glm::vec3& v) {
 
 }  // namespace
 
-PathIntegrator::PathIntegrator(const World& world, int max_bounces, Strategy strategy)
+PathIntegrator::PathIntegrator(const World& world, int max_bounces, Strategy strategy,
+                               float unlit_radiance)
     : world_(world),
       scene_(world.scene()),
       max_bounces_(max_bounces),
       strategy_(strategy),
+      unlit_radiance_(unlit_radiance),
       environment_(world.scene().environment),
       media_(world.scene().fog) {}
 
@@ -273,7 +275,8 @@ PixelSample PathIntegrator::sample_seen(const Ray& ray, const Hit& hit, SobolSam
     return sample;
   }
   const Surface surface = surface_at(scene_, ray, hit);
-  sample.emission = surface.emission;
+  const bool unlit = scene_.materials[surface.material].unlit;
+  sample.emission = (unlit ? unlit_radiance_ : 1.0f) * surface.emission;
   sample.albedo = surface.reflectance.diffuse;
   sample.normal = surface.normal_ws;
 

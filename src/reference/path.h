@@ -46,8 +46,9 @@ struct IrradianceSample {
 class PathIntegrator {
  public:
   /// Refers to the world, which must outlive it. `max_bounces` counts the bounces of indirect
-  /// light, off surfaces and in fog.
-  PathIntegrator(const World& world, int max_bounces, Strategy strategy);
+  /// light, off surfaces and in fog; `unlit_radiance` is as of FrameSettings.
+  PathIntegrator(const World& world, int max_bounces, Strategy strategy,
+                 float unlit_radiance = 1.0f);
 
   /// An unbiased estimate of what arrives along a camera ray. Adds the rays it took to `rays`.
   PixelSample sample_pixel(const Ray& ray, SobolSampler& random, std::uint64_t& rays) const;
@@ -85,6 +86,7 @@ class PathIntegrator {
   const Scene& scene_;
   int max_bounces_;
   Strategy strategy_;
+  float unlit_radiance_;
   EnvironmentDistribution environment_;
   Media media_;
 };

@@ -59,7 +59,7 @@ class Renderer {
       : world_(world),
         camera_(camera),
         settings_(settings),
-        integrator_(world, settings.max_bounces, settings.strategy),
+        integrator_(world, settings.max_bounces, settings.strategy, settings.unlit_radiance),
         pixels_(static_cast<std::size_t>(settings.width) * settings.height) {}
 
   void render(const ProgressFn& progress);

@@ -30,6 +30,7 @@ struct ReferenceSettings {
       false;  ///< Also keep the standard error of each layer of light ("direct.error", ...).
   reference::Strategy strategy =
       reference::Strategy::combined;  ///< How lights are found; for tests.
+  float unlit_radiance = 1.0f;        ///< As of FrameSettings.
 };
 
 /// A reference image, made progressively in independent passes that tell how far they agree.

@@ -18,7 +18,7 @@ namespace lambent {
 namespace {
 
 constexpr std::string_view kMagic = "lambent prepared";
-constexpr std::uint32_t kVersion = 4;
+constexpr std::uint32_t kVersion = 5;
 
 template <class T>
 using Word = std::integral_constant<bool, std::is_trivially_copyable_v<T> && sizeof(T) % 4 == 0>;
@@ -308,6 +308,7 @@ void fields(File& file, typename File::template Of<Scene>& scene) {
   file.number(scene.environment.rotation);
   file.list("volumes", scene.volumes);
   file.list("fog", scene.fog);
+  file.number(scene.source.origin);
 }
 
 }  // namespace

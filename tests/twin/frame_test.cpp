@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compose/unlit.h"
 #include "lambent/field.h"
 #include "lambent/renderer.h"
 #include "lambent/rsm.h"
@@ -109,6 +110,29 @@ TEST_F(Frame, OfCornellIsTheSame) {
 
 TEST_F(Frame, OfTwoRoomsIsTheSame) {
   expect_alike(render_both(small("two-rooms")));
+}
+
+// The red wall is unlit, and seen at eight times its colour.
+TEST_F(Frame, OfUnlitSurfacesIsTheSame) {
+  Job job = small("cornell");
+  job.frame.unlit_radiance = 8.0f;
+  Scene scene = *scenes::make(job.scene);
+  for (Material& material : scene.materials) {
+    material.unlit = material.emission == glm::vec3(0.0f) && material.base_color.x > 0.5f &&
+                     material.base_color.y < 0.2f;
+  }
+  ASSERT_TRUE(shows_unlit(scene));
+  const World here(scene), there(scene, shared_device());
+  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  expect_alike(frames);
+  const Image& emission = *frames.device.find("emission");
+  float reddest = 0.0f;
+  for (std::size_t i = 0; i < emission.pixels.size(); i += 3) {
+    // The lamp, which emits green, too, is brighter
+    const bool of_lamp = emission.pixels[i + 1] > 1.0f;
+    if (!of_lamp) reddest = std::max(reddest, emission.pixels[i]);
+  }
+  EXPECT_NEAR(reddest, 8.0f * 0.63f, 1e-3f);
 }
 
 // Its bumps turn reflections: directions of rays hang on textures that both sides filter alike.

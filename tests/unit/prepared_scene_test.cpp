@@ -118,6 +118,7 @@ Scene scene() {
   fog.anisotropy = 0.6f;
   fog.scale_height = 7.0f;
   scene.fog = {fog};
+  scene.source.origin = {1e5, 2.5, -3e6};
   return scene;
 }
 
@@ -166,6 +167,7 @@ TEST_F(PreparedScene, ComesBackAsItWas) {
   EXPECT_EQ(after.volumes[0].axes, before.volumes[0].axes);
   EXPECT_EQ(after.fog, before.fog);
   EXPECT_EQ(after.source.path, path());
+  EXPECT_EQ(after.source.origin, before.source.origin);
   // All that is not named above, too: the same file is made of it
   ASSERT_TRUE(save_prepared(after, path()));
   EXPECT_EQ(read_file(path()).value(), bytes);

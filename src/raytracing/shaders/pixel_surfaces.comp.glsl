@@ -33,6 +33,9 @@ void main() {
                            args.first_index + i, 0u, vec3(0.0f));
     pixel.reflectance = surface.reflectance;
     pixel.emission = surface.emission;
+    if (is_unlit(fetch_material(args.scene, surface.material))) {
+      pixel.emission *= args.unlit_radiance;
+    }
     pixel.transmission = surface.transmission;
     pixel.cone = RayCone(footprint.width, args.cones.at[i].spread);
     pixel.flags = 0u;

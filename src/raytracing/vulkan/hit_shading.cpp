@@ -188,6 +188,7 @@ void HitShading::pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& s
     arguments.count = std::min(kMaxInvocations, hits.count - first);
     arguments.first_index = first_index;
     arguments.traces_coats = traces_coats ? 1 : 0;
+    arguments.unlit_radiance = hits.unlit_radiance;
     recorder.run(kernels_.pixel_surfaces, arguments, arguments.count);
   }
   recorder.barrier();

@@ -50,6 +50,7 @@ struct DeviceSeenHits {
   HitArray hits;
   RayConeArray cones;
   std::uint32_t count = 0;
+  float unlit_radiance = 1.0f;  ///< As of FrameSettings, to rays of the camera.
 };
 
 /// What shading makes of hits; arrays of as many entries.

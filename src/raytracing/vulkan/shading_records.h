@@ -77,6 +77,7 @@ struct PixelSurfacesArguments {
   uint count;
   uint first_index;   ///< Of ray 0 among all pixels.
   uint traces_coats;  ///< 1: rays bring coats' light.
+  float unlit_radiance;
 };
 
 /// Draws of direct light, in slots: slot s of point i is at s * count + i. A point has one for each

@@ -140,8 +140,8 @@ class Pose {
       const glm::dvec3 translation(node.translation), scale(node.scale);
       const std::array<double, 4> rotation = {node.rotation.x, node.rotation.y, node.rotation.z,
                                               node.rotation.w};
-      world_from_node_[i] = node.parent_from_node != glm::mat4(1.0f)
-                                ? glm::dmat4(node.parent_from_node)
+      world_from_node_[i] = node.parent_from_node != glm::dmat4(1.0)
+                                ? node.parent_from_node
                                 : compose_transform(&translation.x, rotation.data(), &scale.x);
       moving_[i] = driven.at_all(i);
       if (node.parent < 0) continue;
@@ -159,8 +159,8 @@ class Pose {
       Instance& instance = scene_.instances[placed.instance];
       std::optional<Bounds>& mesh = bounds[instance.mesh];
       if (!mesh) mesh = mesh_bounds(scene_.meshes[instance.mesh]);
-      instance.world_from_object =
-          drawable_or_speck(world_from_node(placed.node) * placed.node_from_object, *mesh);
+      const glm::mat4 world_from_object(world_from_node_[placed.node] * placed.node_from_object);
+      instance.world_from_object = drawable_or_speck(world_from_object, *mesh);
     }
   }
 
@@ -177,7 +177,7 @@ class Pose {
       if (mesh.skin >= 0) {
         const RigSkin& skin = rig_.skins[mesh.skin];
         for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-          world_from_bind.push_back(world_from_node(skin.joints[j]) * skin.joint_from_bind[j]);
+          world_from_bind.emplace_back(world_from_node_[skin.joints[j]] * skin.joint_from_bind[j]);
         }
       }
       bend(scene_, mesh, nodes_[mesh.node].weights, world_from_bind, instances_of[mesh.mesh]);

@@ -23,7 +23,7 @@ bool finite(const std::vector<float>& values) {
   }
   return true;
 }
-bool finite(const glm::mat4& m) {
+bool finite(const glm::dmat4& m) {
   for (int i = 0; i < 16; ++i) {
     if (!std::isfinite(m[i / 4][i % 4])) return false;
   }

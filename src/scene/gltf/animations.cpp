@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <optional>
 #include <span>
 #include <utility>
@@ -78,7 +80,7 @@ MotionImporter::MotionImporter(Document& document, const NodeTree& tree)
       weighted_(tree.order.size(), false),
       rig_skin_of_(document.model.skins.size(), -1) {
   for (std::size_t i = 0; i < tree.order.size(); ++i) {
-    rig_node_of_[tree.order[i]] = static_cast<int>(i);
+    rig_node_of_[tree.order[i]] = static_cast<int>(i) + (is_moved() ? 1 : 0);
   }
   for (std::size_t a = 0; a < document.animations.size(); ++a) {
     for (const ChannelSource& source : document.animations[a].channels) read(a, source);
@@ -185,7 +187,7 @@ bool MotionImporter::is_driven(List list, int index) const {
   });
 }
 
-void MotionImporter::add_instance(int node, int instance, const glm::mat4& node_from_object) {
+void MotionImporter::add_instance(int node, int instance, const glm::dmat4& node_from_object) {
   if (moves(node)) rig_.instances.push_back({instance, rig_node_of_[node], node_from_object});
 }
 
@@ -217,31 +219,44 @@ void MotionImporter::add_camera(int node, int camera) {
   camera_sources_.push_back(source);
 }
 
-int MotionImporter::rig_skin(int skin, const std::vector<glm::mat4>& joint_from_bind) {
-  if (rig_skin_of_[skin] >= 0) return rig_skin_of_[skin];
-  rig_skin_of_[skin] = static_cast<int>(rig_.skins.size());
+int MotionImporter::rig_skin(int skin, const std::vector<glm::dmat4>& joint_from_bind,
+                             const glm::dvec3& centre) {
+  // A mesh whose vertices were moved has a bind pose of its own
+  const bool shared = centre == glm::dvec3(0.0);
+  if (shared && rig_skin_of_[skin] >= 0) return rig_skin_of_[skin];
+  const int index = static_cast<int>(rig_.skins.size());
   RigSkin& made = rig_.skins.emplace_back();
   for (const int joint : document_.model.skins[skin].joints) {
     made.joints.push_back(rig_node_of_[joint]);
   }
-  made.joint_from_bind = joint_from_bind;
-  return rig_skin_of_[skin];
+  for (const glm::dmat4& matrix : joint_from_bind) {
+    made.joint_from_bind.push_back(glm::translate(matrix, centre));
+  }
+  if (shared) rig_skin_of_[skin] = index;
+  return index;
 }
 
 void MotionImporter::add_mesh(int node, RigMesh mesh,
-                              const std::vector<glm::mat4>& joint_from_bind) {
+                              const std::vector<glm::dmat4>& joint_from_bind,
+                              const glm::dvec3& centre) {
   const int skin = document_.model.nodes[node].skin;
   mesh.node = rig_node_of_[node];
-  if (skin >= 0) mesh.skin = rig_skin(skin, joint_from_bind);
+  if (skin >= 0) mesh.skin = rig_skin(skin, joint_from_bind, centre);
   rig_.meshes.push_back(std::move(mesh));
 }
 
 void MotionImporter::add_nodes() {
+  // The parent of all others brings them from the file's coordinates to the scene's
+  if (is_moved()) rig_.nodes.emplace_back().translation = -tree_.origin;
   for (const int index : tree_.order) {
     const tinygltf::Node& from = document_.model.nodes[index];
     RigNode node;
-    if (tree_.parents[index] >= 0) node.parent = rig_node_of_[tree_.parents[index]];
-    node.translation = vec3_of(from.translation, glm::vec3(0.0f));
+    if (tree_.parents[index] >= 0) {
+      node.parent = rig_node_of_[tree_.parents[index]];
+    } else if (is_moved()) {
+      node.parent = 0;
+    }
+    if (from.translation.size() == 3) node.translation = glm::make_vec3(from.translation.data());
     node.scale = vec3_of(from.scale, glm::vec3(1.0f));
     if (from.rotation.size() == 4) {
       const glm::dquat q(from.rotation[3], from.rotation[0], from.rotation[1], from.rotation[2]);
@@ -250,8 +265,7 @@ void MotionImporter::add_nodes() {
     if (from.matrix.size() == 16) {
       for (int i = 0; i < 16; ++i) {
         const bool last_row = i % 4 == 3;
-        node.parent_from_node[i / 4][i % 4] =
-            last_row ? (i == 15 ? 1.0f : 0.0f) : static_cast<float>(from.matrix[i]);
+        node.parent_from_node[i / 4][i % 4] = last_row ? (i == 15 ? 1.0 : 0.0) : from.matrix[i];
       }
     }
     const std::vector<double>& weights = from.weights.empty() && from.mesh >= 0

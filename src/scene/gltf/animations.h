@@ -22,12 +22,14 @@ class MotionImporter {
   /// Whether the vertices of a mesh in this node move by themselves: weights or joints do.
   bool bends(int node) const;
 
-  void add_instance(int node, int instance, const glm::mat4& node_from_object);
+  void add_instance(int node, int instance, const glm::dmat4& node_from_object);
   /// `source`: index into the file's lights.
   void add_light(int node, int source, int light);
   void add_camera(int node, int camera);
-  /// `mesh`: all but its node and skin; `joint_from_bind` of the skin, where it has one.
-  void add_mesh(int node, RigMesh mesh, const std::vector<glm::mat4>& joint_from_bind);
+  /// `mesh`: all but its node and skin; `joint_from_bind` of the skin, where it has one; `centre`
+  /// as of ImportedMesh.
+  void add_mesh(int node, RigMesh mesh, const std::vector<glm::dmat4>& joint_from_bind,
+                const glm::dvec3& centre);
 
   /// Adds animations and rig to the scene whose parts were told. Nothing where nothing moves.
   void finish(Scene& scene);
@@ -44,9 +46,10 @@ class MotionImporter {
   void read(std::size_t animation, const ChannelSource& source);
   void mark_moving();
   const char* read_curve(const ChannelSource& source, Driver& driver) const;
+  bool is_moved() const { return tree_.origin != glm::dvec3(0.0); }
   int weights_of(int mesh) const;
   bool is_driven(List list, int index) const;
-  int rig_skin(int skin, const std::vector<glm::mat4>& joint_from_bind);
+  int rig_skin(int skin, const std::vector<glm::dmat4>& joint_from_bind, const glm::dvec3& centre);
   void add_nodes();
   void add_materials(const Scene& scene);
   void add_channel(const Driver& driver, Animation& animation) const;

@@ -3,8 +3,7 @@
 #include "scene/gltf/import.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
 #include <new>
 #include <optional>
 
@@ -17,11 +16,11 @@
 #include "scene/gltf/materials.h"
 #include "scene/gltf/meshes.h"
 #include "scene/gltf/nodes.h"
+#include "scene/gltf/rounding.h"
 #include "scene/gltf/textures.h"
 #include "scene/gltf/volumes.h"
 #include "scene/limits.h"
 #include "scene/texture.h"
-#include "shared/rays.h"
 
 namespace lambent {
 namespace gltf {
@@ -30,13 +29,10 @@ namespace {
 // More than any renderable scene; a small file can ask for more by instancing instances.
 constexpr std::size_t kMaxInstances = std::size_t{1} << 22;
 
-// Rays may start this share of a scene's longest side off its surfaces: less than walls are thick.
-constexpr float kMaxRayOffset = 1e-2f;
-
 class Importer {
  public:
   Importer(Document& document, const LoadOptions& options)
-      : document_(document), options_(options), meshes_(document.model.meshes.size()) {}
+      : document_(document), options_(options) {}
 
   Expected<Scene> run() {
     TextureLibrary textures(document_);
@@ -44,21 +40,49 @@ class Importer {
     scene_.materials = std::move(materials);
     scene_.textures = textures.decode(scene_.materials);
     LAMBENT_TRY(tree, build_node_tree(document_, options_.scene));
-    MotionImporter motion(document_, tree);
-    motion_ = &motion;
-    for (const int node : tree.visible) LAMBENT_CHECK(import_node(tree, node));
+    LAMBENT_CHECK(import_nodes_near_origin(tree));
     if (tree.scene >= 0) scene_.environment.radiance = document_.scene_skies[tree.scene];
     drop_unused_default_material();
-    motion.finish(scene_);
+    motion_->finish(scene_);
+    scene_.source.origin = tree.origin;
     describe_source();
     LAMBENT_CHECK(validate(scene_));
     return std::move(scene_);
   }
 
  private:
+  // All that nodes hold. Where that is known to be far from the origin, it is imported again about
+  // an origin in its midst, from the numbers of the file: their last bits count.
+  Expected<void> import_nodes_near_origin(NodeTree& tree) {
+    const std::vector<std::string> warnings = document_.warnings;
+    const std::vector<Repair> repairs = document_.repairs;
+    LAMBENT_CHECK(import_nodes(tree));
+    if (!is_rounded(scene_)) return {};
+    move_origin(tree, origin_of(world_bounds(scene_)));
+    recentre_ = true;
+    scene_.meshes.clear();
+    scene_.instances.clear();
+    scene_.lights.clear();
+    scene_.cameras.clear();
+    scene_.volumes.clear();
+    scene_.fog.clear();
+    document_.warnings = warnings;
+    document_.repairs = repairs;
+    return import_nodes(tree);
+  }
+
+  Expected<void> import_nodes(const NodeTree& tree) {
+    meshes_.assign(document_.model.meshes.size(), std::nullopt);
+    centres_.clear();
+    bounds_.clear();
+    motion_.emplace(document_, tree);
+    for (const int node : tree.visible) LAMBENT_CHECK(import_node(tree, node));
+    return {};
+  }
+
   Expected<void> import_node(const NodeTree& tree, int index) {
     const tinygltf::Node& node = document_.model.nodes[index];
-    const glm::mat4& world_from_node = tree.world_from_node[index];
+    const glm::mat4 world_from_node(tree.world_from_node[index]);
     if (node.camera >= 0) {
       LAMBENT_TRY(camera, import_camera(document_, index, world_from_node));
       motion_->add_camera(index, static_cast<int>(scene_.cameras.size()));
@@ -80,24 +104,24 @@ class Importer {
                               : shared_mesh(node.mesh, deformation));
     // Joints place a skinned mesh in the world; its node does not (specification, sec. 3.7.3.3)
     if (!deformation.joint_matrices.empty()) {
-      return add_instances(meshes, index, glm::mat4(1.0f), glm::mat4(1.0f), bends);
+      return add_instances(meshes, index, glm::dmat4(1.0), glm::dmat4(1.0), bends);
     }
     if (const auto* instancing = find_extension(node.extensions, "EXT_mesh_gpu_instancing")) {
-      return add_gpu_instances(meshes, index, *instancing, world_from_node);
+      return add_gpu_instances(meshes, index, *instancing, tree.world_from_node[index]);
     }
-    return add_instances(meshes, index, world_from_node, glm::mat4(1.0f),
+    return add_instances(meshes, index, tree.world_from_node[index], glm::dmat4(1.0),
                          bends || motion_->moves(index));
   }
 
   // The bind pose of a skin's joints; none where there is no skin.
-  Expected<std::vector<glm::mat4>> read_skin(int index) {
-    std::vector<glm::mat4> joint_from_bind;
+  Expected<std::vector<glm::dmat4>> read_skin(int index) {
+    std::vector<glm::dmat4> joint_from_bind;
     if (index < 0) return joint_from_bind;
     const tinygltf::Skin& skin = document_.model.skins[index];
     if (skin.joints.empty()) {
       return document_.fail_at(entry("skins", index), "the skin has no joints");
     }
-    joint_from_bind.assign(skin.joints.size(), glm::mat4(1.0f));
+    joint_from_bind.assign(skin.joints.size(), glm::dmat4(1.0));
     if (skin.inverseBindMatrices < 0) return joint_from_bind;
     LAMBENT_TRY(matrices, read_elements(document_, skin.inverseBindMatrices, 16));
     if (matrices.size() < skin.joints.size()) {
@@ -112,7 +136,7 @@ class Importer {
 
   // The default morph weights and the rest pose.
   Deformation deformation_of(const NodeTree& tree, const tinygltf::Node& node,
-                             const std::vector<glm::mat4>& joint_from_bind) {
+                             const std::vector<glm::dmat4>& joint_from_bind) {
     Deformation deformation;
     const auto& defaults = document_.model.meshes[node.mesh].weights;
     bool moved = false;
@@ -130,10 +154,13 @@ class Importer {
 
   // Meshes that no other node shares, with what bends them.
   Expected<std::vector<int>> import_bending_mesh(int node, const Deformation& deformation,
-                                                 const std::vector<glm::mat4>& joint_from_bind) {
+                                                 const std::vector<glm::dmat4>& joint_from_bind) {
     std::vector<RigMesh> rigs;
     LAMBENT_TRY(meshes, import_mesh(document_.model.nodes[node].mesh, deformation, &rigs));
-    for (RigMesh& rig : rigs) motion_->add_mesh(node, std::move(rig), joint_from_bind);
+    for (RigMesh& rig : rigs) {
+      const glm::dvec3 centre = centres_[rig.mesh];
+      motion_->add_mesh(node, std::move(rig), joint_from_bind, centre);
+    }
     return std::move(meshes);
   }
 
@@ -160,15 +187,16 @@ class Importer {
           base_map.texture >= 0 ? base_map : scene_.materials[material].clearcoat_normal_texture;
       const int tangent_uv_set = normal_map.texture >= 0 ? normal_map.uv_set : -1;
       RigMesh rig;
-      LAMBENT_TRY(imported, import_primitive(document_, mesh, i, deformation, tangent_uv_set,
-                                             rigs != nullptr ? &rig : nullptr));
+      LAMBENT_TRY(imported, import_primitive(document_, mesh, i, deformation, recentre_,
+                                             tangent_uv_set, rigs != nullptr ? &rig : nullptr));
       if (!imported) continue;
-      imported->material = material;
-      warn_of_missing_uvs(*imported, entry("meshes", mesh) + "." + entry("primitives", i));
+      imported->mesh.material = material;
+      warn_of_missing_uvs(imported->mesh, entry("meshes", mesh) + "." + entry("primitives", i));
       made.push_back(static_cast<int>(scene_.meshes.size()));
       rig.mesh = made.back();
       if (rigs != nullptr) rigs->push_back(std::move(rig));
-      scene_.meshes.push_back(std::move(*imported));
+      scene_.meshes.push_back(std::move(imported->mesh));
+      centres_.push_back(imported->centre);
     }
     return made;
   }
@@ -184,18 +212,24 @@ class Importer {
 
   // Places meshes at `world_from_node` * `node_from_object`. `dynamic`: they are about to move.
   Expected<void> add_instances(const std::vector<int>& meshes, int node,
-                               const glm::mat4& world_from_node, const glm::mat4& node_from_object,
-                               bool dynamic) {
-    const glm::mat4 world_from_object = world_from_node * node_from_object;
+                               const glm::dmat4& world_from_node,
+                               const glm::dmat4& node_from_object, bool dynamic) {
+    const glm::mat4 unmoved(world_from_node * node_from_object);
     const std::string place = entry("nodes", node);
-    if (largest_scale(world_from_object) > kMaxScale) {
+    if (largest_scale(unmoved) > kMaxScale) {
       return document_.fail_at(place, "the mesh is scaled by more than 1e10");
     }
+    // Joints have brought a skinned mesh from where its vertices stood to the world
+    const bool skinned = document_.model.nodes[node].skin >= 0;
+    const auto node_from_mesh = [&](int mesh) {
+      return skinned ? node_from_object : glm::translate(node_from_object, centres_[mesh]);
+    };
     for (const int mesh : meshes) {
-      if (stays_in_reach(world_from_object, bounds_of(mesh))) continue;
+      const glm::mat4 world_from_mesh(world_from_node * node_from_mesh(mesh));
+      if (stays_in_reach(world_from_mesh, bounds_of(mesh))) continue;
       return document_.fail_at(place, "the mesh reaches beyond 1e9 m from the origin");
     }
-    if (!drawable(world_from_object) && !motion_->moves(node)) {
+    if (!drawable(unmoved) && !motion_->moves(node)) {
       document_.repaired("instances scaled to a line or a point were left out", meshes.size(),
                          place);
       return {};
@@ -205,14 +239,16 @@ class Importer {
           place, "the scene has more than " + std::to_string(kMaxInstances) + " instances");
     }
     const NodeFlags& flags = document_.node_flags[node];
-    const bool skinned = document_.model.nodes[node].skin >= 0;
     for (const int mesh : meshes) {
+      const glm::dmat4 node_from_object_here = node_from_mesh(mesh);
       if (!skinned) {
-        motion_->add_instance(node, static_cast<int>(scene_.instances.size()), node_from_object);
+        const int instance = static_cast<int>(scene_.instances.size());
+        motion_->add_instance(node, instance, node_from_object_here);
       }
       Instance instance;
       instance.name = document_.model.nodes[node].name;
       instance.mesh = mesh;
+      const glm::mat4 world_from_object(world_from_node * node_from_object_here);
       instance.world_from_object = drawable_or_speck(world_from_object, bounds_of(mesh));
       instance.casts_gi = flags.casts_gi;
       instance.receives_gi = flags.receives_gi;
@@ -227,7 +263,7 @@ class Importer {
   // node.
   Expected<void> add_gpu_instances(const std::vector<int>& meshes, int node,
                                    const tinygltf::Value& instancing,
-                                   const glm::mat4& world_from_node) {
+                                   const glm::dmat4& world_from_node) {
     const tinygltf::Value& attributes = instancing.Get("attributes");
     struct Attribute {
       const char* name;
@@ -260,8 +296,8 @@ class Importer {
         for (int k = 0; k < read[a].components; ++k) values[a][k] = read[a].elements[i][k];
         given[a] = values[a];
       }
-      const glm::mat4 node_from_instance(compose_transform(given[0], given[1], given[2]));
-      LAMBENT_CHECK(add_instances(meshes, node, world_from_node, node_from_instance,
+      LAMBENT_CHECK(add_instances(meshes, node, world_from_node,
+                                  compose_transform(given[0], given[1], given[2]),
                                   motion_->moves(node) || motion_->bends(node)));
     }
     return {};
@@ -283,30 +319,6 @@ class Importer {
     scene_.materials.pop_back();
   }
 
-  static std::string metres(float length) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g m", static_cast<double>(length));
-    return text;
-  }
-
-  // Rays start off surfaces by the rounding of coordinates, which far from the origin, and in tiny
-  // scenes, is as large as what is to be lit.
-  void warn_of_rounding() {
-    const Bounds bounds = world_bounds(scene_);
-    if (bounds.empty()) return;
-    const glm::vec3 size = bounds.max - bounds.min;
-    const glm::vec3 far = glm::max(glm::abs(bounds.min), glm::abs(bounds.max));
-    const float farthest = std::max({far.x, far.y, far.z});
-    const float offset = offset_ray_component(farthest, 1.0f) - farthest;
-    const float extent = std::max({size.x, size.y, size.z});
-    if (offset <= kMaxRayOffset * extent) return;
-    const bool tiny = farthest < kRayOffsetOrigin;
-    document_.warn("The scene is " + metres(extent) + " large" +
-                   (tiny ? "" : ", " + metres(farthest) + " from the origin") +
-                   ", and rays start " + metres(offset) + " off its surfaces: light is wrong. " +
-                   (tiny ? "Scale it up." : "Move it to the origin."));
-  }
-
   void describe_source() {
     const tinygltf::Model& model = document_.model;
     SceneSource& source = scene_.source;
@@ -323,7 +335,11 @@ class Importer {
       }
     }
     if (triangle_count(scene_) == 0) document_.warn("The scene has no triangles.");
-    warn_of_rounding();
+    const Bounds bounds = world_bounds(scene_);
+    for (const std::string& sentence :
+         {warning_of_move(bounds, source.origin), warning_of_size(bounds)}) {
+      if (!sentence.empty()) document_.warn(sentence);
+    }
     document_.warn_of_repairs();
     source.warnings = std::move(document_.warnings);
   }
@@ -331,8 +347,10 @@ class Importer {
   Document& document_;
   const LoadOptions& options_;
   std::vector<std::optional<std::vector<int>>> meshes_;  // by glTF mesh; none: not yet imported
-  std::vector<Bounds> bounds_;                           // by mesh of the scene
-  MotionImporter* motion_ = nullptr;
+  bool recentre_ = false;            // meshes whose vertices are far from their origin
+  std::vector<glm::dvec3> centres_;  // by mesh of the scene: see ImportedMesh
+  std::vector<Bounds> bounds_;       // likewise
+  std::optional<MotionImporter> motion_;
   Scene scene_;
 };
 

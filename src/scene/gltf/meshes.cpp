@@ -2,12 +2,15 @@
 #include "scene/gltf/meshes.h"
 
 #include <algorithm>
+#include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <numeric>
 
+#include "scene/animation/pose.h"
 #include "scene/gltf/deform.h"
 #include "scene/gltf/document/accessors.h"
 #include "scene/gltf/document/draco.h"
+#include "scene/gltf/rounding.h"
 #include "scene/limits.h"
 #include "scene/mesh_repair.h"
 
@@ -193,6 +196,14 @@ Expected<void> check_ranges(Document& document, const std::string& place, Mesh& 
   return {};
 }
 
+// Moves vertices that are far from the origin to it, and tells from where.
+glm::dvec3 move_to_origin(Mesh& mesh) {
+  const glm::dvec3 centre = origin_of(mesh_bounds(mesh));
+  if (centre == glm::dvec3(0.0)) return centre;
+  for (glm::vec3& position : mesh.positions) position = glm::vec3(glm::dvec3(position) - centre);
+  return centre;
+}
+
 Expected<std::vector<SkinInfluences>> read_influences(const PrimitiveReader& reader) {
   std::vector<SkinInfluences> sets;
   for (int set = 0;; ++set) {
@@ -292,9 +303,11 @@ void complete(Document& document, const std::string& place, int tangent_uv_set, 
 
 }  // namespace
 
-Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_index, int primitive,
-                                               const Deformation& deformation, int tangent_uv_set,
-                                               RigMesh* rig) {
+Expected<std::optional<ImportedMesh>> import_primitive(Document& document, int mesh_index,
+                                                       int primitive,
+                                                       const Deformation& deformation,
+                                                       bool recentre, int tangent_uv_set,
+                                                       RigMesh* rig) {
   const tinygltf::Mesh& source_mesh = document.model.meshes[mesh_index];
   const tinygltf::Primitive& source = source_mesh.primitives[primitive];
   const std::string place = primitive_place(mesh_index, primitive);
@@ -304,7 +317,8 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
   }
 
   LAMBENT_TRY(reader, PrimitiveReader::open(document, mesh_index, primitive));
-  Mesh mesh;
+  ImportedMesh imported;
+  Mesh& mesh = imported.mesh;
   mesh.name = source_mesh.name;
   mesh.material = source.material;
   LAMBENT_CHECK(read_vertices(reader, mesh));
@@ -313,6 +327,7 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
     return std::nullopt;
   }
   LAMBENT_CHECK(check_ranges(document, place, mesh));
+  if (recentre) imported.centre = move_to_origin(mesh);
   LAMBENT_TRY(indices, reader.indices());
   mesh.triangles = triangles_of(reader.mode(), indices);
 
@@ -328,7 +343,11 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
   }
   LAMBENT_CHECK(bend_by_morph_targets(document, source, place, deformation.morph_weights, mesh));
   if (!deformation.joint_matrices.empty()) {
-    LAMBENT_CHECK(bend_by_joints(document, place, influences, deformation.joint_matrices, mesh));
+    std::vector<glm::mat4> world_from_vertex;
+    for (const glm::dmat4& world_from_bind : deformation.joint_matrices) {
+      world_from_vertex.emplace_back(glm::translate(world_from_bind, imported.centre));
+    }
+    LAMBENT_CHECK(bend_by_joints(document, place, influences, world_from_vertex, mesh));
   }
   document.repaired("triangles without area were dropped", drop_degenerate_triangles(mesh), place);
   if (mesh.triangles.empty()) return std::nullopt;
@@ -337,7 +356,7 @@ Expected<std::optional<Mesh>> import_primitive(Document& document, int mesh_inde
   drop_unused_vertices(mesh, &origins);
   complete(document, place, tangent_uv_set, mesh, origins);
   if (rig != nullptr) follow_repairs(origins, mesh, *rig);
-  return mesh;
+  return imported;
 }
 
 }  // namespace lambent::gltf

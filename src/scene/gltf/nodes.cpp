@@ -119,9 +119,9 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
     if (!seen[i]) return document.fail_at(entry("nodes", i), "the node is part of a cycle");
   }
 
-  std::vector<glm::dmat4> world_from_node(count, glm::dmat4(1.0));
+  std::vector<glm::dmat4>& world_from_node = tree.world_from_node;
+  world_from_node.assign(count, glm::dmat4(1.0));
   std::vector<int> depth(count, 0);
-  tree.world_from_node.resize(count);
   for (const int node : order) {
     world_from_node[node] = parent_from_node(document, node);
     if (const int parent = parents[node]; parent >= 0) {
@@ -131,8 +131,7 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
     if (depth[node] > kMaxNodeDepth) {
       return document.fail_at(entry("nodes", node), "the hierarchy is absurdly deep");
     }
-    tree.world_from_node[node] = glm::mat4(world_from_node[node]);
-    if (!finite(tree.world_from_node[node])) {
+    if (!finite(glm::mat4(world_from_node[node]))) {
       return document.fail_at(entry("nodes", node), "the transform is not finite");
     }
   }
@@ -144,6 +143,12 @@ Expected<NodeTree> build_node_tree(Document& document, int scene) {
     append_subtree(document, root, seen, tree.visible);
   tree.parents = std::move(parents);
   return tree;
+}
+
+void move_origin(NodeTree& tree, const glm::dvec3& origin) {
+  const glm::dvec4 way(origin - tree.origin, 0.0);
+  for (glm::dmat4& world_from_node : tree.world_from_node) world_from_node[3] -= way;
+  tree.origin = origin;
 }
 
 }  // namespace lambent::gltf

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compose/unlit.h"
 #include "core/image/exposure.h"
 #include "core/stopwatch.h"
 
@@ -21,6 +22,7 @@ PictureMaker::PictureMaker(const World& world, const IrradianceField& field,
                            const PictureSettings& settings, const Camera& camera,
                            const Hello& hello)
     : settings_(settings),
+      world_(world),
       renderer_(world, IndirectSources{&field}),
       pace_(settings.limits, hello.size, hello.rate),
       camera_(camera) {}
@@ -41,11 +43,29 @@ std::optional<Clock::time_point> PictureMaker::due(const WorldState& state) cons
                      std::chrono::duration<double>(1.0 / static_cast<double>(pace_.rate())));
 }
 
+// Finds at which radiance unlit surfaces show their colours. It stays as it is: exposure follows
+// what pictures show, and would never come to rest if they followed it.
+Expected<void> PictureMaker::expose_unlit(FrameSettings& frame) {
+  if (!unlit_radiance_ && !shows_unlit(world_.scene())) unlit_radiance_ = frame.unlit_radiance;
+  if (!unlit_radiance_) {
+    std::optional<float> stops = settings_.exposure_stops;
+    if (!stops) {
+      frame.unlit_radiance = 0.0f;
+      if (const auto done = renderer_.render(camera_, frame, frame_); !done) return done;
+      stops = static_cast<float>(std::log2(display_exposure(*frame_.image.find(""))));
+    }
+    unlit_radiance_ = radiance_of_colors(settings_.tone_map, *stops);
+  }
+  frame.unlit_radiance = *unlit_radiance_;
+  return {};
+}
+
 Expected<void> PictureMaker::render() {
   FrameSettings frame = settings_.frame;
   frame.width = static_cast<int>(pace_.size().x);
   frame.height = static_cast<int>(pace_.size().y);
   if (frame.averaged_frames == 1) frame.seed += number_;  // averaged light draws its own
+  if (const auto exposed = expose_unlit(frame); !exposed) return exposed;
   return renderer_.render(camera_, frame, frame_);
 }
 

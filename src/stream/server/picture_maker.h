@@ -46,16 +46,19 @@ class PictureMaker {
 
  private:
   Expected<void> render();
+  Expected<void> expose_unlit(FrameSettings& frame);
   Image shown();
 
   PictureSettings settings_;
+  const World& world_;
   Renderer renderer_;
   Pace pace_;
   Camera camera_;
   std::optional<PictureEncoder> encoder_;
   RenderedFrame frame_;
   YuvPicture yuv_;
-  std::optional<float> stops_;  // of the last picture
+  std::optional<float> stops_;           // of the last picture
+  std::optional<float> unlit_radiance_;  // after the first one
   std::uint32_t number_ = 0, last_input_ = 0;
   int still_pictures_ = 0;  // since something changed
   std::uint64_t shown_change_ = 0;
