@@ -98,6 +98,53 @@ TEST(Corrections, ReadFromSingleCellsHaveTheMeanOfInterpolatedOnes) {
   EXPECT_NEAR(picked / smooth, 1.0, 0.005);
 }
 
+struct Spread {
+  double mean, deviation;
+};
+
+/// Of what lookups read over the floor.
+Spread spread_of(const CorrectionTable& table) {
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  for (float x = -2.5f; x <= 2.5f; x += 0.05f, ++count) {
+    const double ratio = read(table, {x, 0.01f, -0.7f * x});
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  const double mean = sum / count;
+  return {mean, std::sqrt(squares / count - mean * mean)};
+}
+
+TEST(Corrections, AreSmootherWhereGathersAreNoisy) {
+  // Of four samples, three find nothing and one finds four times the light: a variance of 3 L^2
+  std::vector<CorrectionSample> samples = samples_on_floor(20000, [](float) { return 1.0f; });
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].gathered = i % 4 == 0 ? 4.0f * samples[i].looked_up : 0.0f;
+  }
+  const Spread blind = spread_of(taught(samples));
+  for (CorrectionSample& sample : samples) {
+    sample.variance = 3.0f * sample.looked_up * sample.looked_up;
+  }
+  const Spread told = spread_of(taught(samples));
+  EXPECT_NEAR(blind.mean, 1.0, 0.03);
+  EXPECT_NEAR(told.mean, 1.0, 0.03);
+  EXPECT_GT(blind.deviation, 0.05);
+  EXPECT_LT(told.deviation, 0.4 * blind.deviation);
+}
+
+TEST(Corrections, CountQuietSamplesAsOneEach) {
+  std::vector<CorrectionSample> samples =
+      samples_on_floor(20000, [](float x) { return 1.0f + 0.3f * x / 3.0f; });
+  const CorrectionTable silent = taught(samples);
+  for (CorrectionSample& sample : samples) {
+    sample.variance = 0.9f * kTypicalNoise * sample.looked_up * sample.looked_up;
+  }
+  const CorrectionTable quiet = taught(samples);
+  for (float x = -2.5f; x <= 2.5f; x += 0.1f) {
+    EXPECT_EQ(read(quiet, {x, 0.01f, -x}), read(silent, {x, 0.01f, -x}));
+  }
+}
+
 TEST(Corrections, AreTheSameWhereBlocksAreRemembered) {
   const CorrectionTable table =
       taught(samples_on_floor(20000, [](float x) { return 1.0f + 0.2f * x; }));

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "shaders/correction_mean_comp.h"
 #include "shaders/correction_items_comp.h"
+#include "shaders/correction_mean_comp.h"
 #include "shaders/forget_corrections_comp.h"
 #include "shaders/merge_corrections_comp.h"
 #include "shaders/refine_corrections_comp.h"
