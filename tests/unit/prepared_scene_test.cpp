@@ -124,7 +124,7 @@ Scene scene() {
 
 class PreparedScene : public ::testing::Test {
  protected:
-  std::string path() const { return folder_.file("scene"); }
+  std::string path() const { return folder.file("scene"); }
   std::vector<std::byte> saved() {
     EXPECT_TRUE(save_prepared(scene(), path()));
     return read_file(path()).value();
@@ -136,7 +136,7 @@ class PreparedScene : public ::testing::Test {
     return load_prepared(path());
   }
 
-  test::TemporaryDirectory folder_;
+  test::TemporaryDirectory folder;
 };
 
 TEST_F(PreparedScene, ComesBackAsItWas) {
