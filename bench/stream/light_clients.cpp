@@ -17,7 +17,7 @@
 
 #include "core/little_endian.h"
 #include "lambent/stream.h"
-#include "stream/protocol/messages.h"
+#include "stream/protocol/hello_header.h"
 
 namespace lambent::stream_load {
 namespace {
@@ -33,7 +33,7 @@ using stream::LightMessageKind;
 
 // Where a message of light has what clients without a decoder look at: docs/protocol.md and
 // docs/stream-light.md.
-constexpr std::uint32_t kLightType = 67;
+constexpr std::uint32_t kLightType = 67, kWelcomeType = 65;
 constexpr std::size_t kKindAt = 8, kPayloadAt = 28, kGeometryAt = kPayloadAt + 24;
 
 // Clients that connect at a time: more would wait in the server's backlog, and be timed there.
@@ -68,6 +68,7 @@ class OneClient {
     started_ = Clock::now();
     beast::get_lowest_layer(socket_).async_connect(shared_.server, [this](beast::error_code error) {
       if (error) return fail();
+      tell("connected");
       beast::get_lowest_layer(socket_).socket().set_option(tcp::no_delay(true), error);
       if constexpr (std::is_same_v<Stream, TlsStream>) {
         socket_.next_layer().async_handshake(ssl::stream_base::client,
@@ -83,12 +84,16 @@ class OneClient {
     if (error) return fail();
     socket_.read_message_max(stream::kHeaderBytes + stream::kMaxLightBytes);
     socket_.binary(true);
+    stream::Hello hello;
+    hello.wants = stream::kWantsLight;
+    hello.token = shared_.token;
+    socket_.set_option(websocket::stream_base::decorator(
+        [field = stream::hello_header(hello)](websocket::request_type& request) {
+          request.set(stream::kHelloField, field);
+        }));
     socket_.async_handshake(shared_.host, "/stream", [this](beast::error_code done) {
       if (done) return fail();
-      stream::Hello hello;
-      hello.wants = stream::kWantsLight;
-      hello.token = shared_.token;
-      send(hello);
+      tell("WebSocket open");
       read();
     });
   }
@@ -105,20 +110,28 @@ class OneClient {
   }
 
   void take(std::span<const std::byte> message) {
-    ByteReader in(message);
-    if (message.size() < kGeometryAt + sizeof(std::uint64_t) || in.u32() != kLightType) return;
+    const std::uint32_t type = ByteReader(message).u32();
+    if (type == kWelcomeType) tell("welcome", message.size());
+    if (message.size() < kGeometryAt + sizeof(std::uint64_t) || type != kLightType) return;
     ByteReader light(message.subspan(kKindAt));
     const auto kind = static_cast<LightMessageKind>(light.u32());
     const std::uint64_t update = light.u64();
-    std::uint64_t geometry = ByteReader(message.subspan(kGeometryAt)).u64();
+    // Corrections name the geometry that they came to be with
+    if (kind != LightMessageKind::corrections) {
+      geometry_ = ByteReader(message.subspan(kGeometryAt)).u64();
+    }
     bool needs_key = false;
+    if (!joined_) tell(kind == LightMessageKind::geometry ? "geometry" : "key", message.size());
     if (decoder_) {
       if (!decoder_->receive(message.subspan(kPayloadAt))) ++shared_.seen.broken;
-      geometry = decoder_->geometry();
+      geometry_ = decoder_->geometry();
       needs_key = decoder_->needs_key() && kind != LightMessageKind::geometry;
     }
-    if (kind != LightMessageKind::geometry) count(kind, update);
-    send(stream::LightReceived{update, geometry, needs_key ? 1u : 0u});
+    const bool is_light =
+        kind != LightMessageKind::geometry && kind != LightMessageKind::corrections;
+    if (is_light) count(kind, update);
+    if (kind == LightMessageKind::corrections) tell("corrections", message.size());
+    send(stream::LightReceived{update, geometry_, needs_key ? 1u : 0u});
   }
 
   void count(LightMessageKind kind, std::uint64_t update) {
@@ -133,10 +146,20 @@ class OneClient {
     if (shared_.on_light) shared_.on_light(number_, update);
     if (joined_) return;
     joined_ = true;
+    tell("first light, decoded");
     ++seen.joined;
     --shared_.connecting;
-    seen.join_ms.push_back(
-        std::chrono::duration<double, std::milli>(Clock::now() - started_).count());
+    seen.join_ms.push_back(since_start_ms());
+  }
+
+  /// Of the first client, at its beginning.
+  void tell(const char* what, std::size_t bytes = 0) {
+    constexpr std::size_t kMost = 64;
+    if (number_ != 0 || shared_.seen.first_join.size() >= kMost) return;
+    shared_.seen.first_join.push_back({what, since_start_ms(), bytes});
+  }
+  double since_start_ms() const {
+    return std::chrono::duration<double, std::milli>(Clock::now() - started_).count();
   }
 
   void send(const stream::Message& message) {
@@ -167,7 +190,7 @@ class OneClient {
   std::deque<std::vector<std::byte>> outgoing_;
   std::optional<stream::LightDecoder> decoder_;
   Clock::time_point started_;
-  std::uint64_t update_ = 0;
+  std::uint64_t update_ = 0, geometry_ = 0;
   bool joined_ = false, failed_ = false;
 };
 
@@ -210,6 +233,13 @@ class Clients : public LightClients {
 };
 
 }  // namespace
+
+void print_timeline(const Seen& seen) {
+  std::printf("| what came | ms | bytes |\n|---|---|---|\n");
+  for (const Milestone& one : seen.first_join) {
+    std::printf("| %s | %.0f | %zu |\n", one.what.c_str(), one.ms, one.bytes);
+  }
+}
 
 std::unique_ptr<LightClients> LightClients::make(const Address& address, int decode_every,
                                                  OnLight on_light) {

@@ -19,16 +19,27 @@ struct Address {
   std::string token;
 };
 
+/// A step of a client's way to its first light, and to all of its corrections.
+struct Milestone {
+  std::string what;
+  double ms = 0.0;  ///< Since it began to connect.
+  std::size_t bytes = 0;
+};
+
 /// What all clients together have seen.
 struct Seen {
-  std::size_t joined = 0;       ///< Clients that have had a key.
-  std::size_t failed = 0;       ///< Clients whose connection failed or ended.
-  std::uint64_t updates = 0;    ///< Deltas and keys, summed over the clients.
-  std::uint64_t keys = 0;       ///< Keys, the first of each client included.
-  std::uint64_t missed = 0;     ///< Deltas that did not follow on the update before.
-  std::uint64_t broken = 0;     ///< Messages that a decoder refused.
+  std::size_t joined = 0;             ///< Clients that have had a key.
+  std::size_t failed = 0;             ///< Clients whose connection failed or ended.
+  std::uint64_t updates = 0;          ///< Deltas and keys, summed over the clients.
+  std::uint64_t keys = 0;             ///< Keys, the first of each client included.
+  std::uint64_t missed = 0;           ///< Deltas that did not follow on the update before.
+  std::uint64_t broken = 0;           ///< Messages that a decoder refused.
+  std::vector<Milestone> first_join;  ///< Of the first client.
   std::vector<double> join_ms;  ///< From the connect to a first key, decoded where the client does.
 };
+
+/// Prints a table of the first client's way to its light.
+void print_timeline(const Seen& seen);
 
 /// Clients that answer each message of light, and check the numbers of updates.
 class LightClients {

@@ -22,6 +22,7 @@ struct Options {
   int server = 0;  // its process
   int decode_every = 100;
   double seconds = 5.0;
+  bool timeline = false;
 };
 
 double percentile(std::vector<double> values, double share) {
@@ -90,6 +91,7 @@ int run(const Options& options) {
       return 1;
     }
   }
+  if (options.timeline) print_timeline(clients->seen());
   return 0;
 }
 
@@ -111,6 +113,7 @@ int main(int argc, char** argv) try {
   app.add_option("--seconds", options.seconds, "Measure each number for so long")
       ->check(CLI::Range(1.0, 3600.0))
       ->capture_default_str();
+  app.add_flag("--timeline", options.timeline, "Tell what the first client got, and when");
   CLI11_PARSE(app, argc, argv);
   if (!std::is_sorted(options.clients.begin(), options.clients.end())) {
     std::fprintf(stderr, "numbers of clients must grow\n");

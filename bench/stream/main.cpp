@@ -10,6 +10,7 @@ int main(int argc, char** argv) {
                                    {"textures", measure_textures},
                                    {"regions", measure_regions},
                                    {"geometry", measure_geometry},
+                                   {"pictures", measure_pictures},
                                    {"record", record_stream}},
                                   argc, argv);
 }

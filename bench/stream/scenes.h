@@ -89,6 +89,7 @@ void measure_quality();   ///< What they take at other errors.
 void measure_regions();   ///< What a client gets of a large field, all of it or what is near.
 void measure_textures();  ///< What they take through H.265.
 void measure_geometry();  ///< Geometry, and keys.
+void measure_pictures();  ///< How clients' pictures differ from the server's.
 /// Writes atrium.stream into the working directory: a Recording of the fast sun.
 void record_stream();
 

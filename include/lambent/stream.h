@@ -24,6 +24,7 @@ enum class LightMessageKind : std::uint8_t {
   texture_key = 4,  ///< The whole state of light, as a picture that decoding can begin with.
   texture = 5,      ///< The state of light, as pictures that follow on those before.
   regions = 6,      ///< Keys and changes of parts of a field, as one client needs them.
+  corrections = 7,  ///< A piece of the corrections of lookups: refines light that is there.
 };
 
 /// One self-contained piece of a light stream; `bytes` is opaque to whoever carries it.
@@ -105,6 +106,17 @@ class LightEncoder {
   /// before the first encode. May be called by several threads at once, but not beside encode.
   Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
 
+  /// What can come later than all else: corrections of lookups, in pieces of some 70 kB that a
+  /// client takes in any order, and uses once it has all of them. Clients need these after the
+  /// geometry of `join` and wherever `corrections_number` has changed; none where the field has no
+  /// corrections. What `encode` gives may come before and between them. To be called as `join` is.
+  std::vector<LightMessage> corrections() const;
+  /// The number of the geometry after the last update, as LightDecoder::geometry; 0: none.
+  std::uint64_t geometry() const;
+  /// Which corrections these are: the number of the geometry that they came to be with. 0 before
+  /// the first encode.
+  std::uint64_t corrections_number() const;
+
   /// Updates encoded so far.
   std::uint64_t update() const;
   /// How far the state that clients have after the last update is from the field.
@@ -144,6 +156,12 @@ class LightDecoder {
   /// late: the same bytes, as both sides hold the same state. Fails where `needs_key` says so, and
   /// where light comes as textures or by regions.
   Expected<std::vector<LightMessage>> join(std::uint64_t known_geometry = 0) const;
+  /// As LightEncoder::corrections, of the pieces that are here.
+  std::vector<LightMessage> corrections() const;
+  /// As LightEncoder::corrections_number.
+  std::uint64_t corrections_number() const;
+  /// Whether all pieces of these are here; true where there are none.
+  bool has_corrections() const;
 
   // All below are empty or 0 before the first key.
 

@@ -89,6 +89,7 @@ class LightClient {
   Role role() const { return role_; }
   const Scene& scene() const { return scene_; }
   std::uint64_t update() const { return lit_.update(); }
+  const LightDecoder& decoder() const { return lit_.decoder(); }
 
   /// Takes messages until there is light of an update, or a later one; false where that never
   /// comes.
@@ -150,7 +151,8 @@ class Broker : public ::testing::Test {
     served.reset();
     ServerSettings settings = ServedScene::small_settings();
     settings.publish = address().broker;
-    served = std::make_unique<ServedScene>(settings);
+    served =
+        std::make_unique<ServedScene>(settings, "cornell-spot", ServedScene::corrected_field());
   }
   ConnectSettings address(const std::string& name = "box") const {
     ConnectSettings settings;
@@ -178,19 +180,24 @@ TEST_F(Broker, HandsOnTheSameLight) {
     ++both;
   }
   EXPECT_GE(both, 10);
+  EXPECT_GT(through.decoder().corrections_number(), 0u);
+  EXPECT_TRUE(becomes_true([&] {
+    return through.follow(through.update() + 1) && through.decoder().has_corrections();
+  })) << "they come after the light";
+  EXPECT_FALSE(through.decoder().corrections().empty());
   EXPECT_FALSE(through.client().send(lamp(1, 0.5f))) << "who listens changes nothing";
 }
 
 TEST_F(Broker, WhoComesLateHasTheEditsOfAll) {
-  auto editor = join(served->address(), test::small_hello());
-  ASSERT_TRUE(editor);
-  ASSERT_TRUE(editor->client->send(lamp(1, 0.5f)));
-  ASSERT_TRUE(becomes_true([&] { return test::next<Picture>(*editor->client)->input >= 1; }));
+  test::Watcher editor(served->address(), test::small_hello());
+  ASSERT_FALSE(HasFailure());
+  ASSERT_TRUE(editor.client().send(lamp(1, 0.5f)));
+  ASSERT_FALSE(editor.picture(1).empty());
   LightClient late(address());
   ASSERT_FALSE(HasFailure());
   ASSERT_TRUE(late.follow(1));
   EXPECT_EQ(late.scene().lights[0].intensity, lamp(0, 0.5f).intensity);
-  ASSERT_TRUE(editor->client->send(lamp(2, 0.25f)));
+  ASSERT_TRUE(editor.client().send(lamp(2, 0.25f)));
   ASSERT_TRUE(becomes_true([&] {
     return late.follow(late.update() + 1) &&
            late.scene().lights[0].intensity == lamp(0, 0.25f).intensity;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "stream/protocol/hello_header.h"
 #include "support/http_get.h"
 #include "support/protocol_messages.h"
 #include "support/served_scene.h"
@@ -91,6 +92,38 @@ TEST(Hostile, AnotherVersionIsToldSo) {
   const auto refusal = next<Refusal>(*client);
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->code, Refusal::Code::other_version);
+}
+
+TEST(Hostile, AHelloWithTheRequestIsLookedAtAsAnyOther) {
+  const ServedScene served;
+  const auto answer_to = [&](const std::string& field) {
+    return http_get(served.port(), "",
+                    "GET /stream HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\n"
+                    "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\nLambent-Hello: " +
+                        field + "\r\n\r\n");
+  };
+  Hello hello = small_hello();
+  hello.version = kProtocolVersion + 1;
+  const std::string other = hello_header(hello);
+  EXPECT_THAT(answer_to(other), HasSubstr("this server speaks version"));
+  for (const std::string& garbage :
+       {std::string("g"), std::string("zz"), std::string("0x"), other.substr(1),
+        other.substr(0, other.size() - 2), std::string(2 * kMaxClientMessageBytes + 2, '0')}) {
+    const std::string answer = answer_to(garbage);
+    EXPECT_THAT(answer, HasSubstr("101 Switching"));
+    EXPECT_THAT(answer, ::testing::Not(HasSubstr("this server speaks version"))) << garbage;
+    EXPECT_EQ(served.stats().joined, 0u) << garbage;
+  }
+  // It comes once, and brings what it would have brought alone
+  const auto client = Client::connect(served.address(), small_hello());
+  ASSERT_TRUE(client);
+  EXPECT_TRUE(next<Welcome>(**client));
+  EXPECT_TRUE(next<Picture>(**client));
+  ASSERT_TRUE((*client)->send(small_hello()));
+  const auto refusal = next<Refusal>(**client);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->code, Refusal::Code::bad_message);
 }
 
 TEST(Hostile, AFloodOfMessagesEndsTheConnection) {

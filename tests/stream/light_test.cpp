@@ -307,6 +307,73 @@ TEST_F(LightLink, WaitsForWhatWasLostWhereThatIsShorterThanABeginning) {
   EXPECT_EQ(last - update, ClientLink::kMostUpdatesUnderWay);
 }
 
+TEST_F(LightLink, WritesWhatCanWaitAfterAllElse) {
+  const auto of_size = [](std::size_t bytes) {
+    return SharedBytes(std::make_shared<const std::vector<std::byte>>(bytes));
+  };
+  put(5, LightNeed::all);
+  EXPECT_FALSE(link.has_all());
+  const std::array<SharedBytes, 3> later = {of_size(1), of_size(2), of_size(3)};
+  link.put_later(later, true);
+  EXPECT_EQ(link.next({})->size(), 100u);
+  EXPECT_EQ(link.next({})->size(), 1u);
+  put(6, LightNeed::changes);
+  EXPECT_EQ(link.next({})->size(), 100u) << "light does not wait for it";
+  EXPECT_FALSE(link.has_all());
+  // Others take the place of what still waits
+  const std::array<SharedBytes, 1> other = {of_size(4)};
+  link.put_later(other, true);
+  link.put_later(later, false);
+  EXPECT_EQ(link.waiting_bytes(), 10u);
+  for (const std::size_t size : {4u, 1u, 2u, 3u}) EXPECT_EQ(link.next({})->size(), size);
+  EXPECT_FALSE(link.next({}));
+  EXPECT_TRUE(link.has_all());
+  link.put_later(later, false);
+  link.begin_light_anew();
+  EXPECT_FALSE(link.next({})) << "of another stream";
+}
+
+TEST(LightSender, SendsCorrectionsAfterTheLight) {
+  const Scene scene = *scenes::make("cornell-spot");
+  const World world(scene);
+  auto field = *IrradianceField::make(ServedScene::corrected_field(), open_bounds(world));
+  auto sender = LightSender::make({});
+  ASSERT_TRUE(sender);
+  const std::array<std::unique_ptr<ClientLink>, 2> links = {
+      std::make_unique<ClientLink>(
+          light_hello(), Role::view, [] {}, [] {}),
+      std::make_unique<ClientLink>(
+          light_hello(), Role::view, [] {}, [] {})};
+  std::array<ClientLink*, 1> first = {links[0].get()}, second = {links[1].get()};
+  const auto kinds_of = [](ClientLink& link) {
+    std::vector<LightMessageKind> kinds;
+    for (const Message& message : taken_from(link)) {
+      const auto* light = std::get_if<LightPayload>(&message);
+      if (light != nullptr) kinds.push_back(static_cast<LightMessageKind>(light->kind));
+    }
+    return kinds;
+  };
+  for (int update = 0; update < 4; ++update) field.update(world);
+  ASSERT_TRUE(sender->send(field, 0.0f, first));
+  const std::vector<LightMessageKind> begun = {LightMessageKind::geometry, LightMessageKind::key,
+                                               LightMessageKind::corrections};
+  EXPECT_EQ(kinds_of(*links[0]), begun);
+  ASSERT_TRUE(sender->greet(field, 0.0f, second));
+  EXPECT_EQ(kinds_of(*links[1]), begun);
+  // Those that are learned later go to all, once
+  std::size_t again = 0;
+  for (int update = 0; update < 20; ++update) {
+    field.update(world);
+    ASSERT_TRUE(sender->send(field, 0.0f, first));
+    const auto kinds = kinds_of(*links[0]);
+    again += static_cast<std::size_t>(
+        std::count(kinds.begin(), kinds.end(), LightMessageKind::corrections));
+    const std::uint64_t taken = sender->next_update(*links[0]) - 1;
+    EXPECT_FALSE(links[0]->receive(LightReceived{taken, 0, 0}, {}));
+  }
+  EXPECT_EQ(again, 1u);
+}
+
 TEST_F(LightLink, AKeyThatIsAskedForIsSentOnce) {
   link.need_light();
   put(5, LightNeed::all);

@@ -249,6 +249,22 @@ TEST(Relay, HandsLightOnToClientsAndServersOfItsOwnToTheBit) {
   EXPECT_GT(relay.stats().light_bytes, 0u);
 }
 
+TEST(Relay, HandsCorrectionsOnToWhoIsThereAndToWhoComesLate) {
+  const ServedScene served(ServedScene::small_settings(), "cornell-spot",
+                           ServedScene::corrected_field());
+  const RelayedScene relay(served.address()), leaf(relay.address());
+  for (int i = 0; i < 2; ++i) {
+    LightClient client(leaf.address());
+    ASSERT_FALSE(HasFailure());
+    ASSERT_TRUE(client.follow(1));
+    const auto has_all = [&] {
+      return client.light().has_corrections() && !client.light().corrections().empty();
+    };
+    for (int step = 0; step < 500 && !has_all(); ++step) ASSERT_TRUE(client.step());
+    EXPECT_TRUE(has_all()) << i;
+  }
+}
+
 TEST(Relay, LightOfAServerThatStartsAnewReachesClientsOfLight) {
   auto served = serve_at(0);
   const std::uint16_t port = served->port();

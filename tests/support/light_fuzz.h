@@ -67,7 +67,8 @@ class FuzzReader : public stream::TextureReader {
 inline std::string feed_light_decoder(std::span<const std::byte> bytes) {
   using stream::LightMessageKind;
   std::mt19937 random(1);
-  const stream::FieldGeometry geometry = made_geometry(random);
+  stream::FieldGeometry geometry = made_geometry(random);
+  geometry.corrections_number = stream::geometry_number(kFuzzStream, 1);
   const stream::LightLayout layout = stream::layout_of(geometry);
   stream::LightState state = dark_state(layout);
   stream::write_delta(layout, made_levels(layout, random), state);
@@ -77,7 +78,9 @@ inline std::string feed_light_decoder(std::span<const std::byte> bytes) {
         stream::make_message({kind, kFuzzStream, 1, stream::geometry_number(kFuzzStream, 1)}, body)
             .bytes);
   };
-  if (!give(LightMessageKind::geometry, geometry_body(false, stream::write_geometry(geometry))) ||
+  stream::GeometrySections sections;
+  const std::vector<std::byte> part = stream::write_geometry(geometry, sections).front();
+  if (!give(LightMessageKind::geometry, geometry_body(false, part)) ||
       !give(LightMessageKind::key, stream::write_key(layout, state))) {
     return "refuses what an encoder wrote";
   }
@@ -91,10 +94,13 @@ inline std::string feed_light_decoder(std::span<const std::byte> bytes) {
     return all;
   };
   const std::vector<glm::vec3> before = light();
+  const auto pieces = stream::write_corrections(0, geometry.corrections);
+  if (!give(LightMessageKind::corrections, pieces)) return "refuses corrections";
+  if (light() != before) return "has other light by corrections";
   if (client.receive(bytes)) return "takes a message without a checksum for one";
   if (light() != before) return "changed without a message";
   if (bytes.empty()) return "";
-  const auto kind = static_cast<LightMessageKind>(1 + std::to_integer<int>(bytes[0]) % 6);
+  const auto kind = static_cast<LightMessageKind>(1 + std::to_integer<int>(bytes[0]) % 7);
   client.read_textures(std::make_unique<FuzzReader>());
   if (kind == LightMessageKind::regions) {
     // What follows on regions alone

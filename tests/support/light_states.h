@@ -62,8 +62,8 @@ inline stream::FieldGeometry made_geometry(std::mt19937& random) {
     geometry.states.push_back(static_cast<ProbeState>(probe % 6));
     for (std::size_t t = 0; t < geometry.tile(); ++t) {
       const bool blank = probe % 6 == 0;
-      geometry.moments.push_back({static_cast<std::uint8_t>(blank ? 0 : 1 + random() % 255),
-                                  static_cast<std::uint8_t>(blank ? 0 : random() % 128)});
+      geometry.moments.push_back({static_cast<std::uint8_t>(blank ? 0 : 1 + random() % 127),
+                                  static_cast<std::uint8_t>(blank ? 0 : random() % 64)});
     }
   }
   for (int i = 0; i < 9; ++i) {

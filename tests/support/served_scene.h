@@ -28,10 +28,11 @@ inline constexpr std::chrono::seconds kPatience{30};
 class ServedScene {
  public:
   explicit ServedScene(const stream::ServerSettings& settings = small_settings(),
-                       const std::string& scene = "cornell-spot")
+                       const std::string& scene = "cornell-spot",
+                       const FieldSettings& field = small_field())
       : scene_(*scenes::make(scene)),
         world_(scene_),
-        field_(*IrradianceField::make(small_field(), open_bounds(world_))) {
+        field_(*IrradianceField::make(field, open_bounds(world_))) {
     field_.update(world_);
     auto server = stream::Server::open({scene_, world_, field_, scene_.cameras.front()}, settings);
     if (!server) {
@@ -49,6 +50,12 @@ class ServedScene {
     settings.probe_count = glm::ivec3(3);
     settings.rays_per_probe = 32;
     settings.corrections = false;
+    return settings;
+  }
+
+  static FieldSettings corrected_field() {
+    FieldSettings settings = small_field();
+    settings.corrections = true;
     return settings;
   }
 

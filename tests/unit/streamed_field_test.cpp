@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "field/field_access.h"
 #include "lambent/renderer.h"
@@ -112,6 +113,11 @@ TEST(StreamedField, CorrectsLookupsAsTheServerDoes) {
   const FrameSettings settings = small_frame(Quality::draft);
   const Camera& camera = server.scene.cameras.front();
   const RenderedFrame there = Client::rendered(server.world, server.field, camera, settings);
+  // They can come later
+  EXPECT_GT(difference(there, client.render(settings), "indirect"), 0.05);
+  EXPECT_FALSE(client.light.decoder().has_corrections());
+  client.receive(server.encoder.corrections());
+  EXPECT_TRUE(client.light.decoder().has_corrections());
   // Ratios are within a hundredth, and where few samples count, by a fifth more or less of them
   EXPECT_LT(difference(there, client.render(settings), "indirect"), 0.015);
 
@@ -122,7 +128,10 @@ TEST(StreamedField, CorrectsLookupsAsTheServerDoes) {
   EXPECT_GT(difference(there, without, "indirect"), 0.05);
 
   // What is learned later is sent when the number of updates is four times as large
+  const std::uint64_t first = server.encoder.corrections_number();
   for (int i = 0; i < 3; ++i) client.receive(server.shine(1.0f));
+  EXPECT_NE(server.encoder.corrections_number(), first);
+  client.receive(server.encoder.corrections());
   const RenderedFrame later = Client::rendered(server.world, server.field, camera, settings);
   EXPECT_LT(difference(later, client.render(settings), "indirect"), 0.015);
 }
@@ -137,6 +146,31 @@ TEST(StreamedField, IsFarFromTheServerWhereNothingCameFromIt) {
   const RenderedFrame there =
       Client::rendered(server.world, server.field, server.scene.cameras.front(), settings);
   EXPECT_GT(difference(there, client.render(settings), "indirect"), 0.05);
+}
+
+TEST(StreamedField, LeaksNoMoreThroughWallsThanTheServersField) {
+  const Scene scene = scenes::make("two-rooms-sealed").value();
+  const World world(scene);
+  FieldSettings settings;
+  settings.corrections = false;
+  IrradianceField field = IrradianceField::make(settings, open_bounds(world)).value();
+  for (int i = 0; i < 8; ++i) field.update(world);
+  LightEncoder encoder = std::move(LightEncoder::create().value());
+  StreamedField light;
+  const auto messages = encoder.encode(field);
+  ASSERT_TRUE(messages);
+  for (const LightMessage& message : *messages) ASSERT_TRUE(light.receive(message.bytes));
+  const auto mean = [&](const IrradianceField& of, const Camera& camera) {
+    const RenderedFrame frame = Client::rendered(world, of, camera, small_frame(Quality::draft));
+    const std::vector<float>& pixels = frame.image.find("indirect")->pixels;
+    return std::accumulate(pixels.begin(), pixels.end(), 0.0) / static_cast<double>(pixels.size());
+  };
+  // The first camera is in the room that no light gets into
+  const double lit = mean(field, scene.cameras[1]);
+  EXPECT_GT(lit, 1.0);
+  EXPECT_NEAR(mean(*light.field(), scene.cameras[1]), lit, 0.002 * lit);
+  EXPECT_LT(mean(field, scene.cameras[0]), 1e-5 * lit);
+  EXPECT_LT(mean(*light.field(), scene.cameras[0]), 1e-5 * lit);
 }
 
 TEST(StreamedField, AnswersQueriesWithoutAWorld) {

@@ -31,7 +31,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 struct Options {
   std::string program = "build/release/lambent", scene = "atrium", congestion;
-  bool play = true;
+  bool play = true, timeline = false;
   double delay_ms = 40.0, loss_percent = 1.0, megabits = 0.0;
   int clients = 8, joins = 10;
   double seconds = 60.0;
@@ -107,6 +107,7 @@ struct Measured {
   Clock::time_point begin, end;
   std::uint64_t missed = 0, keys = 0;
   std::vector<double> join_ms;
+  stream_load::Seen last_join;
 };
 
 Measured measure(const Options& options) {
@@ -128,7 +129,11 @@ Measured measure(const Options& options) {
   for (int i = 0; i < options.joins; ++i) {
     const auto late = join(1, nullptr);
     measured.join_ms.push_back(late->seen().join_ms.front());
-    clients->run_for(std::chrono::milliseconds(500));  // those that stay answer
+    for (int slice = 0; slice < 5; ++slice) {  // those that stay answer
+      clients->run_for(std::chrono::milliseconds(50));
+      late->run_for(std::chrono::milliseconds(50));
+    }
+    measured.last_join = late->seen();
   }
   return measured;
 }
@@ -238,6 +243,7 @@ int run(const Options& options) {
   near.join();
   if (failure) std::rethrow_exception(failure);
   print(options, measured, made, path.counts());
+  if (options.timeline) print_timeline(measured.last_join);
   return 0;
 }
 
@@ -263,6 +269,7 @@ int main(int argc, char** argv) try {
       ->check(CLI::Range(0, 1000));
   app.add_option("--seconds", options.seconds, "Measure for so long")
       ->check(CLI::Range(1.0, 3600.0));
+  app.add_flag("--timeline", options.timeline, "Tell what the last late client got, and when");
   CLI11_PARSE(app, argc, argv);
   return lambent::stream_path::run(options);
 } catch (const std::exception& failure) {

@@ -112,19 +112,16 @@ class NatsPublisher : public BrokerPublisher {
       if (!message || !is_handed_on(*message)) continue;
       publish(one.reply, *bytes, ++one.sequence);
       answer_light(*one.link, *message);
-      const auto* light = std::get_if<LightPayload>(&*message);
-      if (light != nullptr && static_cast<LightMessageKind>(light->kind) == LightMessageKind::key) {
-        return true;
-      }
     }
-    return false;
+    return one.link->has_all();
   }
 
   static void answer_light(ClientLink& link, const Message& message) {
     const auto* light = std::get_if<LightPayload>(&message);
     if (light == nullptr) return;
     const auto opened = open_message(light->bytes);
-    if (!opened) return;
+    // Of corrections, the geometry is the one that they came to be with
+    if (!opened || opened->header.kind == LightMessageKind::corrections) return;
     static_cast<void>(
         link.receive(LightReceived{light->update, opened->header.geometry, 0}, Clock::now()));
   }

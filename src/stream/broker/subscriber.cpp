@@ -38,6 +38,7 @@ class NatsSubscriber : public Client {
     if (!answer) return tl::unexpected(answer.error());
     answer_ = std::move(*answer);
     answered_ = 0;
+    begun_ = false;
     answer_frames_ = FrameReader(kMaxMessageBytes);
     held_.clear();
     asked_ = Clock::now();
@@ -52,7 +53,7 @@ class NatsSubscriber : public Client {
       return fail("", address_.url, "a broker hands on no edits");
     }
     const auto* told = std::get_if<LightReceived>(&message);
-    if (told != nullptr && told->needs_key == 1 && !answer_) return ask();
+    if (told != nullptr && told->needs_key == 1 && begun_) return ask();
     return {};
   }
   Expected<void> send_bytes(std::span<const std::byte> /*bytes*/, bool /*binary*/) override {
@@ -73,12 +74,12 @@ class NatsSubscriber : public Client {
  private:
   /// Takes one frame, if there is any.
   Expected<std::optional<Message>> step(std::chrono::milliseconds wait) {
-    if (!answer_ && !held_.empty()) {
+    if (begun_ && !held_.empty()) {
       FramedMessage framed = std::move(held_.front());
       held_.pop_front();
       return follow(std::move(framed));
     }
-    if (answer_) {
+    if (!begun_) {
       if (Clock::now() > asked_ + kAskAgain) {
         if (const auto asked = ask(); !asked) return tl::unexpected(asked.error());
       }
@@ -89,13 +90,29 @@ class NatsSubscriber : public Client {
     }
     auto came = next_message(stream_, wait);
     if (!came) return tl::unexpected(came.error());
-    if (!*came) return std::nullopt;
+    if (!*came) return begun_ ? take_rest() : std::nullopt;
     auto framed = stream_frames_.add(bytes_of(**came));
     if (!framed) return std::nullopt;
-    if (!answer_) return follow(std::move(*framed));
+    if (begun_) return follow(std::move(*framed));
     if (held_.size() >= kMaxHeld) held_.clear();  // a gap, then, and it is asked again
     held_.push_back(std::move(*framed));
     return std::nullopt;
+  }
+
+  /// What of the answer comes after the light: corrections. All else that may follow has come on
+  /// the stream, or will.
+  Expected<std::optional<Message>> take_rest() {
+    auto came = next_message(answer_, std::chrono::milliseconds(1));
+    if (!came) return tl::unexpected(came.error());
+    if (!*came) return std::nullopt;
+    auto message = take_answer(**came);
+    if (!message || !*message) return message;
+    const auto* light = std::get_if<LightPayload>(&**message);
+    if (light == nullptr ||
+        static_cast<LightMessageKind>(light->kind) != LightMessageKind::corrections) {
+      return std::nullopt;
+    }
+    return message;
   }
 
   Expected<std::optional<Message>> take_answer(const NatsMessage& came) {
@@ -111,8 +128,9 @@ class NatsSubscriber : public Client {
     if (session_ && framed->session != *session_) return fail_of_another();
     session_ = framed->session;
     const auto* light = std::get_if<LightPayload>(&*message);
-    if (light != nullptr && static_cast<LightMessageKind>(light->kind) == LightMessageKind::key) {
-      answer_.reset();
+    if (!begun_ && light != nullptr &&
+        static_cast<LightMessageKind>(light->kind) == LightMessageKind::key) {
+      begun_ = true;
       sequence_ = 0;
     }
     // Who has joined before has been welcomed
@@ -148,12 +166,13 @@ class NatsSubscriber : public Client {
   const BrokerAddress address_;
   const NatsConnection connection_;
   const NatsSubscription stream_;
-  NatsSubscription answer_;  // while one is under way
+  NatsSubscription answer_;  // to what was asked last
   FrameReader stream_frames_{kMaxMessageBytes}, answer_frames_{kMaxMessageBytes};
   std::deque<FramedMessage> held_;
   Clock::time_point asked_;
   std::uint64_t answered_ = 0, sequence_ = 0;  // messages of the answer, and the stream's last
   std::optional<std::uint32_t> session_;
+  bool begun_ = false;  // all light that there was has come
   bool welcomed_ = false;
   std::atomic<bool> woken_ = false;
 };

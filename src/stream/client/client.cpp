@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "stream/broker/broker.h"
+#include "stream/protocol/hello_header.h"
 
 namespace lambent::stream {
 namespace {
@@ -43,7 +44,7 @@ class BeastClient : private Base, public Client {
             return websocket::stream<Stream>(io);
         }()) {}
 
-  Expected<void> open() {
+  Expected<void> open(const std::optional<Hello>& hello) {
     if constexpr (kTls) {
       if (const auto trusted = trust(); !trusted) return trusted;
     }
@@ -63,15 +64,19 @@ class BeastClient : private Base, public Client {
       });
       if (error) return failed("cannot be trusted", error);
     }
-    socket_.set_option(websocket::stream_base::decorator([this](websocket::request_type& request) {
+    socket_.set_option(websocket::stream_base::decorator([&](websocket::request_type& request) {
       if (!settings_.origin.empty()) request.set(beast::http::field::origin, settings_.origin);
+      if (hello) request.set(kHelloField, hello_header(*hello));
     }));
     socket_.read_message_max(kHeaderBytes + kMaxLightBytes + kMaxPictureBytes);
     socket_.auto_fragment(false);
     const std::string host = settings_.host + ":" + std::to_string(settings_.port);
-    error = wait([&](auto done) { socket_.async_handshake(host, "/stream", done); });
+    websocket::response_type answer;
+    error = wait([&](auto done) { socket_.async_handshake(answer, host, "/stream", done); });
     if (error) return failed("refused the connection", error);
     lowest.expires_never();
+    // A server, or one between, may not know of the field
+    if (hello && answer[kHelloField] != kHelloTaken) return send(*hello);
     return {};
   }
 
@@ -201,23 +206,25 @@ class BeastClient : private Base, public Client {
 };
 
 template <class Stream>
-Expected<std::unique_ptr<Client>> open_client(const ConnectSettings& settings) {
+Expected<std::unique_ptr<Client>> open_client(const ConnectSettings& settings,
+                                              const std::optional<Hello>& hello) {
   auto client = std::make_unique<BeastClient<Stream>>(settings);
-  if (const auto opened = client->open(); !opened) return tl::unexpected(opened.error());
+  if (const auto opened = client->open(hello); !opened) return tl::unexpected(opened.error());
   return client;
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<Client>> Client::connect(const ConnectSettings& settings) {
-  return settings.tls ? open_client<TlsStream>(settings) : open_client<PlainStream>(settings);
+Expected<std::unique_ptr<Client>> Client::connect(const ConnectSettings& settings,
+                                                  const std::optional<Hello>& hello) {
+  return settings.tls ? open_client<TlsStream>(settings, hello)
+                      : open_client<PlainStream>(settings, hello);
 }
 
 Expected<Joined> join(const ConnectSettings& settings, const Hello& hello) {
   if (!settings.broker.name.empty()) return join_through_broker(settings, hello);
-  auto client = Client::connect(settings);
+  auto client = Client::connect(settings, hello);
   if (!client) return tl::unexpected(client.error());
-  if (const auto sent = (*client)->send(hello); !sent) return tl::unexpected(sent.error());
   const auto answer = (*client)->receive(settings.timeout);
   if (!answer) return tl::unexpected(answer.error());
   if (*answer) {

@@ -35,9 +35,10 @@ struct ConnectSettings {
 /// A connection. Not thread-safe. Nothing happens on it but while a function of it runs.
 class Client {
  public:
-  /// Connects. Fails where nobody answers, the certificate is not the host's, or the server
-  /// refuses.
-  static Expected<std::unique_ptr<Client>> connect(const ConnectSettings& settings);
+  /// Connects, and says hello where there is one. Fails where nobody answers, the certificate is
+  /// not the host's, or the server refuses.
+  static Expected<std::unique_ptr<Client>> connect(const ConnectSettings& settings,
+                                                   const std::optional<Hello>& hello = {});
   virtual ~Client() = default;
 
   virtual Expected<void> send(const Message& message) = 0;

@@ -28,7 +28,10 @@ Expected<LitScene::Followed> LitScene::take_light(const LightPayload& light) {
   const bool taken = streamed_.receive(light.bytes).has_value();
   const LightDecoder& decoder = streamed_.decoder();
   Followed followed;
-  followed.lit = taken && static_cast<LightMessageKind>(light.kind) != LightMessageKind::geometry;
+  const auto kind = static_cast<LightMessageKind>(light.kind);
+  followed.lit =
+      taken && kind != LightMessageKind::geometry && kind != LightMessageKind::corrections;
+  followed.taken = taken;
   followed.answer = LightReceived{light.update, decoder.geometry(), decoder.needs_key() ? 1u : 0u};
   return followed;
 }

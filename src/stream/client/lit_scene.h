@@ -27,7 +27,8 @@ class LitScene {
 
   /// What came of a message.
   struct Followed {
-    bool lit = false;  ///< The field has the light of another update.
+    bool lit = false;    ///< The field has the light of another update.
+    bool taken = false;  ///< A message of light was taken, of whichever kind.
     /// To be sent to the server, so that it goes on; of messages of light.
     std::optional<LightReceived> answer;
   };

@@ -4,10 +4,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <string>
 #include <tuple>
 
+#include "core/little_endian.h"
 #include "stream/coding/bit_models.h"
+#include "stream/coding/range_coder.h"
 #include "stream/coding/signed_number.h"
+#include "stream/light/message.h"
+#include "stream/light/on_all_cores.h"
 
 namespace lambent::stream {
 namespace {
@@ -126,6 +131,13 @@ bool code_block(Coder& coder, BlockModels& models, Place& before, CodedCorrectio
   return code_cells(coder, models, block);
 }
 
+/// The part of the blocks that is in a piece.
+template <class Block>
+std::span<Block> piece_of(std::size_t piece, std::span<Block> blocks) {
+  const std::size_t first = piece * kPieceBlocks;
+  return blocks.subspan(first, std::min(kPieceBlocks, blocks.size() - first));
+}
+
 }  // namespace
 
 std::vector<CodedCorrectionBlock> encode_corrections(std::span<const CorrectionBlock> blocks) {
@@ -154,23 +166,63 @@ std::vector<CorrectionBlock> decode_corrections(std::span<const CodedCorrectionB
   return decoded;
 }
 
-void write_corrections(RangeEncoder& coder, std::span<const CodedCorrectionBlock> blocks) {
+std::vector<std::byte> write_corrections(std::size_t piece,
+                                         std::span<const CodedCorrectionBlock> blocks) {
+  ByteWriter out;
+  out.u32(static_cast<std::uint32_t>(piece));
+  RangeEncoder coder;
   BlockModels models;
   Place place{};
-  for (CodedCorrectionBlock block : blocks) code_block(coder, models, place, block);
+  for (CodedCorrectionBlock block : piece_of(piece, blocks)) {
+    code_block(coder, models, place, block);
+  }
+  out.raw(coder.finish());
+  return out.take();
 }
 
-bool read_corrections(RangeDecoder& coder, std::uint32_t volumes,
-                      std::span<CodedCorrectionBlock> blocks) {
+void write_pieces(std::span<const CodedCorrectionBlock> blocks, CorrectionPieces& pieces) {
+  pieces.resize(correction_pieces(blocks.size()));
+  on_all_cores(pieces.size(), [&](std::size_t piece) {
+    if (pieces[piece].empty()) pieces[piece] = write_corrections(piece, blocks);
+  });
+}
+
+std::vector<LightMessage> correction_messages(std::uint32_t stream, std::uint64_t update,
+                                              std::uint64_t number,
+                                              const CorrectionPieces& pieces) {
+  std::vector<LightMessage> messages;
+  for (const std::vector<std::byte>& piece : pieces) {
+    if (piece.empty()) continue;
+    messages.push_back(
+        make_message({LightMessageKind::corrections, stream, update, number}, piece));
+  }
+  return messages;
+}
+
+Expected<std::size_t> read_corrections(std::span<const std::byte> body, std::uint32_t volumes,
+                                       std::span<CodedCorrectionBlock> blocks) {
+  if (body.size() < sizeof(std::uint32_t)) return bad_stream("corrections", "are cut short");
+  const std::size_t piece = ByteReader(body).u32();
+  if (piece >= correction_pieces(blocks.size())) {
+    return bad_stream("corrections", "have no piece " + std::to_string(piece));
+  }
+  const std::span<CodedCorrectionBlock> own = piece_of(piece, blocks);
+  if (body.size() > kMostBlockBytes * (own.size() + 1)) {
+    return bad_stream("corrections", "take more than they can");
+  }
+  std::vector<CodedCorrectionBlock> read(own.size());
+  RangeDecoder coder(body.subspan(sizeof(std::uint32_t)));
   BlockModels models;
   Place place{};
-  for (CodedCorrectionBlock& block : blocks) {
+  for (CodedCorrectionBlock& block : read) {
     if (!code_block(coder, models, place, block) || coder.overrun() ||
         !is_block_key(block.key, volumes)) {
-      return false;
+      return bad_stream("corrections", "make no sense");
     }
   }
-  return true;
+  if (coder.left() > 0) return bad_stream("corrections", "go on after their end");
+  std::copy(read.begin(), read.end(), own.begin());
+  return piece;
 }
 
 }  // namespace lambent::stream

@@ -2,6 +2,7 @@
 // The private state of LightDecoder.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -20,13 +21,14 @@
 namespace lambent::stream {
 
 /// Geometry that was received, and what follows from it.
-struct ReceivedGeometry {
-  ReceivedGeometry(const MessageHeader& header, FieldGeometry received)
-      : stream(header.stream),
+struct ReceivedGeometry : PartialGeometry {
+  ReceivedGeometry(const MessageHeader& header, PartialGeometry received)
+      : PartialGeometry(std::move(received)),
+        stream(header.stream),
         version(header.geometry),
-        geometry(std::move(received)),
         basis(geometry.irradiance_texels) {
     lay_out();
+    forget_corrections();
   }
   /// Brings `layout` and `grids` up to date with the geometry.
   void lay_out() {
@@ -37,16 +39,35 @@ struct ReceivedGeometry {
 
   std::uint32_t stream;
   std::uint64_t version;
-  FieldGeometry geometry;
+  /// Has no pieces of its corrections any more.
+  void forget_corrections() { pieces.assign(correction_pieces(geometry.corrections.size()), {}); }
+  bool is_whole() const {
+    return std::all_of(here.begin(), here.end(), [](std::uint8_t one) { return one != 0; });
+  }
+  bool has_corrections() const {
+    return std::none_of(pieces.begin(), pieces.end(), [](const auto& one) { return one.empty(); });
+  }
+  /// Takes the pieces that another one has of the same corrections.
+  void take_corrections(const ReceivedGeometry& other) {
+    if (other.stream != stream || other.pieces.size() != pieces.size() ||
+        other.geometry.corrections_number != geometry.corrections_number ||
+        other.geometry.corrections.size() != geometry.corrections.size()) {
+      return;
+    }
+    geometry.corrections = other.geometry.corrections;
+    pieces = other.pieces;
+  }
+
   LightLayout layout;
   TileBasis basis;
   std::vector<FieldGrid> grids;
+  CorrectionPieces pieces;  ///< As they came.
 };
 
 struct LightDecoder::State {
   std::size_t most_bytes = 0;
   std::optional<ReceivedGeometry> current;  ///< Of `light`; empty before the first key.
-  std::optional<ReceivedGeometry> next;     ///< Of a key that is still to come.
+  std::optional<ReceivedGeometry> next;     ///< Of a key that is still to come; or parts of it.
   LightState light;
   bool lost = false;                      ///< A change is missing.
   std::unique_ptr<TextureReader> reader;  ///< Null: textures are refused.
@@ -57,16 +78,15 @@ struct LightDecoder::State {
   std::optional<RegionStates> regions;  ///< Where it came by regions.
   std::uint64_t geometries = 0;         ///< Keys so far that were of another geometry.
   std::vector<int> changed;
-  bool corrected = false;  ///< The last message changed corrections.
+  bool corrected = false;  ///< With the last message there are other corrections, all of them.
   std::vector<std::int32_t> levels;
-  /// The last message of all of the geometry for others, without its header, and its number.
-  std::vector<std::byte> whole_body;
-  std::uint64_t whole_version = 0;
+  GeometrySections sections;  ///< Of `current`, for others: those that were coded and still are so.
 
   Expected<void> receive(std::span<const std::byte> bytes);
 
  private:
   Expected<void> receive_geometry(const OpenedMessage& message);
+  Expected<void> receive_corrections(const OpenedMessage& message);
   Expected<void> receive_key(const OpenedMessage& message);
   Expected<void> receive_texture(const OpenedMessage& message);
   Expected<void> receive_regions(const OpenedMessage& message);
@@ -76,7 +96,8 @@ struct LightDecoder::State {
   /// Whether a key can be taken: its geometry is here, and it does not come too late.
   Expected<void> check_key(const MessageHeader& header);
   bool is_of_next(const MessageHeader& header) const {
-    return next && next->stream == header.stream && next->version == header.geometry;
+    return next && next->is_whole() && next->stream == header.stream &&
+           next->version == header.geometry;
   }
   /// The state of a key, of the geometry that is next where it is of that.
   void take_key(const MessageHeader& header, LightState key);

@@ -17,11 +17,11 @@
 
 namespace lambent::stream {
 
-/// Moments of distance as they are sent. The mean is in steps of 1 / 255 of the longest distance
+/// Moments of distance as they are sent. The mean is in steps of 1 / 127 of the longest distance
 /// that the grid stores, 0 where nothing is known; the standard deviation is in proportion to the
-/// square of its number, of which 127 is half the longest distance, the most that there can be.
+/// square of its number, of which 63 is half the longest distance, the most that there can be.
 struct CodedMoments {
-  static constexpr int kMaxMean = 255, kMaxDeviation = 127;
+  static constexpr int kMaxMean = 127, kMaxDeviation = 63;
 
   std::uint8_t mean = 0;
   std::uint8_t deviation = 0;
@@ -56,6 +56,7 @@ struct FieldGeometry {
   std::vector<ProbeState> states;
   std::vector<CodedMoments> moments;  ///< Tiles without gutter, one after the other.
   std::vector<CodedCorrectionBlock> corrections;
+  std::uint64_t corrections_number = 0;  ///< Of the geometry that they came to be with.
 
   int probes() const { return static_cast<int>(offsets.size()); }
   std::size_t tile() const { return static_cast<std::size_t>(distance_texels) * distance_texels; }

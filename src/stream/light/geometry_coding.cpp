@@ -4,23 +4,25 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <string>
+#include <utility>
 
 #include "core/little_endian.h"
-#include "core/parallel.h"
 #include "stream/light/message.h"
+#include "stream/light/on_all_cores.h"
 #include "stream/light/probe_coding.h"
 
 namespace lambent::stream {
 namespace {
 
 // Sizes [bytes] of what stands before coded probes.
-constexpr std::size_t kKindBytes = 16, kVolumeBytes = 124, kPlaceBytes = 60;
+constexpr std::size_t kKindBytes = 24, kVolumeBytes = 124, kPlaceBytes = 60;
 
 // Bytes of a client's state: coefficients and levels, and a decoded tile, of a texel; an encoded
-// and two decoded moments of a texel; the rest of a probe.
-constexpr std::uint64_t kTexelBytes = 40, kMomentsBytes = 12, kProbeBytes = 128;
+// and two decoded moments of a texel; the rest of a probe; a block of corrections, encoded, as it
+// came, and decoded.
+constexpr std::uint64_t kTexelBytes = 40, kMomentsBytes = 12, kProbeBytes = 128,
+                        kBlockBytes = 2 * sizeof(CodedCorrectionBlock) + kMostBlockBytes;
 
 // In place of the number of blocks: corrections are as they were.
 constexpr std::uint32_t kSameCorrections = 0xFFFFFFFFu;
@@ -28,6 +30,17 @@ constexpr std::uint32_t kSameCorrections = 0xFFFFFFFFu;
 /// The blocks that a field of so many probes has room for.
 std::uint64_t most_blocks(std::uint64_t probes) {
   return std::uint64_t{kCorrectionBucketsPerProbe} * kCorrectionBucket * probes;
+}
+
+/// Of a client's state.
+std::uint64_t state_bytes(const FieldGeometry& kind, std::uint64_t probes, std::uint64_t blocks) {
+  const auto texels = static_cast<std::uint64_t>(kind.irradiance_texels) * kind.irradiance_texels;
+  return probes * (kTexelBytes * texels + kMomentsBytes * kind.tile() + kProbeBytes) +
+         blocks * kBlockBytes;
+}
+
+tl::unexpected<Error> too_large() {
+  return bad_stream("geometry", "would take more memory than is allowed");
 }
 
 void write_vec3(const vec3& v, ByteWriter& out) {
@@ -108,20 +121,8 @@ void write_volume(const Volume& volume, ByteWriter& out) {
   write_place(volume.grid, out);
 }
 
-/// Probes' records are in sections, each with models of its own, so that all cores code them.
-constexpr int kSectionProbes = 512;
-
 std::size_t section_count(int probes) {
   return (static_cast<std::size_t>(probes) + kSectionProbes - 1) / kSectionProbes;
-}
-
-/// Calls body(section) for each; on all cores, where there are threads.
-void for_each_section(std::size_t count, const std::function<void(std::size_t)>& body) {
-#ifdef __EMSCRIPTEN__
-  for (std::size_t section = 0; section < count; ++section) body(section);
-#else
-  parallel_chunks(count, 1, [&](std::size_t begin, std::size_t) { body(begin); });
-#endif
 }
 
 /// Codes the records of a section. Returns false on what no encoder wrote.
@@ -137,19 +138,28 @@ bool code_section(Coder& coder, std::size_t section, FieldGeometry& geometry) {
   return true;
 }
 
-/// The bytes of corrections, and of each section.
-Expected<std::vector<std::span<const std::byte>>> read_sections(std::span<const std::byte> bytes,
-                                                                int probes) {
-  std::vector<std::span<const std::byte>> sections(section_count(probes) + 1);
-  ByteReader sizes(bytes);
-  if (sizes.left() < sizeof(std::uint32_t) * sections.size()) {
-    return bad_stream("geometry", "is cut short");
+/// Sections that come in one part.
+struct CodedSections {
+  std::size_t first = 0;
+  std::vector<std::span<const std::byte>> bytes;
+};
+
+Expected<CodedSections> read_sections(std::span<const std::byte> bytes, std::size_t all) {
+  constexpr std::size_t kHeadBytes = 2 * sizeof(std::uint32_t);
+  if (bytes.size() < kHeadBytes) return bad_stream("geometry", "is cut short");
+  ByteReader in(bytes);
+  CodedSections sections;
+  sections.first = in.u32();
+  const std::size_t count = in.u32();
+  if (sections.first > all || count > all - sections.first) {
+    return bad_stream("geometry", "has records of more probes than there are");
   }
-  std::span<const std::byte> rest = bytes.subspan(sizeof(std::uint32_t) * sections.size());
-  for (std::span<const std::byte>& section : sections) {
-    const std::uint32_t size = sizes.u32();
+  if (in.left() < sizeof(std::uint32_t) * count) return bad_stream("geometry", "is cut short");
+  std::span<const std::byte> rest = bytes.subspan(kHeadBytes + sizeof(std::uint32_t) * count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t size = in.u32();
     if (size > rest.size()) return bad_stream("geometry", "is cut short");
-    section = rest.first(size);
+    sections.bytes.push_back(rest.first(size));
     rest = rest.subspan(size);
   }
   if (!rest.empty()) return bad_stream("geometry", "goes on after its end");
@@ -165,6 +175,7 @@ struct Counts {
 Expected<Counts> read_kind(ByteReader& in, FieldGeometry& geometry) {
   const std::uint32_t irradiance_texels = in.u32(), distance_texels = in.u32();
   const Counts counts = {in.u32(), in.u32()};
+  geometry.corrections_number = in.u64();
   if (irradiance_texels < 2 || irradiance_texels > 16 || irradiance_texels % 2 != 0 ||
       distance_texels < 4 || distance_texels > 32) {
     return bad_stream("geometry", "has tiles of a size that no field has");
@@ -177,36 +188,17 @@ Expected<Counts> read_kind(ByteReader& in, FieldGeometry& geometry) {
   return counts;
 }
 
-}  // namespace
-
-std::vector<std::byte> write_geometry(const FieldGeometry& geometry) {
-  ByteWriter out;
-  out.u32(static_cast<std::uint32_t>(geometry.irradiance_texels));
-  out.u32(static_cast<std::uint32_t>(geometry.distance_texels));
-  out.u32(static_cast<std::uint32_t>(geometry.volumes.size()));
-  out.u32(static_cast<std::uint32_t>(geometry.corrections.size()));
-  for (const Volume& volume : geometry.volumes) write_volume(volume, out);
-  FieldGeometry copy = geometry;
-  std::vector<std::vector<std::byte>> sections(section_count(geometry.probes()) + 1);
-  for_each_section(sections.size(), [&](std::size_t section) {
-    RangeEncoder coder;
-    if (section == 0) {
-      write_corrections(coder, geometry.corrections);
-    } else {
-      code_section(coder, section - 1, copy);
-    }
-    sections[section] = coder.finish();
-  });
-  for (const auto& section : sections) out.u32(static_cast<std::uint32_t>(section.size()));
-  for (const auto& section : sections) out.raw(section);
-  return out.take();
-}
-
-Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size_t most_bytes) {
-  const auto cut_short = [] { return bad_stream("geometry", "is cut short"); };
-  if (body.size() < kKindBytes) return cut_short();
+/// What a part begins with: a geometry without any room for its probes and corrections.
+struct Head {
   FieldGeometry geometry;
-  ByteReader in(body);
+  std::uint64_t probes = 0;
+  std::uint32_t blocks = 0;
+};
+
+Expected<Head> read_head(ByteReader& in, std::size_t most_bytes) {
+  const auto cut_short = [] { return bad_stream("geometry", "is cut short"); };
+  if (in.left() < kKindBytes) return cut_short();
+  FieldGeometry geometry;
   const Expected<Counts> counts = read_kind(in, geometry);
   if (!counts) return tl::unexpected(counts.error());
   if (in.left() < kVolumeBytes * counts->volumes) return cut_short();
@@ -219,41 +211,120 @@ Expected<FieldGeometry> read_geometry(std::span<const std::byte> body, std::size
     if (probes > kMaxProbes) return bad_stream("geometry", "has more probes than a field can");
     geometry.volumes.push_back(*volume);
   }
-  const std::uint64_t texels =
-      std::uint64_t(geometry.irradiance_texels) * geometry.irradiance_texels;
-  if (probes * (kTexelBytes * texels + kMomentsBytes * geometry.tile() + kProbeBytes) >
-      most_bytes) {
-    return bad_stream("geometry", "would take more memory than is allowed");
-  }
   if (counts->blocks > most_blocks(probes)) {
     return bad_stream("geometry", "has more corrections than a field can");
   }
-  geometry.offsets.resize(probes);
-  geometry.states.resize(probes);
-  geometry.moments.resize(probes * geometry.tile());
-  geometry.corrections.resize(counts->blocks);
-  const auto sections = read_sections(body.subspan(body.size() - in.left()), geometry.probes());
-  if (!sections) return tl::unexpected(sections.error());
-  std::vector<std::uint8_t> sound(sections->size());
-  for_each_section(sections->size(), [&](std::size_t section) {
-    RangeDecoder coder((*sections)[section]);
-    const bool read = section == 0 ? read_corrections(coder, counts->volumes, geometry.corrections)
-                                   : code_section(coder, section - 1, geometry) && !coder.overrun();
-    sound[section] = read && coder.left() == 0 ? 1 : 0;
+  if (state_bytes(geometry, probes, counts->blocks) > most_bytes) return too_large();
+  return Head{std::move(geometry), probes, counts->blocks};
+}
+
+/// A geometry of which nothing has come yet.
+PartialGeometry begin(Head&& head) {
+  PartialGeometry begun{std::move(head.geometry), {}};
+  begun.geometry.corrections.resize(head.blocks);
+  begun.geometry.offsets.resize(head.probes);
+  begun.geometry.states.resize(head.probes);
+  begun.geometry.moments.resize(head.probes * begun.geometry.tile());
+  begun.here.resize(section_count(begun.geometry.probes()));
+  return begun;
+}
+
+bool is_of(const Head& head, const FieldGeometry& geometry) {
+  return geometry.same_kind(head.geometry) && geometry.corrections.size() == head.blocks &&
+         geometry.corrections_number == head.geometry.corrections_number &&
+         std::equal(geometry.volumes.begin(), geometry.volumes.end(), head.geometry.volumes.begin(),
+                    [](const Volume& x, const Volume& y) { return same_place(x.grid, y.grid); });
+}
+
+}  // namespace
+
+void forget_sections(std::span<const int> probes, GeometrySections& sections) {
+  for (const int probe : probes) {
+    const auto section = static_cast<std::size_t>(probe / kSectionProbes);
+    if (section < sections.size()) sections[section].clear();
+  }
+}
+
+std::vector<std::vector<std::byte>> write_geometry(const FieldGeometry& geometry,
+                                                   GeometrySections& sections) {
+  FieldGeometry copy = geometry;
+  sections.resize(section_count(geometry.probes()));
+  on_all_cores(sections.size(), [&](std::size_t section) {
+    if (!sections[section].empty()) return;
+    RangeEncoder coder;
+    code_section(coder, section, copy);
+    sections[section] = coder.finish();
   });
-  if (sound[0] == 0) return bad_stream("geometry", "holds senseless corrections");
+  std::vector<std::vector<std::byte>> parts;
+  for (std::size_t first = 0; first < sections.size(); first += kPartSections) {
+    const auto part =
+        std::span(sections).subspan(first, std::min(kPartSections, sections.size() - first));
+    ByteWriter out;
+    out.u32(static_cast<std::uint32_t>(geometry.irradiance_texels));
+    out.u32(static_cast<std::uint32_t>(geometry.distance_texels));
+    out.u32(static_cast<std::uint32_t>(geometry.volumes.size()));
+    out.u32(static_cast<std::uint32_t>(geometry.corrections.size()));
+    out.u64(geometry.corrections_number);
+    for (const Volume& volume : geometry.volumes) write_volume(volume, out);
+    out.u32(static_cast<std::uint32_t>(first));
+    out.u32(static_cast<std::uint32_t>(part.size()));
+    for (const auto& section : part) out.u32(static_cast<std::uint32_t>(section.size()));
+    for (const auto& section : part) out.raw(section);
+    parts.push_back(out.take());
+  }
+  return parts;
+}
+
+std::vector<LightMessage> geometry_messages(const MessageHeader& header,
+                                            const FieldGeometry& geometry,
+                                            GeometrySections& sections) {
+  std::vector<LightMessage> messages;
+  for (const std::vector<std::byte>& part : write_geometry(geometry, sections)) {
+    messages.push_back(make_message(header, geometry_body(0, part)));
+  }
+  return messages;
+}
+
+Expected<void> read_geometry(std::span<const std::byte> body, std::size_t most_bytes,
+                             PartialGeometry& geometry) {
+  ByteReader in(body);
+  Expected<Head> head = read_head(in, most_bytes);
+  if (!head) return tl::unexpected(head.error());
+  const std::size_t all = section_count(static_cast<int>(head->probes));
+  const auto sections = read_sections(body.subspan(body.size() - in.left()), all);
+  if (!sections) return tl::unexpected(sections.error());
+  const bool begins = geometry.here.empty();
+  if (!begins && !is_of(*head, geometry.geometry)) {
+    return bad_stream("geometry", "goes on as another one than it began");
+  }
+  PartialGeometry begun;
+  if (begins) begun = begin(std::move(*head));
+  PartialGeometry& into = begins ? begun : geometry;
+  std::vector<std::uint8_t> sound(sections->bytes.size());
+  on_all_cores(sound.size(), [&](std::size_t i) {
+    const std::size_t section = sections->first + i;
+    RangeDecoder coder(sections->bytes[i]);
+    const bool read = into.here[section] != 0 || (code_section(coder, section, into.geometry) &&
+                                                  !coder.overrun() && coder.left() == 0);
+    sound[i] = read ? 1 : 0;
+  });
   const auto bad = std::find(sound.begin(), sound.end(), std::uint8_t{0});
   if (bad != sound.end()) {
-    return bad_stream("geometry", "holds senseless records in section " +
-                                      std::to_string(std::distance(sound.begin(), bad)));
+    return bad_stream("geometry",
+                      "holds senseless records in section " +
+                          std::to_string(sections->first + std::distance(sound.begin(), bad)));
   }
-  return geometry;
+  std::fill_n(into.here.begin() + static_cast<std::ptrdiff_t>(sections->first), sound.size(),
+              std::uint8_t{1});
+  if (begins) geometry = std::move(begun);
+  return {};
 }
 
 std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeometry& now,
-                                     std::span<const int> probes, bool with_corrections) {
+                                     std::span<const int> probes, bool other_corrections) {
   ByteWriter out;
-  out.u32(with_corrections ? static_cast<std::uint32_t>(now.corrections.size()) : kSameCorrections);
+  out.u32(other_corrections ? static_cast<std::uint32_t>(now.corrections.size())
+                            : kSameCorrections);
   for (const Volume& volume : now.volumes) write_place(volume.grid, out);
   RangeEncoder coder;
   ProbeModels models;
@@ -269,20 +340,23 @@ std::vector<std::byte> write_changes(const FieldGeometry& before, const FieldGeo
     code_probe(coder, models, probe,
                std::span(before.moments).subspan(probe * before.tile(), before.tile()), copy);
   }
-  if (with_corrections) write_corrections(coder, now.corrections);
   out.raw(coder.finish());
   return out.take();
 }
 
-Expected<GeometryChanges> read_changes(std::span<const std::byte> body, FieldGeometry& geometry) {
+Expected<GeometryChanges> read_changes(std::span<const std::byte> body, std::size_t most_bytes,
+                                       FieldGeometry& geometry) {
   if (body.size() < sizeof(std::uint32_t) + kPlaceBytes * geometry.volumes.size()) {
     return bad_stream("geometry", "is cut short");
   }
   FieldGeometry now = geometry;
   ByteReader in(body);
   const std::uint32_t blocks = in.u32();
-  if (blocks != kSameCorrections && blocks > most_blocks(now.offsets.size())) {
-    return bad_stream("geometry", "has more corrections than a field can");
+  if (blocks != kSameCorrections) {
+    if (blocks > most_blocks(now.offsets.size())) {
+      return bad_stream("geometry", "has more corrections than a field can");
+    }
+    if (state_bytes(now, now.offsets.size(), blocks) > most_bytes) return too_large();
   }
   for (Volume& volume : now.volumes) {
     if (!read_place(in, volume.grid)) {
@@ -304,12 +378,7 @@ Expected<GeometryChanges> read_changes(std::span<const std::byte> body, FieldGeo
       return bad_stream("geometry", "holds a senseless record of probe " + std::to_string(probe));
     }
   }
-  if (changes.corrections) {
-    now.corrections.assign(blocks, {});
-    if (!read_corrections(coder, static_cast<std::uint32_t>(now.volumes.size()), now.corrections)) {
-      return bad_stream("geometry", "holds senseless corrections");
-    }
-  }
+  if (changes.corrections) now.corrections.assign(blocks, {});
   if (coder.left() > 0) return bad_stream("geometry", "goes on after its end");
   geometry = std::move(now);
   return changes;

@@ -23,6 +23,7 @@ std::string of_update(std::uint64_t update) {
 Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
   const Expected<OpenedMessage> message = open_message(bytes);
   if (!message) return tl::unexpected(message.error());
+  corrected = false;
   switch (message->header.kind) {
     case LightMessageKind::geometry:
       return receive_geometry(*message);
@@ -35,6 +36,8 @@ Expected<void> LightDecoder::State::receive(std::span<const std::byte> bytes) {
       return receive_texture(*message);
     case LightMessageKind::regions:
       return receive_regions(*message);
+    case LightMessageKind::corrections:
+      return receive_corrections(*message);
   }
   return bad_stream("", "holds a message of an unknown kind");
 }
@@ -60,28 +63,64 @@ Expected<void> LightDecoder::State::receive_geometry(const OpenedMessage& messag
   const std::uint64_t base = ByteReader(message.body).u64();
   const std::span<const std::byte> body = message.body.subspan(sizeof(base));
   if (base == 0) {
-    Expected<FieldGeometry> geometry = read_geometry(body, most_bytes);
-    if (!geometry) return tl::unexpected(geometry.error());
-    next = ReceivedGeometry(message.header, std::move(*geometry));
+    if (next && next->stream == message.header.stream && next->version == message.header.geometry) {
+      const auto read = read_geometry(body, most_bytes, *next);
+      if (!read) return read;
+    } else {
+      PartialGeometry geometry;
+      const auto read = read_geometry(body, most_bytes, geometry);
+      if (!read) return read;
+      next.emplace(message.header, std::move(geometry));
+      if (current) next->take_corrections(*current);
+    }
+    if (next->is_whole()) next->lay_out();
+    changed.clear();
     return {};
   }
   if (const auto fine = check_follows(message.header, base); !fine) return fine;
   if (message.header.geometry != geometry_number(message.header.stream, message.header.update)) {
     return bad_stream("geometry", "changes at an update that is not its own");
   }
-  Expected<GeometryChanges> changes = read_changes(body, current->geometry);
+  Expected<GeometryChanges> changes = read_changes(body, most_bytes, current->geometry);
   if (!changes) {
     // What would come next follows on this
     lost = true;
     return tl::unexpected(changes.error());
   }
   changed = std::move(changes->probes);
-  corrected = changes->corrections;
   current->version = message.header.geometry;
   current->lay_out();
+  forget_sections(changed, sections);
+  if (changes->corrections) {
+    current->geometry.corrections_number = current->version;
+    current->forget_corrections();
+  }
+  corrected = changes->corrections && current->has_corrections();
   clear_unlit(current->layout, light);
   if (way == Way::regions) regions->follow(current->layout);
   return {};
+}
+
+Expected<void> LightDecoder::State::receive_corrections(const OpenedMessage& message) {
+  bool taken = false;
+  changed.clear();
+  for (std::optional<ReceivedGeometry>* of : {&next, &current}) {
+    if (!*of || (*of)->stream != message.header.stream ||
+        (*of)->geometry.corrections_number != message.header.geometry) {
+      continue;
+    }
+    ReceivedGeometry& geometry = **of;
+    const bool had_all = geometry.has_corrections();
+    const auto piece =
+        read_corrections(message.body, static_cast<std::uint32_t>(geometry.geometry.volumes.size()),
+                         geometry.geometry.corrections);
+    if (!piece) return tl::unexpected(piece.error());
+    geometry.pieces[*piece].assign(message.body.begin(), message.body.end());
+    corrected = of == &current && !had_all && geometry.has_corrections();
+    taken = true;
+  }
+  if (taken) return {};
+  return bad_stream(of_update(message.header.update), "corrects geometry that is not here");
 }
 
 Expected<void> LightDecoder::State::check_way(const MessageHeader& header, Way now) {
@@ -102,10 +141,11 @@ Expected<void> LightDecoder::State::check_key(const MessageHeader& header) {
 }
 
 void LightDecoder::State::take_key(const MessageHeader& header, LightState key) {
-  corrected = is_of_next(header);
-  if (corrected) {
+  corrected = is_of_next(header) && next->has_corrections();
+  if (is_of_next(header)) {
     current = std::move(next);
     next.reset();
+    sections.clear();
     ++geometries;
   }
   light = std::move(key);
@@ -211,7 +251,7 @@ std::uint64_t LightDecoder::update() const {
 }
 
 std::uint64_t LightDecoder::geometry() const {
-  if (state_->next) return state_->next->version;
+  if (state_->next && state_->next->is_whole()) return state_->next->version;
   return state_->current ? state_->current->version : 0;
 }
 
@@ -224,16 +264,26 @@ Expected<std::vector<LightMessage>> LightDecoder::join(std::uint64_t known_geome
                        s.current->version};
   std::vector<LightMessage> messages;
   if (known_geometry != s.current->version) {
-    // It is coded once, when the first needs it
-    if (s.whole_version != s.current->version) {
-      s.whole_body = geometry_body(0, write_geometry(s.current->geometry));
-      s.whole_version = s.current->version;
-    }
-    messages.push_back(make_message(header, s.whole_body));
+    messages = geometry_messages(header, s.current->geometry, s.sections);
   }
   header.kind = LightMessageKind::key;
   messages.push_back(make_message(header, write_key(s.current->layout, s.light)));
   return messages;
+}
+
+std::vector<LightMessage> LightDecoder::corrections() const {
+  if (!state_->current) return {};
+  const ReceivedGeometry& of = *state_->current;
+  return correction_messages(of.stream, state_->light.update, of.geometry.corrections_number,
+                             of.pieces);
+}
+
+std::uint64_t LightDecoder::corrections_number() const {
+  return state_->current ? state_->current->geometry.corrections_number : 0;
+}
+
+bool LightDecoder::has_corrections() const {
+  return !state_->current || state_->current->has_corrections();
 }
 
 int LightDecoder::probes() const {

@@ -66,10 +66,10 @@ struct LightEncoder::State {
   std::optional<TextureEncoding> textures;  // empty: our own codec
   bool refreshes = false;                   // the next texture is a key
 
-  // The last message of all of the geometry, without its header
-  mutable std::mutex whole_mutex;
-  mutable std::vector<std::byte> whole_body;
-  mutable std::uint64_t whole_version = 0;
+  // What was coded for who comes late, as long as it is so
+  mutable std::mutex coded_mutex;
+  mutable GeometrySections sections;
+  mutable CorrectionPieces pieces;
 
   int next_corrections = 0;  // the number of the field's update with which they are sent again
 
@@ -81,23 +81,24 @@ struct LightEncoder::State {
     geometry = geometry_of(field);
     next_corrections = due_after(field.updates());
     geometry_version = geometry_number(settings.stream, update);
+    geometry.corrections_number = geometry_version;
+    sections.clear();
+    pieces.clear();
     layout = layout_of(geometry);
     basis.emplace(geometry.irradiance_texels);
     light = LightState{};
   }
 
-  /// All of the geometry, for clients that have none. It is coded once, when the first needs it.
-  LightMessage whole_geometry(std::uint64_t update) const {
-    const std::scoped_lock lock(whole_mutex);
-    if (whole_version != geometry_version) {
-      whole_body = geometry_body(0, write_geometry(geometry));
-      whole_version = geometry_version;
-    }
-    return make_message(header(LightMessageKind::geometry, update), whole_body);
+  /// All of the geometry, for clients that have none. What has not changed since is not coded
+  /// again.
+  std::vector<LightMessage> whole_geometry(std::uint64_t update) const {
+    const std::scoped_lock lock(coded_mutex);
+    return geometry_messages(header(LightMessageKind::geometry, update), geometry, sections);
   }
 
-  void send_corrections(const IrradianceField& field) {
+  void take_corrections(const IrradianceField& field) {
     geometry.corrections = corrections_of(field);
+    pieces.clear();
     next_corrections = due_after(field.updates());
   }
 
@@ -125,10 +126,12 @@ std::optional<LightMessage> LightEncoder::State::follow_geometry(const Irradianc
   const std::vector<int> probes =
       follow(field, settings.distance_threshold, static_cast<int>(update % turns), turns, geometry);
   const bool corrects = field.updates() >= next_corrections;
-  if (corrects) send_corrections(field);
+  if (corrects) take_corrections(field);
   if (probes.empty() && !moved && !corrects) return std::nullopt;
   const std::uint64_t base = geometry_version;
   geometry_version = geometry_number(settings.stream, update);
+  if (corrects) geometry.corrections_number = geometry_version;
+  forget_sections(probes, sections);
   layout = layout_of(geometry);
   clear_unlit(layout, light);
   return make_message(header(LightMessageKind::geometry, update),
@@ -230,7 +233,7 @@ Expected<std::vector<LightMessage>> LightEncoder::encode(const IrradianceField& 
   std::vector<LightMessage> messages;
   if (!s.basis || !s.geometry.same_kind(kind_of(field))) {
     s.begin_geometry(field, update);
-    messages.push_back(s.whole_geometry(update));
+    messages = s.whole_geometry(update);
   } else if (std::optional<LightMessage> changes = s.follow_geometry(field, update)) {
     messages.push_back(std::move(*changes));
   }
@@ -250,9 +253,25 @@ Expected<std::vector<LightMessage>> LightEncoder::join(std::uint64_t known_geome
   if (s.light.update == 0)
     return fail("light stream", "", "holds no light before its first update");
   std::vector<LightMessage> messages;
-  if (known_geometry != s.geometry_version) messages.push_back(s.whole_geometry(s.light.update));
+  if (known_geometry != s.geometry_version) messages = s.whole_geometry(s.light.update);
   if (!s.textures) messages.push_back(s.key());
   return messages;
+}
+
+std::vector<LightMessage> LightEncoder::corrections() const {
+  const State& s = *state_;
+  const std::scoped_lock lock(s.coded_mutex);
+  write_pieces(s.geometry.corrections, s.pieces);
+  return correction_messages(s.settings.stream, s.light.update, s.geometry.corrections_number,
+                             s.pieces);
+}
+
+std::uint64_t LightEncoder::geometry() const {
+  return state_->geometry_version;
+}
+
+std::uint64_t LightEncoder::corrections_number() const {
+  return state_->geometry.corrections_number;
 }
 
 std::uint64_t LightEncoder::update() const {

@@ -55,7 +55,7 @@ Expected<OpenedMessage> open_message(std::span<const std::byte> bytes) {
     return bad_stream("", "a message is broken: its checksum does not match what it holds");
   }
   if (kind < static_cast<std::uint32_t>(LightMessageKind::geometry) ||
-      kind > static_cast<std::uint32_t>(LightMessageKind::regions)) {
+      kind > static_cast<std::uint32_t>(LightMessageKind::corrections)) {
     return bad_stream("", "holds a message of an unknown kind, " + std::to_string(kind));
   }
   OpenedMessage message;

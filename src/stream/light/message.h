@@ -13,7 +13,7 @@
 namespace lambent::stream {
 
 inline constexpr std::uint32_t kLightMagic = 0x4C424D4Cu;  // "LMBL"
-inline constexpr std::uint16_t kLightVersion = 1;
+inline constexpr std::uint16_t kLightVersion = 2;
 
 // Offsets and sizes [bytes].
 inline constexpr std::size_t kMessageChecksumOffset = 8;

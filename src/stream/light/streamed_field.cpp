@@ -118,9 +118,9 @@ Expected<void> StreamedField::receive(std::span<const std::byte> message) {
     if (anew) s.make_field(decoded.current->geometry);
     s.copy_places(decoded.current->geometry);
     s.copy_distances(changed);
-    if (anew || decoded.corrected) s.copy_corrections(decoded.current->geometry);
     s.geometry = version;
   }
+  if (decoded.corrected) s.copy_corrections(decoded.current->geometry);
   s.copy_light(changed);
   return {};
 }

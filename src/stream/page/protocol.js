@@ -10,7 +10,7 @@ export const TYPE = {
 };
 export const WANTS = { pictures: 1, light: 2 };
 export const CODE = { badToken: 3, refusedInput: 5 };
-export const LIGHT_KIND = { geometry: 1, key: 2, delta: 3 };
+export const LIGHT_KIND = { geometry: 1, key: 2, delta: 3, regions: 6, corrections: 7 };
 export const EDITS = { position: 1, direction: 2, intensity: 4 };
 
 /// A message of a type, whose fields `write` puts in their order.

@@ -154,6 +154,7 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
     updates_under_way_.push_back({update, what == LightNeed::all ? 0 : bytes});
     if (what == LightNeed::all) whole_bytes_ = bytes;
     if (what == LightNeed::all) {
+      later_put_ = false;
       light_lost_ = false;
       all_sent_at_ = update;
     }
@@ -161,9 +162,26 @@ void ClientLink::put_light(std::span<const SharedBytes> messages, std::uint64_t 
   wake_connection_();
 }
 
+void ClientLink::put_later(std::span<const SharedBytes> messages, bool anew) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (gone_) return;
+    if (anew) later_.clear();
+    later_.insert(later_.end(), messages.begin(), messages.end());
+    later_put_ = true;
+  }
+  wake_connection_();
+}
+
+bool ClientLink::has_all() const {
+  const std::lock_guard lock(mutex_);
+  return later_put_ && !light_lost_ && light_.empty() && later_.empty();
+}
+
 void ClientLink::begin_light_anew() {
   const std::lock_guard lock(mutex_);
   light_.clear();
+  later_.clear();
   updates_under_way_.clear();
   all_sent_at_ = 0;
   light_lost_ = true;
@@ -181,7 +199,12 @@ SharedBytes ClientLink::next(Clock::time_point now, std::optional<PathTime> path
     light_.pop_front();
     return bytes;
   }
-  if (!picture_) return nullptr;
+  if (!picture_) {
+    if (later_.empty()) return nullptr;
+    SharedBytes bytes = std::move(later_.front());
+    later_.pop_front();
+    return bytes;
+  }
   for (UnderWay& one : under_way_) {
     if (one.number != waiting_picture_) continue;
     one.sent = now;
@@ -199,6 +222,7 @@ void ClientLink::leave() {
     picture_.reset();
     notices_.clear();
     light_.clear();
+    later_.clear();
   }
   wake_world_();
 }
@@ -254,6 +278,7 @@ std::size_t ClientLink::waiting_bytes() const {
   std::size_t bytes = picture_ ? picture_->size() : 0;
   for (const auto& notice : notices_) bytes += notice.size();
   for (const auto& message : light_) bytes += message->size();
+  for (const auto& message : later_) bytes += message->size();
   return bytes;
 }
 

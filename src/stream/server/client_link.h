@@ -83,7 +83,8 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   /// none where it is not known.
   std::optional<Refusal> receive(const Message& message, Clock::time_point now,
                                  std::optional<PathTime> path = std::nullopt);
-  /// What is to be written next, notices before light before the picture; null: nothing.
+  /// What is to be written next, notices before light before the picture before what was put for
+  /// later; null: nothing.
   SharedBytes next(Clock::time_point now, std::optional<PathTime> path = std::nullopt);
   /// The connection is gone; the world forgets the client.
   void leave();
@@ -103,6 +104,11 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   std::uint64_t known_geometry() const;
   /// All messages that lead to an update: changes, or all.
   void put_light(std::span<const SharedBytes> messages, std::uint64_t update, LightNeed what);
+  /// What is written only when nothing else is, after the light so far: corrections. `anew`: in
+  /// place of what still waits of them.
+  void put_later(std::span<const SharedBytes> messages, bool anew);
+  /// Whether light has been put from its beginning, with all that follows it, and all is written.
+  bool has_all() const;
   /// Updates are counted anew, from another stream: what waits is forgotten, and all is needed.
   void begin_light_anew();
   /// Something to tell, soon.
@@ -138,6 +144,8 @@ class ClientLink : public std::enable_shared_from_this<ClientLink> {
   std::uint32_t waiting_picture_ = 0;  // its number
   std::deque<std::vector<std::byte>> notices_;
   std::deque<SharedBytes> light_;
+  std::deque<SharedBytes> later_;
+  bool later_put_ = false;  // since light was put from its beginning
   std::deque<LightUnderWay> updates_under_way_;
   std::size_t whole_bytes_ = 0;  // of the last light that was sent from its beginning
   bool light_lost_ = true;       // changes would lead from what the client does not have

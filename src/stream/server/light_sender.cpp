@@ -13,6 +13,9 @@ namespace {
 
 // Keys of textures are a score of times as large as what follows, for all.
 constexpr std::chrono::seconds kTextureKeyInterval{1};
+// Where nobody gets light it is coded so often all the same: who comes then waits for what has
+// changed since to be coded, and not for all that there is.
+constexpr std::chrono::seconds kIdleInterval{1};
 
 /// Edits, and the light that is of the scene after them.
 std::vector<SharedBytes> written(std::span<const Edit> edits, std::span<const LightMessage> light,
@@ -81,6 +84,22 @@ void LightSender::put(ClientLink& client, std::span<const SharedBytes> messages,
   for (const SharedBytes& message : messages) bytes_sent_ += message->size();
 }
 
+/// Whether a number is another one than the last, which it becomes.
+bool LightSender::is_new(std::uint64_t number, std::uint64_t& last) {
+  return std::exchange(last, number) != number;
+}
+
+/// Sends what can come later than the light to clients that have been sent that.
+void LightSender::put_corrections(const LightEncoder& encoder, std::span<ClientLink* const> clients,
+                                  float time_s) {
+  if (clients.empty()) return;
+  const auto messages = written({}, encoder.corrections(), time_s);
+  for (ClientLink* client : clients) {
+    client->put_later(messages, true);
+    for (const SharedBytes& message : messages) bytes_sent_ += message->size();
+  }
+}
+
 std::vector<Edit> LightSender::all_edits() const {
   std::vector<Edit> all;
   for (const auto& [target, edit] : edited_) all.push_back(edit);
@@ -100,13 +119,24 @@ void LightSender::follow_by_regions(std::span<const LightMessage> changes) {
   regions_.follow(whole_);
 }
 
+/// Whether it is time to code light for who may come.
+bool LightSender::is_due_for_nobody() {
+  const Clock::time_point now = Clock::now();
+  if (now < next_idle_) return false;
+  next_idle_ = now + kIdleInterval;
+  return true;
+}
+
 Expected<void> LightSender::send_coded(const IrradianceField& field, float time_s,
                                        std::span<const Edit> edits, const Receivers& to) {
-  // Nobody pays for light that nobody gets
-  is_current_ = to.any();
+  is_current_ = to.any() || is_due_for_nobody();
   if (!is_current_) return {};
   const auto changes = encoder_.encode(field);
   if (!changes) return tl::unexpected(changes.error());
+  if (!to.any()) {
+    static_cast<void>(encoder_.join());
+    static_cast<void>(encoder_.corrections());
+  }
   follow_by_regions(*changes);
   if (!to.follow.empty()) {
     const auto messages = written(edits, *changes, time_s);
@@ -120,6 +150,9 @@ Expected<void> LightSender::send_coded(const IrradianceField& field, float time_
       }
     }
   }
+  if (is_new(encoder_.corrections_number(), corrections_sent_)) {
+    put_corrections(encoder_, to.follow, time_s);
+  }
   return begin(to.begin, time_s);
 }
 
@@ -127,11 +160,13 @@ Expected<void> LightSender::send_coded(const IrradianceField& field, float time_
 Expected<void> LightSender::begin(std::span<ClientLink* const> clients, float time_s) {
   // Many who come at once are sent the same bytes
   std::map<std::uint64_t, std::vector<SharedBytes>> by_geometry;
+  std::vector<ClientLink*> to_correct;
   for (ClientLink* client : clients) {
     const std::uint64_t known = client->known_geometry();
     if (regions_.serves(*client)) {
       auto all = encoder_.join(known);
       if (!all) return tl::unexpected(all.error());
+      if (known != encoder_.geometry()) to_correct.push_back(client);
       all->back() = regions_.update_for(whole_, *client, true);
       put(*client, written(all_edits(), *all, time_s), encoder_.update(), LightNeed::all);
       continue;
@@ -143,7 +178,10 @@ Expected<void> LightSender::begin(std::span<ClientLink* const> clients, float ti
       messages->second = written(all_edits(), *all, time_s);
     }
     put(*client, messages->second, encoder_.update(), LightNeed::all);
+    if (known != encoder_.geometry()) to_correct.push_back(client);
   }
+  // They are on their way while these are coded. Who has the geometry gets them, or has them
+  put_corrections(encoder_, to_correct, time_s);
   return {};
 }
 
@@ -156,6 +194,7 @@ Expected<void> LightSender::greet(const IrradianceField& field, float time_s,
     const auto changes = encoder_.encode(field);
     if (!changes) return tl::unexpected(changes.error());
     is_current_ = true;
+    corrections_sent_ = encoder_.corrections_number();
   }
   return begin(to.begin, time_s);
 }
@@ -178,12 +217,18 @@ Expected<void> LightSender::send_textures(const IrradianceField& field, float ti
       put(*client, messages, textures_->update(), LightNeed::changes);
     }
   }
+  if (is_new(textures_->corrections_number(), texture_corrections_sent_)) {
+    put_corrections(*textures_, to.follow, time_s);
+  }
+  std::vector<ClientLink*> to_correct;
   for (ClientLink* client : to.begin) {
     auto all = textures_->join(client->known_geometry());
+    if (client->known_geometry() != textures_->geometry()) to_correct.push_back(client);
     if (!all) return tl::unexpected(all.error());
     all->push_back(changes->back());
     put(*client, written(all_edits(), *all, time_s), textures_->update(), LightNeed::all);
   }
+  put_corrections(*textures_, to_correct, time_s);
   return {};
 }
 

@@ -50,6 +50,9 @@ class LightSender {
   static Receivers receivers_of(std::span<ClientLink* const> clients, std::uint32_t codec);
   void put(ClientLink& client, std::span<const SharedBytes> messages, std::uint64_t update,
            LightNeed what);
+  void put_corrections(const LightEncoder& encoder, std::span<ClientLink* const> clients,
+                       float time_s);
+  static bool is_new(std::uint64_t number, std::uint64_t& last);
   std::vector<Edit> all_edits() const;
   Expected<void> send_coded(const IrradianceField& field, float time_s, std::span<const Edit> edits,
                             const Receivers& to);
@@ -57,6 +60,7 @@ class LightSender {
   Expected<void> send_textures(const IrradianceField& field, float time_s,
                                std::span<const Edit> edits, Receivers to);
 
+  bool is_due_for_nobody();
   void follow_by_regions(std::span<const LightMessage> changes);
 
   LightEncoder encoder_;
@@ -65,8 +69,11 @@ class LightSender {
   LightDecoder whole_;                    // follows the encoder while somebody gets regions
   std::optional<LightEncoder> textures_;  // where there is a video codec
   Clock::time_point next_texture_key_;    // not before
-  std::map<EditTarget, Edit> edited_;     // since the scene was opened
-  std::vector<Edit> new_edits_;           // since light was sent last
+  Clock::time_point next_idle_;           // the same, of light that nobody gets
+  // LightEncoder::corrections_number of those that all have been sent who follow
+  std::uint64_t corrections_sent_ = 0, texture_corrections_sent_ = 0;
+  std::map<EditTarget, Edit> edited_;  // since the scene was opened
+  std::vector<Edit> new_edits_;        // since light was sent last
   std::uint64_t bytes_sent_ = 0;
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/server/listener.h"
 
+#include <netinet/tcp.h>
+
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -51,6 +53,15 @@ Expected<tcp::endpoint> resolve(boost::asio::io_context& io, const ListenSetting
     return fail("", settings.host, "is no address of this machine: " + error.message());
   }
   return found.begin()->endpoint();
+}
+
+/// Has the system take no more than it can send soon, so that what is put last may go first.
+void keep_short([[maybe_unused]] tcp::socket& socket) {
+#ifdef TCP_NOTSENT_LOWAT
+  constexpr int kUnsentBytes = 131'072;  // more than a look at the socket takes at 1 Gbit/s
+  ::setsockopt(socket.native_handle(), IPPROTO_TCP, TCP_NOTSENT_LOWAT, &kUnsentBytes,
+               sizeof(kUnsentBytes));
+#endif
 }
 
 class BeastListener : public Listener {
@@ -151,6 +162,7 @@ class BeastListener : public Listener {
     }
     ErrorCode ignored;
     socket.set_option(tcp::no_delay(true), ignored);
+    keep_short(socket);
     PlainStream stream(std::move(socket));
     if (context_.tls) {
       TlsStream tls(std::move(stream), *context_.tls);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stream/server/relayed_light.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -77,9 +78,9 @@ void RelayedLight::begin_connection(const Welcome& welcome) {
   held_.clear();
   // What it was sent before, it may not have applied
   edits_.forget("the server of the light was away");
-  // So that it sends no geometry that is here
+  // So that it sends no geometry that is here; corrections come with geometry alone
   const LightDecoder& decoder = lit_.decoder();
-  if (decoder.geometry() != 0) {
+  if (decoder.geometry() != 0 && decoder.has_corrections()) {
     upstream_.send(LightReceived{decoder.update(), decoder.geometry(), 0});
   }
 }
@@ -121,14 +122,13 @@ Expected<void> RelayedLight::take_light(const LightPayload& light,
     if (const auto begun = begin_stream(light, clients); !begun) return begun;
   }
   if (const auto edited = apply_edits(followed); !edited) return edited;
-  const std::uint64_t geometry = lit_.decoder().geometry();
   const auto taken = lit_.follow(light);
   if (!taken) return tl::unexpected(taken.error());
   if (taken->answer) upstream_.send(*taken->answer);
   if (light.time_s != time_s_) followed.moved = true;
   time_s_ = light.time_s;
   const bool is_geometry = static_cast<LightMessageKind>(light.kind) == LightMessageKind::geometry;
-  if (taken->lit || (is_geometry && lit_.decoder().geometry() != geometry)) {
+  if (taken->lit || (is_geometry && taken->taken)) {
     light_since_.push_back(shared(light));
   }
   if (!taken->lit) return {};
@@ -136,6 +136,26 @@ Expected<void> RelayedLight::take_light(const LightPayload& light,
   followed.change += meter_.measure(lit_.decoder());
   edits_.lit(lit_.update());
   hand_on(clients);
+  return {};
+}
+
+/// A piece of corrections: of use to all that have the light, also to those that have not kept up,
+/// as these may get no geometry again, and so no corrections with it.
+Expected<void> RelayedLight::take_corrections(const LightPayload& light,
+                                              std::span<ClientLink* const> clients) {
+  const auto taken = lit_.follow(light);
+  if (!taken) return tl::unexpected(taken.error());
+  if (taken->answer) upstream_.send(*taken->answer);
+  if (!taken->taken) return {};
+  const std::uint64_t number = lit_.decoder().corrections_number();
+  const bool anew = std::exchange(corrections_handed_on_, number) != number;
+  const std::array<SharedBytes, 1> piece = {shared(light)};
+  for (ClientLink* client : clients) {
+    const bool has_none = client->known_geometry() == 0 && client->need_light() == LightNeed::all;
+    if (has_none) continue;  // it gets them with its first light
+    client->put_later(piece, anew);
+    bytes_sent_ += piece.front()->size();
+  }
   return {};
 }
 
@@ -173,6 +193,14 @@ void RelayedLight::hand_on(std::span<ClientLink* const> clients) {
     for (const auto& [target, edit] : edited_) messages.push_back(shared(edit));
     for (const LightMessage& message : *all) messages.push_back(payload(message));
     put(*client, messages, LightNeed::all);
+    // Who has the geometry gets its corrections, or has them
+    if (all->size() == 1) continue;
+    std::vector<SharedBytes> later;
+    for (const LightMessage& message : lit_.decoder().corrections()) {
+      later.push_back(payload(message));
+      bytes_sent_ += later.back()->size();
+    }
+    client->put_later(later, true);
   }
 }
 
@@ -181,7 +209,10 @@ Expected<RelayedLight::Followed> RelayedLight::follow(std::span<ClientLink* cons
   watch();
   for (const Message& message : upstream_.take()) {
     if (const auto* light = std::get_if<LightPayload>(&message)) {
-      const auto taken = take_light(*light, clients, followed);
+      const bool corrects =
+          static_cast<LightMessageKind>(light->kind) == LightMessageKind::corrections;
+      const auto taken =
+          corrects ? take_corrections(*light, clients) : take_light(*light, clients, followed);
       if (!taken) return tl::unexpected(taken.error());
     } else if (const auto* welcome = std::get_if<Welcome>(&message)) {
       begin_connection(*welcome);

@@ -70,6 +70,7 @@ class RelayedLight {
   void begin_connection(const Welcome& welcome);
   Expected<void> take_light(const LightPayload& light, std::span<ClientLink* const> clients,
                             Followed& followed);
+  Expected<void> take_corrections(const LightPayload& light, std::span<ClientLink* const> clients);
   Expected<void> begin_stream(const LightPayload& light, std::span<ClientLink* const> clients);
   Expected<void> apply_edits(Followed& followed);
   void hand_on(std::span<ClientLink* const> clients);
@@ -88,6 +89,7 @@ class RelayedLight {
   std::map<EditTarget, Edit> edited_;  // since the scene was opened
   // What leads to the next light
   std::vector<SharedBytes> edits_since_, light_since_;
+  std::uint64_t corrections_handed_on_ = 0;  // LightDecoder::corrections_number of the last piece
   std::uint64_t bytes_sent_ = 0;
 };
 

@@ -9,8 +9,10 @@
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "stream/protocol/hello_header.h"
 #include "stream/server/connections.h"
 #include "stream/server/rate_limit.h"
 
@@ -47,9 +49,19 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
     socket_.read_message_max(kMaxClientMessageBytes);
     socket_.auto_fragment(false);
     socket_.binary(true);
+    const auto hello = request[kHelloField];
+    if (!hello.empty()) {
+      socket_.set_option(websocket::stream_base::decorator(
+          [](websocket::response_type& response) { response.set(kHelloField, kHelloTaken); }));
+    }
+    // What there is to write waits until the answer has been
     socket_.async_accept(request, [self = this->shared_from_this()](ErrorCode error) {
-      if (!error) self->read();
+      if (error) return self->leave();
+      self->open_ = true;
+      self->read();
+      self->pump();
     });
+    if (!hello.empty()) take_header({hello.data(), hello.size()});
   }
 
   void refuse(Refusal refusal) override {
@@ -98,6 +110,13 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
       self->buffer_.consume(self->buffer_.size());
       self->read();
     });
+  }
+
+  /// A hello that came with the request.
+  void take_header(std::string_view digits) {
+    const auto message = read_hello_header(digits);
+    if (!message) return refuse({Refusal::Code::bad_message, message.error().message()});
+    greet(*message);
   }
 
   void take_message() {
@@ -160,7 +179,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
 
   /// Writes what there is to write, unless something is being written.
   void pump() {
-    if (writing_since_ || closing_) return;
+    if (!open_ || writing_since_ || closing_) return;
     if (farewell_) {
       outgoing_ = std::make_shared<const std::vector<std::byte>>(std::move(*farewell_));
       closing_ = true;
@@ -198,7 +217,7 @@ class WebSocket : public Session, public std::enable_shared_from_this<WebSocket<
   std::uint32_t session_client_ = 0;
   SharedBytes outgoing_;
   std::optional<std::vector<std::byte>> farewell_;
-  bool closing_ = false;
+  bool open_ = false, closing_ = false;
 };
 
 }  // namespace lambent::stream

@@ -87,9 +87,9 @@ std::vector<ClientLink*> WorldLoop::meet_clients() {
   return newcomers;
 }
 
-/// Sends newcomers the light as it is, unless an update is due, which brings it.
+/// Sends newcomers the light as it is, also where an update is due: that takes them longer.
 void WorldLoop::greet(std::span<ClientLink* const> newcomers) {
-  if (newcomers.empty() || relayed_ || Clock::now() >= next_update_) return;
+  if (newcomers.empty() || relayed_) return;
   const auto sent = light_->greet(*served_.field, time_s_, newcomers);
   hub_.edit_stats([&](HubStats& stats) { stats.light_bytes = light_->bytes_sent(); });
   if (sent) return;

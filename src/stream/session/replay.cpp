@@ -120,7 +120,10 @@ class Replay {
     if (const auto* light = std::get_if<LightPayload>(&message)) {
       const auto opened = open_message(light->bytes);
       if (!opened) return tl::unexpected(opened.error());
-      if (opened->header.kind != LightMessageKind::geometry) ++replayed_.updates;
+      const LightMessageKind kind = opened->header.kind;
+      if (kind != LightMessageKind::geometry && kind != LightMessageKind::corrections) {
+        ++replayed_.updates;
+      }
       return one.client->send(LightReceived{light->update, opened->header.geometry, 0});
     }
     if (const auto* told = std::get_if<InputsApplied>(&message)) {
