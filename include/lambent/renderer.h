@@ -36,7 +36,7 @@ struct FrameSettings {
   /// Samples of emissive triangles and of many lights for direct light, >= 1; a shadow ray each.
   int emissive_samples = 4;
   /// The same at each surface that a ray of a reflection or through glass meets, >= 1: no filter
-  /// takes the noise from what these show.
+  /// takes the noise from what mirrors, clearcoats and glass show.
   int reflected_emissive_samples = 4;
   /// Rays a sample sends out to gather its indirect light (final gathering), >= 0; 0 looks the
   /// field up instead. Finds light and shade finer than the probes' spacing, at the price of noise
@@ -47,11 +47,13 @@ struct FrameSettings {
   /// light alone, which shows no image. Two halve the cost of one where most coats are rough.
   /// Needs a field.
   int glossy_rows = 2;
-  /// Whether gathered light and direct light of emissive surfaces are filtered (lambent/denoise.h).
-  /// Light of directional, point and spot lights has no noise and stays as it is. Rows of a picture
-  /// then need 63 more on each side, which are traced, too.
+  /// Whether gathered light, what coats reflect by rays and direct light of emissive surfaces are
+  /// filtered (lambent/denoise.h). Light of directional, point and spot lights has no noise and
+  /// stays as it is. Rows of a picture then need 63 more on each side, which are traced, too, and
+  /// each pixel 360 bytes.
   bool denoise = false;
   /// Pictures of the renderer over which what is filtered is averaged first, 1 to 1000; 1: none.
+  /// Reflections are left out: what a surface shows does not move as it does.
   /// More leave less noise in sequences, at 100 bytes a pixel. Each picture then has rays of its
   /// own. Surfaces are followed by their motion; what was not seen before starts anew, and so does
   /// all light once the world's revision differs. For whole pictures of one sample a pixel, with

@@ -85,6 +85,7 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
   light.diffuse.assign(gbuffer.size(), vec3(0.0f));
   light.specular.assign(gbuffer.size(), vec3(0.0f));
   light.emitters.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
+  light.emitter_specular.assign(emitters > 0 ? gbuffer.size() : 0, vec3(0.0f));
   light.emitter_variance.assign(emitters > 1 ? gbuffer.size() : 0, 0.0f);
   light.unoccluded.assign(emitters > 0 ? gbuffer.size() : 0, 0.0f);
   const std::size_t first_pixel = static_cast<std::size_t>(band.first_row) * settings.width;
@@ -106,12 +107,14 @@ std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
       const vec3 share = arriving.share(k);
       if (share == vec3(0.0f)) continue;
       const std::size_t pixel = pending[k].pixel;
-      light.specular[pixel] += share * pending[k].light.specular;
       const vec3 diffuse = share * pending[k].light.diffuse;
+      const vec3 specular = share * pending[k].light.specular;
       if (emitters == 0 || !pending[k].of_emitter) {
         light.diffuse[pixel] += diffuse;
+        light.specular[pixel] += specular;
         continue;
       }
+      light.emitter_specular[pixel] += specular;
       add_emitter(gbuffer.surfaces[pixel], diffuse, light.emitters[pixel],
                   emitters > 1 ? &light.emitter_variance[pixel] : nullptr);
     }

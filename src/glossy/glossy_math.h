@@ -21,10 +21,11 @@ LAMBENT_BEGIN
 struct CoatRay {
   vec3 direction_ws;  ///< Unit.
   float distance;     ///< To what it met first [m]; infinite: it left the scene.
-  vec3 radiance;      ///< But for what the first surface emits [W/(m^2 sr)].
+  vec3 radiance;      ///< But for `emission` [W/(m^2 sr)].
   float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
                       ///< into the surface and brings nothing.
-  vec3 emission;      ///< By the first surface [W/(m^2 sr)].
+  vec3 emission;      ///< Of what it met before another coat reflected it [W/(m^2 sr)], which the
+                      ///< pixel's direct light samples, too: the first surface, or behind glass.
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
@@ -34,6 +35,7 @@ struct CoatPath {
   float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
                     ///< 0: the way has ended.
   float alpha;      ///< GGX width of the widest lobe on the way.
+  uint own_coat;  ///< 1: the coat that it left last is that of its pixel; 0: another one, or none.
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
@@ -82,6 +84,9 @@ const float kLeastReflected = 1e-20f;
 /// Neighbours count for nothing this far from a pixel's plane [pixels' widths at its depth]: the
 /// plane of a sphere of few pixels falls off as much over the pixels in reach.
 const float kPlaneTolerance = 4.0f;
+
+/// Distances to what rays met count as this long at least [m], so that one over them is a number.
+const float kLeastSeenDistance = 1e-4f;
 
 // Keep the random numbers of rays and of lights at what they meet apart from those of other passes.
 const uint kCoatSalt = 0x434F4154u;
@@ -247,7 +252,7 @@ struct CoatReceiver {
   CoatLobe lobe;
   Reflectance reflectance;  ///< As of coat_under_layers().
   float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
-  uint emitter_samples;     ///< Of its direct light.
+  uint emitter_samples;     ///< Of its direct light; FrameSettings::emissive_samples.
   CoatRay own;              ///< Of density 0 where it has no ray.
   LobeValue at_own;         ///< Its lobe there.
   vec3 mirror_ws;           ///< Where its lobe is about densest, and how dense it is there [1/sr].
@@ -264,7 +269,7 @@ LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
 
 /// Weighted sums over rays.
 struct CoatSums {
-  vec3 light;        ///< Reflected, but for what the rays' first surfaces emit,
+  vec3 light;        ///< Reflected, but for CoatRay::emission,
   vec3 emission;     ///< and that.
   float weight;      ///< Of the rays around, and
   float schlick;     ///< of these each times Schlick's (1 - v_dot_h)^5 of its ray,

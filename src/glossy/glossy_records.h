@@ -55,9 +55,9 @@ struct CoatHitsArguments {
   CoatRayArray coat_rays;
   uint count;  ///< Ways.
   uint bounce;
-  uint emitter_samples;
-  uint first_index;  ///< Of the first pixel among those of the picture.
-  uint has_field;    ///< 1: there is a field to be asked.
+  uint emitter_samples;  ///< Of the direct light of what they meet.
+  uint first_index;      ///< Of the first pixel among those of the picture.
+  uint has_field;        ///< 1: there is a field to be asked.
   uint padding;
 };
 
@@ -108,7 +108,8 @@ struct CoatReuseArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  Vec4Array light;  ///< As Glossy::reflect, a pixel of the band each.
+  Vec4Array light;               ///< As in struct CoatLight, a pixel of the band each.
+  FloatArray inverse_distances;  ///< As there; written where `finds_distances` is 1.
   vec3 camera_ws;
   vec3 camera_back;   ///< Unit; against the direction of view.
   float pixel_width;  ///< At a distance of one metre; of an orthographic camera everywhere.
@@ -121,6 +122,8 @@ struct CoatReuseArguments {
   uint rows;
   uint sample_index;
   uint emitter_samples;
+  uint finds_distances;
+  uint padding;
 };
 
 LAMBENT_END

@@ -33,6 +33,20 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
   return share;
 }
 
+/// Adds what a surface emits that a way met to what its pixel's ray brings. The direct light of the
+/// coat that the way left last samples emitters, too, and the two estimates share them by weights.
+/// Coats that ways meet take `emitter_samples` samples. Those of pixels take others, and weigh
+/// CoatRay::emission themselves.
+LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
+                             LAMBENT_INOUT(CoatRay) ray) {
+  vec3 brought = path.throughput * emission;
+  if (path.own_coat != 0u) {
+    ray.emission += brought;
+  } else {
+    ray.radiance += brought * found_emitter_weight(path.pdf, emitter_samples);
+  }
+}
+
 /// Where a way goes on.
 struct NextRay {
   vec3 direction_ws;
@@ -52,6 +66,7 @@ LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 norm
   path.throughput *= coat_share * drawn.weight;
   path.pdf = drawn.pdf;
   path.alpha = coat.alpha;
+  path.own_coat = 0u;
   next.direction_ws = drawn.direction_ws;
   return next;
 }

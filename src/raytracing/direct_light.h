@@ -10,6 +10,7 @@
 #include "raytracing/world_access.h"
 #include "scene/light_sampling.h"
 #include "scene/light_tree/light_tree.h"
+#include "scene/light_tree/pick_lobe.h"
 #include "scene/media/media.h"
 #include "shared/albedo_shape.h"
 #include "shared/brdf.h"
@@ -67,6 +68,9 @@ struct LightDraws {
   int tree_samples;  ///< Of the light tree, >= 1.
   /// Directional, point and spot lights are left out.
   bool emitters_alone = false;
+  /// Candidates among which the samples of the tree choose, in all, 1 to kMostPicks. Each costs a
+  /// pick and a point on a light, but no ray; more make less noise. See candidates_per_sample().
+  uint candidates = kCandidates;
 };
 
 // What direct_light.inl.h asks for.
@@ -91,9 +95,16 @@ inline uint tree_samples(const LightDraws& draws) {
                                           : lights_of(draws.world).nodes().empty();
   return empty ? 0u : static_cast<uint>(draws.tree_samples);
 }
+inline PickLobe bounded_lobe(const LightDraws& draws, const vec3& position_ws,
+                             const vec3& normal_ws, const PickLobe& lobe) {
+  return lights_of(draws.world).bounded(position_ws, normal_ws, lobe);
+}
+inline uint tree_candidates(const LightDraws& draws) {
+  return draws.candidates;
+}
 inline void pick_lights(const LightDraws& draws, const vec3& position_ws, const vec3& normal_ws,
-                        uint count, LightPicks& picks) {
-  lights_of(draws.world).pick(position_ws, normal_ws, count, picks);
+                        const PickLobe& lobe, uint count, LightPicks& picks) {
+  lights_of(draws.world).pick(position_ws, normal_ws, lobe, count, picks);
 }
 inline uint emitter_count(const LightDraws& draws) {
   return static_cast<uint>(emissive_of(draws.world).size());
@@ -126,12 +137,17 @@ inline float target_of(const LightReceiver& receiver, LightCandidate light) {
   return luminance(pair.diffuse + pair.specular);
 }
 
+inline PickLobe lobe_of(const LightReceiver& receiver) {
+  if (receiver.reflector == nullptr) return no_pick_lobe();
+  const Reflector& to = *receiver.reflector;
+  return pick_lobe(to.reflectance, to.frame, to.to_viewer);
+}
+
 /// Calls visit(LightCandidate) for every light that is asked and reaches the receiver unoccluded,
-/// and for `tree_samples` samples of the light tree, whose expected sum is what its lights send.
+/// and for each sample of the light tree, whose expected sum is what its lights send.
 template <class Visit>
-void for_each_light(const World& world, const LightReceiver& receiver, int tree_samples,
-                    RandomStream& random, Visit visit) {
-  const LightDraws draws{world, tree_samples};
+void for_each_light(const LightDraws& draws, const LightReceiver& receiver, RandomStream& random,
+                    Visit visit) {
   const uint slots = slot_count(draws);
   LightPicks picks;
   for (uint slot = 0; slot < slots; ++slot) {

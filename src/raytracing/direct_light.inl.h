@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candidates of direct light at a point, in the common subset of C++ and GLSL. They come in slots:
 // one a light that is asked, then one a sample of the light tree, which holds emissive triangles
-// and, where they are many, point and spot lights. The includer provides the types
+// or pieces of them and, where they are many, point and spot lights. The includer provides the
+// types
 //   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws;
 //                these are 0 of points in the air, which light reaches from all around; and with
 //                the albedo_shape of who reflects by an albedo towards the viewer, else 0
@@ -13,16 +14,22 @@
 //   uint fetch_asked(DrawsRef draws, uint slot)            which light is asked in a slot
 //   LightRecord fetch_light(DrawsRef draws, uint light)
 //   uint tree_samples(DrawsRef draws)                      0: nothing is in the tree
-//   void pick_lights(DrawsRef draws, vec3 position_ws, vec3 normal_ws, uint count,
+//   uint tree_candidates(DrawsRef draws)                   <= kMostPicks; see candidates_per_sample
+//   PickLobe bounded_lobe(DrawsRef draws, vec3 position_ws, vec3 normal_ws, PickLobe lobe)
+//   void pick_lights(DrawsRef draws, vec3 position_ws, vec3 normal_ws, PickLobe lobe, uint count,
 //                    inout LightPicks picks)
 //   uint emitter_count(DrawsRef draws)                     these come first among the tree's lights
 //   EmitterRecord fetch_emitter(DrawsRef draws, uint emitter)
 //   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics,
 //                         vec3 direction_ws)
 
-/// The light of a candidate that a receiver would send on, as one number. Defined by the includer,
-/// after this file.
+/// Luminance of what a receiver would send on of a candidate's light if nothing is in the way. The
+/// includer defines it after this file.
 LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
+
+/// How a receiver sends light on, by which lights are picked for it. The includer defines it after
+/// this file.
+LAMBENT_FN PickLobe lobe_of(ReceiverRef receiver);
 
 /// Irradiance that a candidate brings to a point unless something is in the way [W/m^2]; of points
 /// with an albedo_shape, weighted by the share of it that is reflected to the viewer over the
@@ -108,18 +115,21 @@ LAMBENT_FN LightCandidate resampled_candidate(DrawsRef draws, ReceiverRef receiv
                                               uint sample_index, LAMBENT_INOUT(LightPicks) picks,
                                               LAMBENT_INOUT(RandomStream) random) {
   uint samples = tree_samples(draws);
-  uint count = candidates_per_sample(samples);
+  uint count = candidates_per_sample(tree_candidates(draws), samples);
   // Each candidate of each sample has a stratum of the pick to itself; the second coordinate is
   // spread evenly over the candidates of a sample
   float share = 1.0f / float(samples * count);
-  uint per_descent = samples_per_descent(samples);
+  uint per_descent = max(kMostPicks / count, 1u);
   if (sample_index % per_descent == 0u) {
     uint together = min(per_descent, samples - sample_index) * count;
     for (uint i = 0u; i < together; ++i) {
       float place = (float(sample_index * count + i) + next_uniform(random)) * share;
       picks.at[i].rest = min(place, kLargestUniform);
     }
-    pick_lights(draws, receiver.point.position_ws, receiver.point.normal_ws, together, picks);
+    vec3 position_ws = receiver.point.position_ws;
+    vec3 normal_ws = receiver.point.normal_ws;
+    PickLobe lobe = bounded_lobe(draws, position_ws, normal_ws, lobe_of(receiver));
+    pick_lights(draws, position_ws, normal_ws, lobe, together, picks);
   }
   uint first = (sample_index % per_descent) * count;
   float shift = next_uniform(random);

@@ -122,18 +122,16 @@ LAMBENT_FN bool lies_on_triangle(vec3 position_ws, vec3 corner_ws, vec3 edge1, v
   return abs(dot(normal, corner_ws - position_ws)) <= rounding * length(normal);
 }
 
-/// Candidates among which a point's samples of emissive triangles choose, in all and at least for
-/// each sample. Candidates cost no ray; more of them let fewer rays go where little light is.
+/// Candidates among which a point's samples of the light tree choose, in all and at least for each
+/// sample. Candidates cost no ray; more of them let fewer rays go where little light is.
 const uint kCandidates = 4u;
 const uint kMinCandidates = 2u;
 
-LAMBENT_FN uint candidates_per_sample(uint samples) {
-  return max(kCandidates / samples, kMinCandidates);
-}
-
-/// Samples of a point whose candidates are picked in one descent of the light tree.
-LAMBENT_FN uint samples_per_descent(uint samples) {
-  return max(kMostPicks / candidates_per_sample(samples), 1u);
+/// Candidates among which one sample of the light tree chooses, kMinCandidates or more: an equal
+/// share of a point's `candidates`, 1 to kMostPicks (kCandidates unless a pass asks for fewer),
+/// among its `samples`, >= 1.
+LAMBENT_FN uint candidates_per_sample(uint candidates, uint samples) {
+  return max(candidates / samples, kMinCandidates);
 }
 
 /// Resampled importance sampling of one out of several candidates that come one after the other.

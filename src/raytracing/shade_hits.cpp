@@ -16,14 +16,13 @@ void queue_direct_light(const World& world, const DirectLightQuery& query, std::
   const LitPoint& point = query.point;
   RandomStream random =
       make_random_stream(static_cast<std::uint32_t>(query.index), settings.salt, settings.seed);
-  for_each_light(world, {point}, settings.emissive_samples, random,
-                 [&](const LightCandidate& light) {
-                   const glm::vec3 irradiance = unoccluded_irradiance(point, light);
-                   if (irradiance == glm::vec3(0.0f)) return;
-                   scratch.pending.push_back({place, irradiance});
-                   scratch.shadow_rays.push_back(
-                       shadow_ray(point.position_ws, point.geometric_normal_ws, light));
-                 });
+  const LightDraws draws{world, settings.emissive_samples, false, settings.candidates};
+  for_each_light(draws, {point}, random, [&](const LightCandidate& light) {
+    const glm::vec3 irradiance = unoccluded_irradiance(point, light);
+    if (irradiance == glm::vec3(0.0f)) return;
+    scratch.pending.push_back({place, irradiance});
+    scratch.shadow_rays.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, light));
+  });
 }
 
 /// Finds what is left of light on its way along rays that may cross glass.

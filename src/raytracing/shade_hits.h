@@ -25,8 +25,13 @@ struct ShadedHit {
 struct ShadeHitsSettings {
   float cone_width =
       0.0f;  ///< Width of a ray's cone per metre, which picks MIP levels; 0: full resolution.
-  float max_albedo = 1.0f;   ///< Albedo is clamped to this, 0 to 1.
-  int emissive_samples = 1;  ///< Points drawn on emissive triangles a hit, >= 1.
+  float max_albedo = 1.0f;  ///< Albedo is clamped to this, 0 to 1.
+  /// Samples of the light tree a hit, of emissive triangles and of lights where these are many, >=
+  /// 1; a shadow ray each.
+  int emissive_samples = 1;
+  /// Candidates among which the samples of a hit choose, in all, 1 to kMostPicks. Each costs a pick
+  /// and a point on a light, but no ray; more make less noise. See candidates_per_sample().
+  uint candidates = kCandidates;
   /// Directional, point and spot lights are left out. Read by HitShading::reflected_light alone.
   bool emitters_alone = false;
   /// A ray that meets a side that bounds solid matter comes from inside it and does not count;

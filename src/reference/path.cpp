@@ -62,7 +62,7 @@ glm::vec3 PathIntegrator::emission_found(const Surface& surface, const Ray& ray,
   if (surface.emission == glm::vec3(0.0f)) return surface.emission;
   const float distance = traveller.distance + hit.distance;
   const float cosine = std::abs(glm::dot(surface.geometric_normal_ws, ray.direction));
-  const float pdf_area = emissive_of(world_).pdf_area(hit.instance, hit.triangle);
+  const float pdf_area = emissive_of(world_).pdf_area(hit.instance, hit.triangle, hit.barycentrics);
   const float light_pdf = cosine > 0.0f ? pdf_area * distance * distance / cosine : 0.0f;
   return surface.emission * found_weight(traveller.pdf, light_pdf);
 }

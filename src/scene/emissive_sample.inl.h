@@ -10,10 +10,12 @@ struct PointEmission {
   float clearcoat;
 };
 
+/// Barycentrics are those of the emitter, here and below.
 LAMBENT_FN PointEmission emission_of(SceneRef scene, EmitterRecord emitter, vec2 barycentrics) {
   MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, emitter.instance).mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
-  TrianglePoint p = triangle_point(mesh, emitter.triangle, barycentrics);
+  TrianglePoint p =
+      triangle_point(mesh, emitter.triangle, barycentrics_in_triangle(emitter, barycentrics));
   PointEmission sent = {emission_at(scene, mesh, material, p, full_resolution()), 0.0f};
   if (uint(material.alpha_mode) != kAlphaOpaque) {
     sent.radiance *= stopping_probability(uint(material.alpha_mode), material.alpha_cutoff,
@@ -31,6 +33,6 @@ LAMBENT_FN vec3 emitted_radiance(SceneRef scene, EmitterRecord emitter, vec2 bar
                                  vec3 direction_ws) {
   PointEmission sent = emission_of(scene, emitter, barycentrics);
   if (sent.clearcoat <= 0.0f) return sent.radiance;
-  vec3 normal_ws = normalize(cross(emitter.edge1_ws, emitter.edge2_ws));
+  vec3 normal_ws = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
   return sent.radiance * passes_clearcoat(sent.clearcoat, abs(dot(normal_ws, direction_ws)));
 }

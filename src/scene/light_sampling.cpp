@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "scene/attributes.h"
-#include "scene/emission_map.h"
+#include "scene/emission/emission_map.h"
 #include "shared/color.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
@@ -14,32 +14,100 @@
 namespace lambent {
 namespace {
 
+// Triangles are divided into at most this many pieces in all, and each into no more than its share
+// of them by power: dividing takes a core 2 ms, and the light tree over the pieces 20 ms and 10 MB.
+constexpr double kMostPieces = 1 << 15;
+// Edges are halved at most this often: a quad then has 32 by 32 cells. Light drawn from these costs
+// about as much as from 8 by 8 cells, and has a third of the variance.
+constexpr int kMostHalvings = 5;
+
+// Smaller triangles [m^2] are no lights: the areas of their pieces, and densities over them, would
+// be no numbers.
+constexpr float kLeastArea = 1e-34f;
+
 std::uint64_t triangle_key(std::uint32_t instance, std::uint32_t triangle) {
   return (static_cast<std::uint64_t>(instance) << 32) | triangle;
 }
 
 #include "scene/emissive_sample.inl.h"
 
-// A triangle placed in the world; without a probability.
-EmitterRecord in_the_world(const Instance& instance, const Mesh& mesh, std::uint32_t index,
+/// An emissive triangle that may yet be divided.
+struct WholeTriangle {
+  std::uint32_t instance, triangle;
+  glm::vec3 corner_ws, edge1_ws, edge2_ws;
+  float area;
+  float color_bound;     // of vertex colours: they scale texture and factor by no more
+  float mean_luminance;  // without vertex colours [W/(m^2 sr)]
+  double power() const { return static_cast<double>(area) * (mean_luminance * color_bound); }
+};
+
+// Places a triangle in the world; what it sends is left to the caller.
+WholeTriangle in_the_world(const Instance& instance, const Mesh& mesh, std::uint32_t index,
                            std::uint32_t triangle) {
   const glm::uvec3& v = mesh.triangles[triangle];
   const glm::vec3& p0 = mesh.positions[v.x];
   const glm::mat3 linear(instance.world_from_object);
-  EmitterRecord emitter{index,           triangle,        0.0f,           0.0f,
-                        glm::vec3(0.0f), glm::vec3(0.0f), glm::vec3(0.0f)};
-  emitter.corner_ws = glm::vec3(instance.world_from_object * glm::vec4(p0, 1.0f));
-  emitter.edge1_ws = linear * (mesh.positions[v.y] - p0);
-  emitter.edge2_ws = linear * (mesh.positions[v.z] - p0);
-  emitter.area = 0.5f * glm::length(glm::cross(emitter.edge1_ws, emitter.edge2_ws));
+  WholeTriangle whole{};
+  whole.instance = index;
+  whole.triangle = triangle;
+  whole.corner_ws = glm::vec3(instance.world_from_object * glm::vec4(p0, 1.0f));
+  whole.edge1_ws = linear * (mesh.positions[v.y] - p0);
+  whole.edge2_ws = linear * (mesh.positions[v.z] - p0);
+  whole.area = triangle_area(whole.edge1_ws, whole.edge2_ws);
+  return whole;
+}
+
+// Places a piece in the world; its probability is left to the caller. Sizes are powers of two, so
+// that nothing is rounded but the corner.
+EmitterRecord record_of(const WholeTriangle& whole, const EmitterPiece& piece) {
+  EmitterRecord emitter{};
+  emitter.instance = whole.instance;
+  emitter.triangle = whole.triangle;
+  emitter.area = whole.area * (piece.size * piece.size);
+  emitter.corner_ws =
+      whole.corner_ws + piece.corner.x * whole.edge1_ws + piece.corner.y * whole.edge2_ws;
+  emitter.edge1_ws = piece.size * whole.edge1_ws;
+  emitter.edge2_ws = piece.size * whole.edge2_ws;
+  emitter.piece_corner = piece.corner;
+  emitter.piece_size = piece.size;
   return emitter;
 }
 
-// The brightest vertex colour of a triangle: an unlit surface emits in proportion to it.
+// Returns the brightest vertex colour of a triangle: an unlit surface emits in proportion to it.
 float vertex_color_bound(const Mesh& mesh, const Material& material, const glm::uvec3& v) {
   if (!material.unlit || mesh.colors.empty()) return 1.0f;
   return std::max({luminance(glm::vec3(mesh.colors[v.x])), luminance(glm::vec3(mesh.colors[v.y])),
                    luminance(glm::vec3(mesh.colors[v.z]))});
+}
+
+// Finds all triangles that may emit, in the order of instances and their triangles.
+std::vector<WholeTriangle> find_emissive(const Scene& scene, const std::vector<EmissionMap>& maps) {
+  std::vector<WholeTriangle> found;
+  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    const Material& material = scene.materials[mesh.material];
+    if (!may_emit(material)) continue;
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+      WholeTriangle whole = in_the_world(instance, mesh, i, t);
+      whole.color_bound = vertex_color_bound(mesh, material, mesh.triangles[t]);
+      whole.mean_luminance = maps[mesh.material].mean_luminance(mesh, t);
+      // Written so that a NaN, too, is left out
+      if (!(whole.area >= kLeastArea) || !(whole.power() > 0.0)) continue;
+      found.push_back(whole);
+    }
+  }
+  return found;
+}
+
+// Returns how often a triangle is halved, by its share of the power of all.
+int halvings_of(double share) {
+  int halvings = 0;
+  for (double pieces = 4.0; pieces <= share * kMostPieces && halvings < kMostHalvings;
+       pieces *= 4.0) {
+    ++halvings;
+  }
+  return halvings;
 }
 
 }  // namespace
@@ -68,45 +136,57 @@ PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws)
 }
 
 EmissiveTriangles::EmissiveTriangles(const Scene& scene) : scene_(&scene) {
-  // Compute each triangle's power: its area times the mean radiance of what its texture shows there
   std::vector<EmissionMap> maps;
   maps.reserve(scene.materials.size());
   for (const Material& material : scene.materials) maps.emplace_back(scene, material);
+  const std::vector<WholeTriangle> triangles = find_emissive(scene, maps);
+  double undivided = 0.0;
+  for (const WholeTriangle& whole : triangles) undivided += whole.power();
 
+  // Divide triangles; compute each piece's power: its area times the mean radiance of what its
+  // texture shows there
+  std::vector<EmitterPiece> pieces;
   std::vector<double> powers;
   double total = 0.0;
-  for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const Mesh& mesh = scene.meshes[instance.mesh];
-    const Material& material = scene.materials[mesh.material];
-    if (!may_emit(material)) continue;
-    Bounds bounds;
-    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-      const EmitterRecord emitter = in_the_world(instance, mesh, i, t);
-      const float radiance = maps[mesh.material].mean_luminance(mesh, t) *
-                             vertex_color_bound(mesh, material, mesh.triangles[t]);
-      // Written so that a NaN, too, is left out
-      if (!(emitter.area > 0.0f) || !(radiance > 0.0f)) continue;
-      entries_.push_back(emitter);
-      powers.push_back(static_cast<double>(emitter.area) * radiance);
-      total += powers.back();
-      bounds.add(emitter.corner_ws);
-      bounds.add(emitter.corner_ws + emitter.edge1_ws);
-      bounds.add(emitter.corner_ws + emitter.edge2_ws);
+  std::uint32_t instance = ~0u;
+  links_.reserve(triangles.size());
+  for (const WholeTriangle& whole : triangles) {
+    const Mesh& mesh = scene.meshes[scene.instances[whole.instance].mesh];
+    const EmissionMap& map = maps[mesh.material];
+    const std::size_t first = pieces.size();
+    auto link = static_cast<std::uint32_t>(first);
+    const std::optional<UvTriangle> uvs = map.uvs_of(mesh, whole.triangle);
+    const int halvings =
+        uvs ? std::min(halvings_of(whole.power() / undivided), map.useful_halvings(*uvs)) : 0;
+    if (halvings > 0) {
+      link = pieces_.divide(map, *uvs, halvings, pieces);
+    } else {
+      pieces.push_back({glm::vec2(0.0f), 1.0f, whole.mean_luminance});
     }
-    if (!bounds.empty()) bounds_.push_back(bounds);
+    links_.emplace(triangle_key(whole.instance, whole.triangle), link);
+    for (std::size_t p = first; p < pieces.size(); ++p) {
+      const EmitterRecord& emitter = entries_.emplace_back(record_of(whole, pieces[p]));
+      powers.push_back(static_cast<double>(emitter.area) *
+                       (pieces[p].mean_luminance * whole.color_bound));
+      total += powers.back();
+      if (whole.instance != instance) bounds_.emplace_back();
+      instance = whole.instance;
+      bounds_.back().add(emitter.corner_ws);
+      bounds_.back().add(emitter.corner_ws + emitter.edge1_ws);
+      bounds_.back().add(emitter.corner_ws + emitter.edge2_ws);
+    }
   }
   total_power_ = static_cast<float>(kTwoPi * total);
+  set_probabilities(powers, total);
+}
 
-  // Compute the cumulative distribution
+void EmissiveTriangles::set_probabilities(const std::vector<double>& powers, double total) {
   double sum = 0.0;
   cumulative_.reserve(entries_.size());
-  index_of_.reserve(entries_.size());
-  for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+  for (std::size_t e = 0; e < entries_.size(); ++e) {
     sum += powers[e];
     entries_[e].probability = static_cast<float>(powers[e] / total);
     cumulative_.push_back(static_cast<float>(sum / total));
-    index_of_.emplace(triangle_key(entries_[e].instance, entries_[e].triangle), e);
   }
 }
 
@@ -138,10 +218,13 @@ glm::vec3 EmissiveTriangles::radiance(const EmitterRecord& emitter, const glm::v
   return emitted_radiance(*scene_, emitter, barycentrics, direction_ws);
 }
 
-float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle) const {
-  const auto found = index_of_.find(triangle_key(instance, triangle));
-  if (found == index_of_.end()) return 0.0f;
-  const EmitterRecord& entry = entries_[found->second];
+float EmissiveTriangles::pdf_area(std::uint32_t instance, std::uint32_t triangle,
+                                  const glm::vec2& barycentrics) const {
+  const auto found = links_.find(triangle_key(instance, triangle));
+  if (found == links_.end()) return 0.0f;
+  const std::uint32_t piece = pieces_.find(found->second, barycentrics);
+  if (piece == EmitterPieces::kDark) return 0.0f;
+  const EmitterRecord& entry = entries_[piece];
   return entry.probability / entry.area;
 }
 

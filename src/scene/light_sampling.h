@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lambent/scene.h"
+#include "scene/emission/emitter_pieces.h"
 #include "scene/emissive_sample.h"
 #include "scene/punctual_light.h"
 
@@ -22,7 +23,7 @@ struct EmissiveSample {
   float pdf_area = 0.0f;  ///< Over the area of all emissive triangles [1/m^2]; 0: there are none.
 };
 
-/// An emissive triangle that was picked, and what is left of the uniform number that picked it.
+/// An entry that was picked, and what is left of the uniform number that picked it.
 struct EmitterPick {
   std::uint32_t emitter;
   float probability;  ///< Of picking it.
@@ -35,7 +36,8 @@ LightRecord light_record(const Light& light);
 /// What `light` sends to `position_ws`; irradiance 0 outside its cone or range.
 PunctualSample sample_punctual(const Light& light, const glm::vec3& position_ws);
 
-/// All emissive triangles of a scene, drawn with probability proportional to their power.
+/// All emissive triangles of a scene, drawn with probability proportional to their power. Those
+/// whose texture emits unevenly are drawn in pieces, and what is dark of them is not drawn.
 class EmissiveTriangles {
  public:
   explicit EmissiveTriangles(const Scene& scene);
@@ -43,22 +45,22 @@ class EmissiveTriangles {
   bool empty() const { return entries_.empty(); }
   std::size_t size() const { return entries_.size(); }
 
-  /// A point for three uniform numbers: the first picks the triangle, the others the point on it.
+  /// A point for three uniform numbers: the first picks the entry, the others the point on it.
   EmissiveSample sample(const glm::vec3& u) const;
 
-  /// Picks a triangle by power. There must be one.
+  /// Picks an entry by power. There must be one.
   EmitterPick pick(float u) const;
 
-  /// What a point of an emissive triangle sends, as far as its coverage stops rays
+  /// What a point of an entry, with barycentrics in that, sends, as far as its coverage stops rays
   /// and its clearcoat lets light pass along a unit direction [W/(m^2 sr)].
   glm::vec3 radiance(const EmitterRecord& emitter, const glm::vec2& barycentrics,
                      const glm::vec3& direction_ws) const;
 
-  /// The density [1/m^2] with which `sample` draws points of this triangle; 0 where it does not
-  /// emit.
-  float pdf_area(std::uint32_t instance, std::uint32_t triangle) const;
+  /// The density [1/m^2] with which `sample` draws a point of a triangle; 0 where it does not emit.
+  float pdf_area(std::uint32_t instance, std::uint32_t triangle,
+                 const glm::vec2& barycentrics) const;
 
-  /// The triangles, by instance and triangle.
+  /// Emissive triangles, or pieces of them where they are divided, by instance and triangle.
   const std::vector<EmitterRecord>& entries() const { return entries_; }
   /// World-space boxes of the emissive triangles, one an instance [m].
   const std::vector<Bounds>& bounds() const { return bounds_; }
@@ -67,11 +69,14 @@ class EmissiveTriangles {
   float total_power() const { return total_power_; }
 
  private:
+  void set_probabilities(const std::vector<double>& powers, double total);
+
   const Scene* scene_;
+  EmitterPieces pieces_;
   std::vector<EmitterRecord> entries_;
   std::vector<Bounds> bounds_;
   std::vector<float> cumulative_;
-  std::unordered_map<std::uint64_t, std::uint32_t> index_of_;
+  std::unordered_map<std::uint64_t, std::uint32_t> links_;  // by which pieces_ finds entries
   float total_power_ = 0.0f;
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lambent/renderer.h"
@@ -11,6 +12,7 @@
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
 #include "support/field_scenes.h"
+#include "support/floor_under_a_pane.h"
 
 namespace lambent {
 namespace {
@@ -175,6 +177,25 @@ TEST(GlassPane, ShowsWhatIsBehindIt) {
     EXPECT_GT(reference, 1e-3);
     EXPECT_NEAR(mean_of(found, "transmission", channel) / reference, 1.0, kPaneTolerance)
         << channel;
+  }
+}
+
+// The lamp's light comes by the floor's own rays and by its samples of emitters. Both weigh it by
+// how many samples the floor takes, and not by how many the surfaces take that its rays meet.
+TEST(GlassPane, CoatsHaveAllOfALampBehindItWhateverTheNumbersOfSamples) {
+  const test::Stage stage(test::floor_under_a_pane());
+  const double expected = mean_of(render_reference_of(stage, 1024), "");
+  ASSERT_GT(expected, 0.05);
+  const IrradianceField field = test::make_field(stage, test::exact_formats(), 4);
+  FrameSettings frame;
+  frame.width = frame.height = 48;
+  frame.samples = 64;
+  for (const auto& [own, reflected] : {std::pair{1, 16}, std::pair{16, 1}, std::pair{4, 4}}) {
+    frame.emissive_samples = own;
+    frame.reflected_emissive_samples = reflected;
+    const LayeredImage image =
+        Renderer(stage.world, {.field = &field}).render(stage.scene.cameras[0], frame)->image;
+    EXPECT_NEAR(mean_of(image, "") / expected, 1.0, kPaneTolerance) << own << ", " << reflected;
   }
 }
 

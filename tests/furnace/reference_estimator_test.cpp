@@ -12,6 +12,7 @@
 #include "shared/constants.h"
 #include "shared/sampling.h"
 #include "support/hand_made.h"
+#include "support/panels.h"
 
 namespace lambent {
 namespace {
@@ -91,8 +92,7 @@ MeanAndError mean_of(const ReferenceResult& result, const std::string& name) {
   return {sum / count, std::sqrt(3.0 * variance) / count};
 }
 
-TEST(ReferenceEstimator, EveryStrategyHasTheSameMeanInEveryLayer) {
-  const Scene scene = lamp_and_spheres();
+void expect_same_means_by_every_strategy(const Scene& scene) {
   const World world(scene);
   ReferenceSettings settings = small(256, 3);
   const ReferenceResult combined = render_reference(world, kInto, settings);
@@ -107,6 +107,18 @@ TEST(ReferenceEstimator, EveryStrategyHasTheSameMeanInEveryLayer) {
       EXPECT_LT(std::hypot(a.error, b.error), 0.05 * a.mean) << "layer " << layer;
     }
   }
+}
+
+TEST(ReferenceEstimator, EveryStrategyHasTheSameMeanInEveryLayer) {
+  expect_same_means_by_every_strategy(lamp_and_spheres());
+}
+
+TEST(ReferenceEstimator, EveryStrategyHasTheSameMeanUnderALampThatIsDrawnInPieces) {
+  Scene scene = lamp_and_spheres();
+  scene.textures = {test::panel_texture(64)};
+  scene.materials[1].emission_texture.texture = 0;
+  scene.materials[1].emission *= 4.0f;
+  expect_same_means_by_every_strategy(scene);
 }
 
 TEST(ReferenceEstimator, CombinedStrategyIsLeastNoisy) {

@@ -138,8 +138,8 @@ vec3 unoccluded_bounce(const Stage& stage, const vec3& position, const vec3& nor
          hit = tracer_of(stage.world).closest_hit(ray)) {
       const Surface s = surface_at(stage.scene, ray, hit);
       RandomStream random = make_random_stream(0, 0, 0);
-      for_each_light(stage.world, {{s.position_ws, s.normal_ws, s.geometric_normal_ws}}, 1, random,
-                     [&](const LightCandidate& light) {
+      for_each_light({stage.world, 1}, {{s.position_ws, s.normal_ws, s.geometric_normal_ws}},
+                     random, [&](const LightCandidate& light) {
                        const float cosine = dot(s.normal_ws, light.to_light);
                        if (cosine <= 0.0f || dot(s.geometric_normal_ws, light.to_light) <= 0.0f) {
                          return;

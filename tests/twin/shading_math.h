@@ -166,7 +166,8 @@ LAMBENT_FN void evaluate_lights(LAMBENT_INOUT(RandomStream) random, LAMBENT_INOU
                           0.0f,
                           both_sides,
                           0u};
-    n.importance[both_sides] = min(light_importance(node, point, normal), 10.0f);
+    PickLobe lobe = {random_direction(random), 0.01f, 0.5f, 0.05f};
+    n.importance[both_sides] = min(light_importance(node, point, normal, lobe), 10.0f);
     n.unoccluded[both_sides] = min(light_of_cluster(node, point, normal), 10.0f);
     n.opened[both_sides] = opened_share(node, point);
   }

@@ -13,6 +13,7 @@
 #include "scene/light_tree/light_tree.h"
 #include "scenes/builtin.h"
 #include "support/many_lights.h"
+#include "support/panels.h"
 #include "support/vulkan_device.h"
 #include "twin/material_scene.h"
 #include "twin/shading_agreement.h"
@@ -185,6 +186,14 @@ TEST_F(ShadingTwin, DrawsFromManyLightsAsTheHostDoes) {
   scene.lights.resize(5);
   expect_same("few point lights are left, which are asked");
   EXPECT_EQ(lights_of(world).asked().size(), 5u);
+}
+
+TEST_F(ShadingTwin, DrawsFromPiecesOfTrianglesAsTheHostDoes) {
+  const TwinWorld twin(device(), test::panel_room());
+  ASSERT_GT(emissive_of(twin.world).size(), 100u);
+  ShadeHitsSettings settings;
+  settings.emissive_samples = 2;
+  expect_same_shading(device(), twin.world, twin.on_device, settings, kFilterTolerance);
 }
 
 TEST_F(ShadingTwin, FollowsEdits) {

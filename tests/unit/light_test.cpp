@@ -79,9 +79,9 @@ TEST(EmissiveTriangles, AreDrawnByPower) {
   const EmissiveTriangles lights(scene);
   ASSERT_EQ(lights.size(), 4u);
   EXPECT_NEAR(lights.total_power(), kTwoPi * 7.0f, 1e-3f);
-  EXPECT_NEAR(lights.pdf_area(0, 1), 1.0f / 7.0f, 1e-6f);
-  EXPECT_NEAR(lights.pdf_area(1, 0), 3.0f / 7.0f, 1e-6f);
-  EXPECT_EQ(lights.pdf_area(2, 0), 0.0f);
+  EXPECT_NEAR(lights.pdf_area(0, 1, glm::vec2(0.3f)), 1.0f / 7.0f, 1e-6f);
+  EXPECT_NEAR(lights.pdf_area(1, 0, glm::vec2(0.3f)), 3.0f / 7.0f, 1e-6f);
+  EXPECT_EQ(lights.pdf_area(2, 0, glm::vec2(0.3f)), 0.0f);
 
   RandomStream random = make_random_stream(1u, 0u, 0u);
   int bright = 0;
@@ -124,8 +124,9 @@ TEST(EmissiveTriangles, AreFoundWhereASingleTexelEmits) {
   scene.materials[0].emission_texture.texture = 0;
   add(scene, quad({0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, 0));
   const EmissiveTriangles lights(scene);
-  // Both triangles' boxes are the whole texture
-  EXPECT_EQ(lights.size(), 2u);
+  // Only the pieces around the texel are left
+  EXPECT_GT(lights.size(), 0u);
+  EXPECT_LT(lights.size(), 9u);
 
   // The estimate of the emitted power is right though one texel in 4,096 emits
   RandomStream random = make_random_stream(3u, 0u, 0u);
@@ -134,7 +135,7 @@ TEST(EmissiveTriangles, AreFoundWhereASingleTexelEmits) {
     const EmissiveSample sample = lights.sample(next_uniform3(random));
     sum += sample.radiance.x / sample.pdf_area;
   }
-  EXPECT_NEAR(sum / (10 * kSamples) * kSize * kSize / 2.0, 1.0, 0.15);
+  EXPECT_NEAR(sum / (10 * kSamples) * kSize * kSize / 2.0, 1.0, 0.01);
 }
 
 TEST(EmissiveTriangles, LeaveOutWhatTheTextureKeepsDark) {
@@ -153,8 +154,8 @@ TEST(EmissiveTriangles, LeaveOutWhatTheTextureKeepsDark) {
   }
   const EmissiveTriangles lights(scene);
   EXPECT_EQ(lights.size(), 2u);
-  EXPECT_EQ(lights.pdf_area(0, 0), 0.0f);
-  EXPECT_NEAR(lights.pdf_area(1, 0), 1.0f, 1e-5f);
+  EXPECT_EQ(lights.pdf_area(0, 0, glm::vec2(0.3f)), 0.0f);
+  EXPECT_NEAR(lights.pdf_area(1, 0, glm::vec2(0.3f)), 1.0f, 1e-5f);
   EXPECT_NEAR(lights.total_power(), kTwoPi * 2.0f, 0.01f);
 }
 

@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numeric>
 #include <vector>
 
 #include "raytracing/shade_hits.h"
+#include "scene/light_tree/pick_lobe.h"
 #include "shared/constants.h"
 #include "support/chi_squared.h"
 #include "support/many_lights.h"
@@ -40,8 +42,17 @@ LitPoint random_point(RandomStream& random) {
   return {place, normal, normal};
 }
 
+/// The lobe of a shiny coat over a darker base, seen from somewhere above the surface.
+PickLobe shiny_lobe(const glm::vec3& normal_ws, RandomStream& random) {
+  const Reflectance surface{glm::vec3(0.2f), 0.05f, glm::vec3(0.04f), 1.0f, no_layers()};
+  const Frame frame = make_frame(normal_ws);
+  const glm::vec3 drawn = sample_cosine_hemisphere(next_uniform2(random));
+  return pick_lobe(surface, frame, drawn);
+}
+
 /// Whether the lights of the tree have probabilities that sum up to 1, less than that of no pick.
-void expect_picks_by_probability(const Lights& lights, const LitPoint& point) {
+void expect_picks_by_probability(const Lights& lights, const LitPoint& point,
+                                 const PickLobe& lobe) {
   constexpr int kSamples = 60000;
   std::vector<double> observed(lights.count()), expected(lights.count());
   double sum = 0.0;
@@ -51,7 +62,7 @@ void expect_picks_by_probability(const Lights& lights, const LitPoint& point) {
   for (const std::uint32_t a : lights.tree.asked()) asked[lights.emissive.size() + a] = 1;
   for (std::uint32_t i = 0; i < lights.count(); ++i) {
     if (asked[i] != 0) continue;
-    const double probability = lights.tree.probability(i, point.position_ws, point.normal_ws);
+    const double probability = lights.tree.probability(i, point.position_ws, point.normal_ws, lobe);
     expected[i] = kSamples * probability;
     sum += probability;
   }
@@ -61,7 +72,7 @@ void expect_picks_by_probability(const Lights& lights, const LitPoint& point) {
   for (int i = 0; i < kSamples; ++i) {
     RandomStream random = make_random_stream(static_cast<std::uint32_t>(i), 1u, 2u);
     const LightPick pick =
-        lights.tree.pick(point.position_ws, point.normal_ws, next_uniform(random));
+        lights.tree.pick(point.position_ws, point.normal_ws, lobe, next_uniform(random));
     if (pick.probability <= 0.0f) {
       ++none;
       continue;
@@ -84,7 +95,13 @@ TEST(LightTree, PicksLightsByTheirProbability) {
   const Lights lights(scene);
   ASSERT_EQ(lights.tree.nodes().size(), 2 * (80 + 80) - 1u);
   RandomStream random = make_random_stream(3u, 4u, 5u);
-  for (int i = 0; i < 12; ++i) expect_picks_by_probability(lights, random_point(random));
+  for (int i = 0; i < 12; ++i) {
+    const LitPoint point = random_point(random);
+    expect_picks_by_probability(lights, point, no_pick_lobe());
+    expect_picks_by_probability(lights, point,
+                                lights.tree.bounded(point.position_ws, point.normal_ws,
+                                                    shiny_lobe(point.normal_ws, random)));
+  }
 }
 
 TEST(LightTree, PicksTogetherAreThoseByThemselves) {
@@ -98,9 +115,10 @@ TEST(LightTree, PicksTogetherAreThoseByThemselves) {
     for (std::uint32_t k = 0; k < count; ++k) u.push_back(next_uniform(random));
     std::sort(u.begin(), u.end());
     for (std::uint32_t k = 0; k < count; ++k) together.at[k].rest = u[k];
-    lights.tree.pick(point.position_ws, point.normal_ws, count, together);
+    const PickLobe lobe = i % 2 == 0 ? no_pick_lobe() : shiny_lobe(point.normal_ws, random);
+    lights.tree.pick(point.position_ws, point.normal_ws, lobe, count, together);
     for (std::uint32_t k = 0; k < count; ++k) {
-      const LightPick alone = lights.tree.pick(point.position_ws, point.normal_ws, u[k]);
+      const LightPick alone = lights.tree.pick(point.position_ws, point.normal_ws, lobe, u[k]);
       EXPECT_EQ(together.at[k].light, alone.light);
       EXPECT_EQ(together.at[k].probability, alone.probability);
       EXPECT_EQ(together.at[k].rest, alone.rest);
@@ -117,14 +135,63 @@ TEST(LightTree, LooksAtGroupsAsAtSingleNodes) {
     if (i % 5 == 0) point.normal_ws = glm::vec3(0.0f);  // in the air
     const std::size_t group =
         static_cast<std::size_t>(i) % (groups.nodes().size() / kLightGroupSize);
+    const PickLobe lobe =
+        i % 2 == 0 || i % 5 == 0 ? no_pick_lobe() : shiny_lobe(point.normal_ws, random);
     float importances[kLightGroupSize];
     group_importances(groups.numbers(static_cast<std::uint32_t>(group)), point.position_ws,
-                      point.normal_ws, importances);
+                      point.normal_ws, lobe, importances);
     for (std::size_t k = 0; k < kLightGroupSize; ++k) {
       const LightTreeNode& node = groups.nodes()[group * kLightGroupSize + k];
-      EXPECT_EQ(importances[k], light_importance(node, point.position_ws, point.normal_ws));
+      EXPECT_EQ(importances[k], light_importance(node, point.position_ws, point.normal_ws, lobe));
     }
   }
+}
+
+/// Relative variance of a pixel's light by one pick, where all lights of a row of lamps are seen in
+/// a wet floor.
+double variance_of_highlights(const LightTree& tree, std::size_t first_light, bool by_lobe) {
+  const Reflectance floor{glm::vec3(0.05f), 0.06f, glm::vec3(0.04f), 1.0f, no_layers()};
+  const glm::vec3 up(0.0f, 1.0f, 0.0f);
+  const Frame frame = make_frame(up);
+  double variance = 0.0;
+  constexpr int kPoints = 40;
+  for (int i = 0; i < kPoints; ++i) {
+    const glm::vec3 position_ws(-2.0f + 0.1f * static_cast<float>(i), 0.0f, 8.0f);
+    const glm::vec3 to_viewer_ws = glm::normalize(glm::vec3(0.0f, 1.7f, 18.0f) - position_ws);
+    const glm::vec3 to_viewer = to_local(frame, to_viewer_ws);
+    PickLobe lobe = no_pick_lobe();
+    if (by_lobe) lobe = tree.bounded(position_ws, up, pick_lobe(floor, frame, to_viewer));
+    double sum = 0.0, squares = 0.0;
+    for (std::size_t k = 0; k < tree.lights().size(); ++k) {
+      const PunctualSample sent = sample_punctual(tree.lights()[k], position_ws);
+      const ReflectedPair pair =
+          evaluate_reflectance(floor, to_viewer, to_local(frame, sent.to_light));
+      const double light = luminance((pair.diffuse + pair.specular) * sent.irradiance);
+      sum += light;
+      squares +=
+          light * light /
+          tree.probability(static_cast<std::uint32_t>(first_light + k), position_ws, up, lobe);
+    }
+    variance += (squares / (sum * sum) - 1.0) / kPoints;
+  }
+  return variance;
+}
+
+TEST(LightTree, PicksWhatShinesInAWetFloor) {
+  Scene scene;
+  for (int i = 0; i < 40; ++i) {
+    Light lamp;
+    lamp.type = Light::Type::point;
+    lamp.intensity = glm::vec3(100.0f);
+    lamp.position_ws = {i % 2 == 0 ? -4.0f : 4.0f, 4.0f, -6.0f * static_cast<float>(i / 2)};
+    scene.lights.push_back(lamp);
+  }
+  const Lights lights(scene);
+  ASSERT_TRUE(lights.tree.asked().empty());
+  const double evenly = variance_of_highlights(lights.tree, lights.emissive.size(), false);
+  const double by_lobe = variance_of_highlights(lights.tree, lights.emissive.size(), true);
+  std::printf("relative variance: %.2f evenly, %.2f by the lobe\n", evenly, by_lobe);
+  EXPECT_LT(by_lobe, 0.1 * evenly);
 }
 
 /// Irradiance of a triangle or light at a point, if nothing is in the way.
@@ -154,7 +221,8 @@ void expect_finds_all_that_shine(const Lights& lights, std::uint32_t seed) {
     for (std::uint32_t light = 0; light < lights.count(); ++light) {
       if (asked[light] != 0 || unoccluded(lights, light, point) <= 1e-6f) continue;
       ++shining;
-      ASSERT_GT(lights.tree.probability(light, point.position_ws, point.normal_ws), 0.0f)
+      ASSERT_GT(lights.tree.probability(light, point.position_ws, point.normal_ws, no_pick_lobe()),
+                0.0f)
           << "light " << light << ", point " << i;
     }
   }
@@ -174,7 +242,8 @@ TEST(LightTree, AsksAFewLightsAndDrawsFromMany) {
   Lights lights(scene);
   EXPECT_EQ(lights.tree.asked().size(), kMaxLightsAsked + 1);
   EXPECT_TRUE(lights.tree.nodes().empty());
-  EXPECT_EQ(lights.tree.pick(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, 0.5f).probability, 0.0f);
+  EXPECT_EQ(lights.tree.pick(glm::vec3(0.0f), {0.0f, 1.0f, 0.0f}, no_pick_lobe(), 0.5f).probability,
+            0.0f);
   scene.lights.push_back(test::point_light(glm::vec3(1.0f), glm::vec3(0.0f)));
   lights.update(scene);
   EXPECT_EQ(lights.tree.asked(), std::vector<std::uint32_t>{0});
@@ -192,7 +261,9 @@ TEST(LightTree, IsFittedToLightsThatMoveAndBuiltAgainOnceWornOut) {
   EXPECT_EQ(lights.tree.builds(), 1);
   expect_finds_all_that_shine(lights, 2u);
   RandomStream random = make_random_stream(3u, 4u, 5u);
-  for (int i = 0; i < 4; ++i) expect_picks_by_probability(lights, random_point(random));
+  for (int i = 0; i < 4; ++i) {
+    expect_picks_by_probability(lights, random_point(random), no_pick_lobe());
+  }
   // All are shuffled
   for (Light& light : scene.lights) light.position_ws = 30.0f * test::place_in_room(random);
   lights.update(scene);

@@ -42,6 +42,7 @@ void main() {
       layers.irradiance += args.share * irradiance;
     }
     vec4 coats = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
+    if ((args.has & kCoatsAreFiltered) != 0u) coats = vec4(vec3(0.0f), coats.w);
     glossy += coat_light(surface.reflectance, n_dot_v, surface.gi_share, coats,
                          args.mirror_irradiance.at[i]);
     if ((args.has & kHasClearcoats) == 0u) {

@@ -16,6 +16,7 @@ void main() {
   vec3 diffuse = vec3(0.0f);
   vec3 specular = vec3(0.0f);
   vec3 drawn = vec3(0.0f);
+  vec3 drawn_specular = vec3(0.0f);
   float squares = 0.0f;
   for (uint slot = 0u; slot < args.slots; ++slot) {
     uint at = slot * args.count + i;
@@ -26,14 +27,15 @@ void main() {
       pair.diffuse *= share;
       pair.specular *= share;
     }
-    specular += pair.specular;
     if (slot < args.exact_slots) {
       diffuse += pair.diffuse;
+      specular += pair.specular;
       continue;
     }
     vec3 albedo = filtered_albedo(args.surfaces.at[args.first + i].reflectance);
     float level = luminance(pair.diffuse / albedo);
     drawn += pair.diffuse;
+    drawn_specular += pair.specular;
     squares += level * level;
   }
   args.diffuse.at[args.first + i] = diffuse;
@@ -41,5 +43,6 @@ void main() {
   if (args.exact_slots < args.slots) {
     args.drawn.at[args.first + i] = drawn;
     args.drawn_squares.at[args.first + i] = squares;
+    args.drawn_specular.at[args.first + i] = drawn_specular;
   }
 }

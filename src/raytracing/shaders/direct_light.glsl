@@ -22,10 +22,10 @@ uint fetch_group_link(SceneArray scene, uint group, uint child) {
   return scene.at[0].light_groups.at[group * kLightGroupSize + child].link;
 }
 void group_importances(SceneArray scene, uint group, vec3 position_ws, vec3 normal_ws,
-                       out float importances[kLightGroupSize]) {
+                       PickLobe lobe, out float importances[kLightGroupSize]) {
   for (uint k = 0u; k < kLightGroupSize; ++k) {
     importances[k] = light_importance(scene.at[0].light_groups.at[group * kLightGroupSize + k],
-                                      position_ws, normal_ws);
+                                      position_ws, normal_ws, lobe);
   }
 }
 
@@ -43,9 +43,12 @@ uint fetch_asked(LightDrawsArguments draws, uint slot) {
 LightRecord fetch_light(LightDrawsArguments draws, uint light) {
   return draws.scene.at[0].lights.at[light];
 }
-void pick_lights(LightDrawsArguments draws, vec3 position_ws, vec3 normal_ws, uint count,
-                 inout LightPicks picks) {
-  pick_lights(draws.scene, position_ws, normal_ws, count, picks);
+PickLobe bounded_lobe(LightDrawsArguments draws, vec3 position_ws, vec3 normal_ws, PickLobe lobe) {
+  return bounded_lobe(draws.scene, position_ws, normal_ws, lobe);
+}
+void pick_lights(LightDrawsArguments draws, vec3 position_ws, vec3 normal_ws, PickLobe lobe,
+                 uint count, inout LightPicks picks) {
+  pick_lights(draws.scene, position_ws, normal_ws, lobe, count, picks);
 }
 uint emitter_count(LightDrawsArguments draws) {
   return draws.scene.at[0].emitter_count;
@@ -53,6 +56,9 @@ uint emitter_count(LightDrawsArguments draws) {
 uint tree_samples(LightDrawsArguments draws) {
   uint lights = emitters_alone(draws) ? emitter_count(draws) : light_tree_size(draws.scene);
   return lights > 0u ? draws.tree_samples : 0u;
+}
+uint tree_candidates(LightDrawsArguments draws) {
+  return draws.candidates;
 }
 EmitterRecord fetch_emitter(LightDrawsArguments draws, uint emitter) {
   return draws.scene.at[0].emitters.at[emitter];

@@ -15,6 +15,9 @@ struct IrradianceReceiver {
 float target_of(IrradianceReceiver receiver, LightCandidate light) {
   return luminance(unoccluded_irradiance(receiver.point, light));
 }
+PickLobe lobe_of(IrradianceReceiver receiver) {
+  return no_pick_lobe();
+}
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/coat_share.h"
 #include "raytracing/vulkan/shading_records.h"
+#include "scene/light_tree/pick_lobe.h"
 #include "shared/sampling.h"
 
 /// What light is drawn for.
@@ -28,6 +29,9 @@ ReflectedPair reflection(ReflectingReceiver to, LightCandidate light) {
 float target_of(ReflectingReceiver receiver, LightCandidate light) {
   ReflectedPair pair = reflection(receiver, light);
   return luminance(pair.diffuse + pair.specular);
+}
+PickLobe lobe_of(ReflectingReceiver receiver) {
+  return pick_lobe(receiver.reflectance, receiver.frame, receiver.to_viewer);
 }
 
 #define MediaRef LightDrawsArguments

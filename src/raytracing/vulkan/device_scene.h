@@ -73,7 +73,8 @@ class DeviceScene {
 
   /// Lights that each point asks.
   std::uint32_t asked_lights() const { return asked_lights_; }
-  /// Whether there are more, from which points draw.
+  /// Nodes of the tree of all others, from which points draw.
+  std::uint32_t light_tree_size() const { return tree_size_; }
   bool has_light_tree() const { return tree_size_ > 0; }
   bool has_emitters() const { return emitter_count_ > 0; }
   const vulkan::Device& device() const { return device_; }

@@ -81,6 +81,7 @@ LightDrawsArguments HitShading::draws(const DeviceStage& stage, LitPointArray po
   arguments.tree_samples = chunk.samples;
   arguments.salt = settings.salt;
   arguments.seed = settings.seed;
+  arguments.candidates = settings.candidates;
   arguments.media = stage.media.records;
   arguments.media_count = stage.media.count;
   arguments.emitters_alone = settings.emitters_alone ? 1 : 0;
@@ -213,6 +214,7 @@ void HitShading::reflected_light(vulkan::Recorder& recorder, const DeviceStage& 
       collect.exact_slots = chunk.slots - chunk.samples;
       collect.drawn = out.drawn;
       collect.drawn_squares = out.drawn_squares;
+      collect.drawn_specular = out.drawn_specular;
       collect.surfaces = pixels.surfaces;
     }
     recorder.run(kernels_.collect_reflected, collect, chunk.count);

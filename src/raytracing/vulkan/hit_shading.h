@@ -70,10 +70,11 @@ struct DevicePixels {
 struct DeviceReflectedLight {
   Vec3Array diffuse;
   Vec3Array specular;
-  /// The diffuse light that is drawn at random, and sums of squares of luminance of the draws,
-  /// without albedo. Addresses of 0: it is part of `diffuse`.
+  /// The diffuse light that is drawn at random, sums of squares of luminance of its draws without
+  /// albedo, and the specular light. Addresses of 0: it is part of `diffuse` and `specular`.
   Vec3Array drawn = {};
   FloatArray drawn_squares = {};
+  Vec3Array drawn_specular = {};
 };
 
 /// Kept by the device (Device::kept).

@@ -98,7 +98,7 @@ struct LightDrawsArguments {
   uint seed;
   uint media_count;
   uint emitters_alone;  ///< 1: directional, point and spot lights are left out.
-  uint padding;
+  uint candidates;      ///< See candidates_per_sample.
 };
 
 /// Sums what arrives, slot after slot.
@@ -115,6 +115,7 @@ struct CollectArguments {
   /// without albedo; written where there are such slots.
   Vec3Array drawn;
   FloatArray drawn_squares;
+  Vec3Array drawn_specular;    ///< Specular light of those slots.
   PixelSurfaceArray surfaces;  ///< Read there.
   uint first;
   uint count;

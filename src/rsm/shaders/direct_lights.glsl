@@ -20,6 +20,9 @@ struct AskingReceiver {
 float target_of(AskingReceiver receiver, LightCandidate light) {
   return luminance(unoccluded_irradiance(receiver.point, light));
 }
+PickLobe lobe_of(AskingReceiver receiver) {
+  return no_pick_lobe();
+}
 
 #define MediaRef DirectRaysArguments
 uint media_count(DirectRaysArguments of) {

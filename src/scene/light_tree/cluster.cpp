@@ -91,7 +91,7 @@ LightCluster cluster_of(const EmitterRecord& emitter, float intensity) {
   cluster.box.add(emitter.corner_ws);
   cluster.box.add(emitter.corner_ws + emitter.edge1_ws);
   cluster.box.add(emitter.corner_ws + emitter.edge2_ws);
-  cluster.cone.axis = glm::normalize(glm::cross(emitter.edge1_ws, emitter.edge2_ws));
+  cluster.cone.axis = triangle_normal(emitter.edge1_ws, emitter.edge2_ws);
   cluster.cone.cos_emission = 0.0f;
   cluster.cone.both_sides = true;
   // The normal of a thin triangle may be anything

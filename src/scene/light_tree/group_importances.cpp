@@ -28,9 +28,9 @@ void store_in_group(const LightTreeNode& node, std::size_t child, float* group) 
 }
 
 void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
-                       float* importances) {
+                       const PickLobe& lobe, float* importances) {
   static const auto kernel = LAMBENT_BEST_LEVEL(group_importances);
-  kernel(group, position_ws, normal_ws, importances);
+  kernel(group, position_ws, normal_ws, lobe, importances);
 }
 
 }  // namespace lambent

@@ -19,7 +19,7 @@ void store_in_group(const LightTreeNode& node, std::size_t child, float* group);
 /// light_importance of each node of a group for a point with this unit normal; the same bits on all
 /// instruction sets.
 void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
-                       float* importances);
+                       const PickLobe& lobe, float* importances);
 
 /// LightTreeNode::link of a node of a group.
 inline uint link_in_group(const float* group, uint child) {

@@ -28,9 +28,9 @@ LAMBENT_FORCE_INLINE vec3 abs(const vec3& v) {
 #undef LAMBENT_REAL_FN
 
 static void group_importances(const float* group, const vec3& position_ws, const vec3& normal_ws,
-                              float* importances) {
+                              const PickLobe& lobe, float* importances) {
   static_assert(sizeof(ClusterNumbers) == kGroupNumbers * sizeof(Lanes));
   ClusterNumbers numbers;
   __builtin_memcpy(&numbers, group, sizeof(numbers));
-  store(importances, importance_of(numbers, position_ws, normal_ws));
+  store(importances, importance_of(numbers, position_ws, normal_ws, lobe));
 }

@@ -15,8 +15,38 @@ struct ClusterNumbers {
   Real both_sides;  ///< 1 or 0.
 };
 
+/// PickLobe at a cluster whose middle is at (x, y, z) from the point: what the lobe is at most at
+/// the directions to it, times the share of these that the lobe fills. Half vectors turn by half of
+/// the angle by which directions turn in the plane of light and viewer, and across it by the
+/// inverse of their sum's length: towards grazing angles, far more.
+LAMBENT_REAL_FN Real lobe_at(PickLobe lobe, vec3 normal_ws, ClusterNumbers node, Real x, Real y,
+                             Real z, Real middle) {
+  Real one = x * 0.0f + 1.0f;
+  Real inverse = 1.0f / max(middle, kMinClusterDistance);
+  vec3 v = lobe.to_viewer_ws;
+  Real l_dot_v = (x * v.x + y * v.y + z * v.z) * inverse;
+  Real n_dot_l = (x * normal_ws.x + y * normal_ws.y + z * normal_ws.z) * inverse;
+  Real sum = n_dot_l + dot(normal_ws, v);
+  Real squared_length = max(2.0f * l_dot_v + 2.0f, kMinSquaredHalfVector);
+  Real sine = root(max(one - sum * sum / squared_length, 0.0f));
+
+  // What extends along the line of sight subtends nothing
+  Real across_x = node.half_x * node.half_x * (one - x * x * inverse * inverse);
+  Real across_y = node.half_y * node.half_y * (one - y * y * inverse * inverse);
+  Real across_z = node.half_z * node.half_z * (one - z * z * inverse * inverse);
+  Real subtended = max((across_x + across_y + across_z) * inverse * inverse, 0.0f);
+  Real turned = subtended / squared_length;
+
+  Real nearest_sine = max(sine - root(turned), 0.0f);
+  Real width = one * lobe.squared_alpha;
+  Real falloff = width + nearest_sine * nearest_sine * (one - width);
+  Real filled = root(width / (width + turned)) * root(width / (width + 0.25f * subtended));
+  return lobe.specular * width * filled / (falloff * falloff);
+}
+
 /// See light_importance.
-LAMBENT_REAL_FN Real importance_of(ClusterNumbers node, vec3 position_ws, vec3 normal_ws) {
+LAMBENT_REAL_FN Real importance_of(ClusterNumbers node, vec3 position_ws, vec3 normal_ws,
+                                   PickLobe lobe) {
   Real x = node.center_x - position_ws.x;
   Real y = node.center_y - position_ws.y;
   Real z = node.center_z - position_ws.z;
@@ -37,6 +67,10 @@ LAMBENT_REAL_FN Real importance_of(ClusterNumbers node, vec3 position_ws, vec3 n
   if (normal_ws == vec3(0.0f)) height = nearest + 1.0f;
   Real one = x * 0.0f + 1.0f;
   Real received = height < nearest ? height / nearest : one;
+  received *= lobe.diffuse;
+  if (lobe.specular > 0.0f) {
+    received += lobe_at(lobe, normal_ws, node, x, y, z, middle);
+  }
 
   // Compute the largest cosine at the lights: that of the axis, less the spread of where they face
   Real along = -(node.axis_x * x + node.axis_y * y + node.axis_z * z);

@@ -22,8 +22,6 @@ constexpr int kBins = 12;
 constexpr std::size_t kMostLightsWithCones = 256;
 // A fitted tree whose cost has grown by this factor is built again.
 constexpr double kWornOut = 2.0;
-// Of keys of lights without extent.
-constexpr std::uint64_t kPunctualKey = std::uint64_t{1} << 63;
 
 // What light_tree.inl.h asks for.
 using LightTreeRef = const LightTree&;
@@ -35,8 +33,9 @@ uint fetch_group_link(const LightTree& tree, uint group, uint child) {
   return link_in_group(tree.groups().numbers(group), child);
 }
 void group_importances(const LightTree& tree, uint group, const vec3& position_ws,
-                       const vec3& normal_ws, float* importances) {
-  lambent::group_importances(tree.groups().numbers(group), position_ws, normal_ws, importances);
+                       const vec3& normal_ws, const PickLobe& lobe, float* importances) {
+  lambent::group_importances(tree.groups().numbers(group), position_ws, normal_ws, lobe,
+                             importances);
 }
 
 #include "scene/light_tree/light_tree.inl.h"
@@ -129,12 +128,12 @@ LightTree::LightTree(const Scene& scene, const EmissiveTriangles& emissive) {
 
 void LightTree::update(const Scene& scene, const EmissiveTriangles& emissive) {
   list_lights(scene);
-  std::vector<std::uint64_t> keys;
+  std::vector<LightKey> keys;
   keys.reserve(emissive.size() + drawn_.size());
   for (const EmitterRecord& emitter : emissive.entries()) {
-    keys.push_back((std::uint64_t{emitter.instance} << 32) | emitter.triangle);
+    keys.push_back({emitter.instance, emitter.triangle, emitter.piece_corner, emitter.piece_size});
   }
-  for (const std::uint32_t light : drawn_) keys.push_back(kPunctualKey | light);
+  for (const std::uint32_t light : drawn_) keys.push_back({kPunctual, light});
   const bool same = keys == keys_;
   keys_ = std::move(keys);
   if (same && builds_ > 0) {
@@ -160,7 +159,7 @@ void LightTree::list_lights(const Scene& scene) {
   }
 }
 
-// Emissive triangles first, then the lights that are drawn.
+// Emissive triangles and their pieces come first, then the lights that are drawn.
 std::vector<LightCluster> LightTree::clusters_of_lights(const EmissiveTriangles& emissive) const {
   std::vector<LightCluster> clusters;
   clusters.reserve(emissive.size() + drawn_.size());
@@ -243,27 +242,33 @@ double LightTree::cost() const {
   return sum;
 }
 
-LightPick LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, float u) const {
+PickLobe LightTree::bounded(const glm::vec3& position_ws, const glm::vec3& normal_ws,
+                            const PickLobe& lobe) const {
+  return bounded_lobe(*this, position_ws, normal_ws, lobe);
+}
+
+LightPick LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws,
+                          const PickLobe& lobe, float u) const {
   LightPicks picks;
   picks.at[0].rest = u;
-  pick_lights(*this, position_ws, normal_ws, 1, picks);
+  pick_lights(*this, position_ws, normal_ws, lobe, 1, picks);
   return picks.at[0];
 }
 
-void LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, std::uint32_t count,
-                     LightPicks& picks) const {
-  pick_lights(*this, position_ws, normal_ws, count, picks);
+void LightTree::pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
+                     std::uint32_t count, LightPicks& picks) const {
+  pick_lights(*this, position_ws, normal_ws, lobe, count, picks);
 }
 
 float LightTree::probability(std::uint32_t light, const glm::vec3& position_ws,
-                             const glm::vec3& normal_ws) const {
+                             const glm::vec3& normal_ws, const PickLobe& lobe) const {
   float probability = 1.0f;
   for (std::uint32_t node = leaves_[light];; node = parents_[node]) {
     const std::uint32_t place = groups_.place_of(node);
     if (place != LightGroups::kNowhere) {
       float importances[kLightGroupSize], sum = 0.0f;
       lambent::group_importances(groups_.numbers(place / kLightGroupSize), position_ws, normal_ws,
-                                 importances);
+                                 lobe, importances);
       for (const float importance : importances) sum += importance;
       const float importance = importances[place % kLightGroupSize];
       if (!(importance > 0.0f)) return 0.0f;

@@ -20,7 +20,7 @@ struct LightCluster;
 inline constexpr std::size_t kMaxLightsAsked = 16;
 
 /// The lights of a scene. Directional lights are always asked: no place is nearer to them than
-/// another. Emissive triangles are always in the tree.
+/// another. Emissive triangles, and the pieces of those that are divided, are always in the tree.
 class LightTree {
  public:
   LightTree(const Scene& scene, const EmissiveTriangles& emissive);
@@ -34,28 +34,42 @@ class LightTree {
   /// Which of these are asked; the others are in the tree.
   const std::vector<std::uint32_t>& asked() const { return asked_; }
 
-  /// Node 0 is the root; empty: nothing is in the tree. A leaf's light is the index of an emissive
-  /// triangle or, from their number on, that of one of the lights above.
+  /// Node 0 is the root; empty: nothing is in the tree. A leaf's light is the index of one of
+  /// EmissiveTriangles::entries() or, from their number on, that of one of the lights above.
   const std::vector<LightTreeNode>& nodes() const { return nodes_; }
 
   /// The same in groups, from which lights are picked.
   const LightGroups& groups() const { return groups_; }
 
+  /// A lobe as the functions below take it, for a point: see bounded_lobe in light_tree.inl.h.
+  PickLobe bounded(const glm::vec3& position_ws, const glm::vec3& normal_ws,
+                   const PickLobe& lobe) const;
+
   /// Picks a light for a point; probability 0 where none can be seen.
-  LightPick pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, float u) const;
+  LightPick pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
+                 float u) const;
 
   /// The same for several increasing uniform numbers in LightPick::rest, at most kMostPicks.
-  void pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, std::uint32_t count,
-            LightPicks& picks) const;
+  void pick(const glm::vec3& position_ws, const glm::vec3& normal_ws, const PickLobe& lobe,
+            std::uint32_t count, LightPicks& picks) const;
 
   /// The probability with which `pick` finds a light of the tree.
-  float probability(std::uint32_t light, const glm::vec3& position_ws,
-                    const glm::vec3& normal_ws) const;
+  float probability(std::uint32_t light, const glm::vec3& position_ws, const glm::vec3& normal_ws,
+                    const PickLobe& lobe) const;
 
   /// How often the tree was built rather than fitted.
   int builds() const { return builds_; }
 
  private:
+  /// Which light it is, from one update to the next.
+  struct LightKey {
+    std::uint32_t instance, triangle;  // or kPunctual and the light
+    glm::vec2 piece_corner{0.0f};
+    float piece_size = 0.0f;
+    bool operator==(const LightKey&) const = default;
+  };
+  static constexpr std::uint32_t kPunctual = 0xffffffffu;
+
   void list_lights(const Scene& scene);
   std::vector<LightCluster> clusters_of_lights(const EmissiveTriangles& emissive) const;
   std::uint32_t light_of(std::size_t place, const EmissiveTriangles& emissive) const;
@@ -69,7 +83,7 @@ class LightTree {
   std::vector<LightTreeNode> nodes_;
   std::vector<std::uint32_t> parents_;  // by node
   std::vector<std::uint32_t> leaves_;   // by light of the tree
-  std::vector<std::uint64_t> keys_;     // what is in the tree
+  std::vector<LightKey> keys_;          // what is in the tree
   double cost_when_built_ = 0.0;
   int builds_ = 0;
   LightGroups groups_;

@@ -6,14 +6,37 @@
 //   uint light_tree_size(LightTreeRef tree)    0: there are no lights
 //   uint fetch_group_link(LightTreeRef tree, uint group, uint child)
 //   void group_importances(LightTreeRef tree, uint group, vec3 position_ws, vec3 normal_ws,
-//                          out float importances[kLightGroupSize])    group 0 is the root's
+//                          PickLobe lobe, out float importances[kLightGroupSize])
+//                                              group 0 is the root's
 // where importances are those of light_importance.
 
-/// Picks lights for a point with this unit normal by what they may send there. The first `count` of
-/// `picks` hold uniform numbers in `rest`, in increasing order: picks that come to the same group
-/// stay neighbours, and look at it once for all of them.
-LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws, uint count,
-                            LAMBENT_INOUT(LightPicks) picks) {
+/// Scales the specular part of a lobe down so that at the root it gets at most half of all picks.
+/// Highlights that are brighter by orders would leave no picks to the light around them.
+LAMBENT_FN PickLobe bounded_lobe(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
+                                 PickLobe lobe) {
+  if (lobe.specular <= 0.0f || light_tree_size(tree) == 0u) return lobe;
+  PickLobe evenly = lobe;
+  evenly.specular = 0.0f;
+  float even[kLightGroupSize];
+  float both[kLightGroupSize];
+  group_importances(tree, 0u, position_ws, normal_ws, evenly, even);
+  group_importances(tree, 0u, position_ws, normal_ws, lobe, both);
+  float even_sum = 0.0f;
+  float specular_sum = 0.0f;
+  for (uint k = 0u; k < kLightGroupSize; ++k) {
+    even_sum += even[k];
+    specular_sum += max(both[k] - even[k], 0.0f);
+  }
+  if (specular_sum > even_sum) lobe.specular *= even_sum / specular_sum;
+  return lobe;
+}
+
+/// Picks lights for a point with this unit normal by what they may send there and what the point
+/// makes of that, for which `lobe` stands: as bounded_lobe() gives it. The first `count` of `picks`
+/// hold uniform numbers in `rest`, in increasing order: picks that come to the same group stay
+/// neighbours, and look at it once for all of them.
+LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws, PickLobe lobe,
+                            uint count, LAMBENT_INOUT(LightPicks) picks) {
   float whole = light_tree_size(tree) > 0u ? 1.0f : 0.0f;
   for (uint i = 0u; i < count; ++i) {
     picks.at[i].light = whole > 0.0f ? 0u : kLightTreeLeaf;
@@ -28,7 +51,7 @@ LAMBENT_FN void pick_lights(LightTreeRef tree, vec3 position_ws, vec3 normal_ws,
       continue;
     }
     float importances[kLightGroupSize];
-    group_importances(tree, group, position_ws, normal_ws, importances);
+    group_importances(tree, group, position_ws, normal_ws, lobe, importances);
     // Each child has its share of a line, up to its end
     float ends[kLightGroupSize];
     float sum = 0.0f;

@@ -55,8 +55,35 @@ const float kMinSquaredClusterDistance = 1e-20f;
 /// with the distance to the middle and the whole diagonal it is up to 60 times that.
 const float kSizeShare = 0.125f;
 
-/// No importance is larger: sums of two are still floats.
+/// No importance is larger: sums of the eight of a group are still floats.
 const float kMaxImportance = 1e37f;
+
+/// Directions are divided by distances of at least this [m].
+const float kMinClusterDistance = 1e-10f;
+
+/// Squared length of the sum of two unit vectors below which they count as opposite.
+const float kMinSquaredHalfVector = 1e-6f;
+
+/// How a point sends on what it receives, as far as it matters for which lights are picked for it:
+/// evenly, and about a mirror direction. A GGX lobe with the normal's cosine and the masking of the
+/// viewer in its factor; what hides the light is left out.
+struct PickLobe {
+  vec3 to_viewer_ws;    ///< Unit.
+  float squared_alpha;  ///< Of the lobe's width.
+  /// Factor [1/sr] of the cosine of light, >= 0: radiance that the point sends on evenly over the
+  /// irradiance that it receives. It is 1 where nothing but the cosine counts.
+  float diffuse;
+  /// Factor [1/sr] of squared_alpha / (squared_alpha + sin^2 (1 - squared_alpha))^2, where sin is
+  /// the sine between the half vector and the normal, >= 0: radiance that the point sends on about
+  /// the mirror direction, over the irradiance perpendicular to light. It is 0 without a lobe.
+  float specular;
+};
+
+/// Of a point that sends all light on evenly.
+LAMBENT_FN PickLobe no_pick_lobe() {
+  PickLobe lobe = {vec3(0.0f), 1.0f, 1.0f, 0.0f};
+  return lobe;
+}
 
 LAMBENT_FN float root(float x) {
   return sqrt(x);
@@ -72,13 +99,14 @@ LAMBENT_FN float root(float x) {
 /// send nothing. A point in the air has no horizon: its normal is 0. After Conty Estevez and Kulla
 /// 2018, sec. 4.1, with bounds by boxes in place of spheres: these say more about lights that are
 /// close.
-LAMBENT_FN float light_importance(LightTreeNode node, vec3 position_ws, vec3 normal_ws) {
+LAMBENT_FN float light_importance(LightTreeNode node, vec3 position_ws, vec3 normal_ws,
+                                  PickLobe lobe) {
   ClusterNumbers numbers = {node.center_ws.x,  node.center_ws.y,      node.center_ws.z,
                             node.half_size.x,  node.half_size.y,      node.half_size.z,
                             node.axis_ws.x,    node.axis_ws.y,        node.axis_ws.z,
                             node.cos_spread,   node.sin_spread,       node.intensity,
                             node.cos_emission, float(node.both_sides)};
-  return importance_of(numbers, position_ws, normal_ws);
+  return importance_of(numbers, position_ws, normal_ws, lobe);
 }
 
 LAMBENT_END

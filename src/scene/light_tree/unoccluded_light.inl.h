@@ -5,7 +5,8 @@
 // and
 //   uint light_tree_size(LightTreeRef tree)    its nodes; the first one is the root
 //   LightTreeNode fetch_node(LightTreeRef tree, uint node)
-//   uint emitter_count(LightTreeRef tree)      of emissive triangles: the first lights of leaves
+//   uint emitter_count(LightTreeRef tree)      of emissive triangles and pieces of them, which come
+//                                              first among the lights of leaves
 //   EmitterRecord fetch_emitter(LightTreeRef tree, uint emitter)
 //   LightRecord fetch_light(LightTreeRef tree, uint light)
 
