@@ -11,6 +11,18 @@
 
 namespace lambent {
 
+/// Lobes of GGX coats that reflect the light which is filtered, a pixel each; all spans are empty
+/// where light comes from the whole hemisphere. Light is then averaged no farther than neighbouring
+/// lobes see the same, over a small share of their width: mirrors keep what they show, and rough
+/// coats, too, what stands close to them.
+struct DenoiseLobes {
+  std::span<const glm::vec3> to_viewer_ws;  ///< Unit.
+  /// GGX widths, roughness squared; 0 where no lobe reflects, and light there stays as it is.
+  std::span<const float> alphas;
+  /// One over the distance to what the lobe sees, on average [1/m]; 0: it is infinite.
+  std::span<const float> inverse_distances;
+};
+
 /// What the pixels of a picture show, row after row from the top. Spans have width * height
 /// elements.
 struct DenoiseView {
@@ -22,6 +34,7 @@ struct DenoiseView {
   /// where nothing is seen, and light there stays as it is.
   std::span<const glm::vec3> normals_ws;
   std::span<const float> depths;  ///< Distance along the axis of view [m], > 0 where a surface is.
+  DenoiseLobes lobes = {};        ///< Of coats with the shading normals, if these are filtered.
 };
 
 /// Light that arrives at the pixels' surfaces, without their albedo. All numbers are finite.
@@ -35,7 +48,7 @@ struct NoisyLight {
   std::span<const float> variance;
   /// What `light` was divided by, such as the light that would arrive if nothing were in the way,
   /// without noise; >= 0. Neighbours with lower levels count less in proportion. Empty: nothing.
-  /// Not together with `base`.
+  /// Not together with `base`. Light that lobes reflect has neither.
   std::span<const float> levels = {};
 };
 
@@ -66,11 +79,15 @@ Expected<void> check(const DenoiseSettings& settings);
 /// Settings for direct light of emissive surfaces, with shading normals.
 DenoiseSettings emitter_denoising();
 
+/// Settings that know no difference of light: for what is spread over surfaces whatever its noise,
+/// and for light that lobes reflect.
+DenoiseSettings blind_denoising();
+
 /// Pixels around one that its filtered light depends on, to each side.
 int denoise_reach(const DenoiseSettings& settings);
 
-/// Filters pictures, one after the other, and keeps its memory: 96 bytes for each pixel. Not
-/// thread-safe.
+/// Filters pictures, one after the other, and keeps its memory: 96 bytes for each pixel, 32 more
+/// with lobes. Not thread-safe.
 class Denoiser {
  public:
   Denoiser();

@@ -33,11 +33,98 @@ void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
   if (std::none_of(pixels.excess.begin(), pixels.excess.end(), is_some)) return;
   pixels.filtered_excess.resize(pixels.excess.size());
   [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
-      view, {pixels.excess, {}, {}}, excess_denoising(), pixels.filtered_excess);
+      view, {pixels.excess, {}, {}}, blind_denoising(), pixels.filtered_excess);
   assert(done);  // sizes are the view's
   parallel_chunks(pixels.excess.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       pixels.filtered_gathered[i] += pixels.filtered_excess[i];
+    }
+  });
+}
+
+/// Averages what coats reflect as far as their neighbours see the same; highlights of emitters, at
+/// which something may stand in the way, not over what differs by more than noise.
+void filter_coats(DenoiseView view, FilteredPixels& pixels) {
+  const auto shines = [](float alpha) { return alpha > 0.0f; };
+  const bool any = !pixels.coats.empty() &&
+                   std::any_of(pixels.coat_alphas.begin(), pixels.coat_alphas.end(), shines);
+  pixels.filtered_coats.resize(any ? pixels.coats.size() : 0);
+  pixels.filtered_highlights.resize(pixels.highlights.size());
+  if (!any) {
+    pixels.filtered_highlights = pixels.highlights;
+    return;
+  }
+  view.normals_ws = pixels.normals_ws;
+  view.lobes = {pixels.to_viewer_ws, pixels.coat_alphas, pixels.coat_inverse_distances};
+  [[maybe_unused]] Expected<void> done = pixels.denoiser.filter(
+      view, {pixels.coats, {}, {}}, blind_denoising(), pixels.filtered_coats);
+  assert(done);  // sizes are the view's
+  if (pixels.highlights.empty()) return;
+  view.lobes.alphas = pixels.highlight_alphas;
+  done = pixels.denoiser.filter(view, {pixels.highlights, {}, {}}, emitter_denoising(),
+                                pixels.filtered_highlights);
+  assert(done);
+}
+
+/// Share of light that fog lets through to the camera from a pixel of a band.
+float passed_by_fog(const BandToFilter& light, std::size_t pixel) {
+  return light.fog.empty() ? 1.0f : light.fog[pixel].w;
+}
+
+/// Keeps the light that a band's coats reflect by rays.
+void keep_coats(const BandToFilter& light, std::size_t first, std::size_t count,
+                FilteredPixels& pixels) {
+  pixels.coats.resize(count);
+  pixels.coat_albedo.resize(count);
+  pixels.to_viewer_ws.resize(count);
+  pixels.coat_alphas.resize(count);
+  pixels.coat_inverse_distances.resize(count);
+  const GBuffer& gbuffer = light.gbuffer;
+  const CoatLight& coats = *light.coats;
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = first + i;
+      const vec4 by_rays = coats.empty() ? vec4(0.0f) : coats.light[i];
+      pixels.coats[pixel] = vec3(0.0f);
+      pixels.coat_alphas[pixel] = 0.0f;
+      if (gbuffer.hit[i] == 0 || by_rays.w <= 0.0f) continue;
+      const Surface& surface = gbuffer.surfaces[i];
+      const vec3 albedo = filtered_coat_albedo(
+          surface.reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]), by_rays.w);
+      const float passed = passed_by_fog(light, i);
+      pixels.coats[pixel] = vec3(by_rays) / albedo;
+      pixels.coat_albedo[pixel] = passed * albedo;
+      pixels.to_viewer_ws[pixel] = gbuffer.to_viewer_ws[i];
+      pixels.coat_alphas[pixel] = surface.reflectance.alpha;
+      pixels.coat_inverse_distances[pixel] = coats.inverse_distances[i];
+    }
+  });
+}
+
+/// Keeps the specular light of emitters of a band; after keep_coats, where there are coats.
+void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t count,
+                     FilteredPixels& pixels) {
+  pixels.highlights.resize(count);
+  pixels.highlight_albedo.resize(count);
+  pixels.highlight_alphas.resize(count);
+  const GBuffer& gbuffer = light.gbuffer;
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::size_t pixel = first + i;
+      pixels.highlights[pixel] = vec3(0.0f);
+      pixels.highlight_albedo[pixel] = vec3(0.0f);
+      pixels.highlight_alphas[pixel] = 0.0f;
+      if (gbuffer.hit[i] == 0) continue;
+      const Reflectance& reflectance = gbuffer.surfaces[i].reflectance;
+      vec3 albedo(1.0f);
+      if (light.coats != nullptr && pixels.coat_alphas[pixel] > 0.0f) {
+        albedo = filtered_coat_albedo(
+            reflectance, dot(gbuffer.surfaces[i].normal_ws, gbuffer.to_viewer_ws[i]), 1.0f);
+        pixels.highlight_alphas[pixel] = highlight_alpha(reflectance);
+      }
+      const float passed = passed_by_fog(light, i);
+      pixels.highlights[pixel] = light.direct.emitter_specular[i] / albedo;
+      pixels.highlight_albedo[pixel] = passed * albedo;
     }
   });
 }
@@ -47,7 +134,8 @@ void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
 Band traced_rows(const FrameSettings& settings) {
   const Band rows = rendered_rows(settings);
   if (!settings.denoise) return rows;
-  const int reach = std::max(denoise_reach({}), denoise_reach(emitter_denoising()));
+  const int reach = std::max(
+      {denoise_reach({}), denoise_reach(emitter_denoising()), denoise_reach(blind_denoising())});
   const int first = std::max(0, rows.first_row - reach);
   const int end = std::min(settings.height, rows.first_row + rows.rows + reach);
   return {first, end - first};
@@ -64,12 +152,6 @@ ShownPixels shown_pixels(const Band& band, const FrameSettings& settings) {
   return {pixels(first - band.first_row), pixels(end - first), pixels(first - rows.first_row)};
 }
 
-DenoiseSettings excess_denoising() {
-  DenoiseSettings blind;
-  blind.blind_passes = blind.passes;
-  return blind;
-}
-
 void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilter& light,
                  FilteredPixels& pixels) {
   const std::size_t count = traced_pixels(request);
@@ -78,7 +160,17 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       static_cast<std::size_t>(request.settings.width);
   const GBuffer& gbuffer = light.gbuffer;
   const bool emitters = !light.direct.emitters.empty(), gathered = light.gathered != nullptr;
-  if (!emitters && !gathered) {
+  if (light.coats != nullptr) {
+    keep_coats(light, first, count, pixels);
+  } else {
+    pixels.coats.clear();
+  }
+  if (emitters) {
+    keep_highlights(light, first, count, pixels);
+  } else {
+    pixels.highlights.clear();
+  }
+  if (!emitters && !gathered && light.coats == nullptr) {
     pixels.emitters.clear();
     pixels.gathered.clear();
     return;
@@ -111,7 +203,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       pixels.normals_ws[pixel] = surface.normal_ws;
       pixels.geometric_normals_ws[pixel] = surface.geometric_normal_ws;
       pixels.depths[pixel] = seen ? view_depth(camera, surface.position_ws) : 0.0f;
-      const float passed = light.fog.empty() ? 1.0f : light.fog[i].w;
+      const float passed = passed_by_fog(light, i);
       if (emitters) {
         const vec3 albedo = filtered_albedo(surface.reflectance);
         const vec3 found = light.direct.emitters[i] / albedo;
@@ -157,6 +249,37 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
         emitter_denoising(), pixels.filtered_emitters);
     assert(done);
   }
+  filter_coats(view, pixels);
+}
+
+void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float share,
+                   Layers& layers) {
+  parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
+      if (!pixels.filtered_emitters.empty()) {
+        const vec3 direct = share * pixels.emitter_albedo[i] * pixels.filtered_emitters[i];
+        add(layers.direct, pixel, direct);
+        add(layers.all, pixel, direct);
+      }
+      if (!pixels.filtered_highlights.empty()) {
+        const vec3 glossy = share * pixels.highlight_albedo[i] * pixels.filtered_highlights[i];
+        add(layers.glossy, pixel, glossy);
+        add(layers.all, pixel, glossy);
+      }
+      if (!pixels.filtered_coats.empty() && pixels.coat_alphas[i] > 0.0f) {
+        const vec3 glossy = share * pixels.coat_albedo[i] * pixels.filtered_coats[i];
+        add(layers.glossy, pixel, glossy);
+        add(layers.all, pixel, glossy);
+      }
+      if (pixels.filtered_gathered.empty() || pixels.receives[i] == 0) continue;
+      const vec3 irradiance = share * pixels.filtered_gathered[i];
+      const vec3 indirect = pixels.indirect_albedo[i] * irradiance;
+      add(layers.irradiance, pixel, irradiance);
+      add(layers.indirect, pixel, indirect);
+      add(layers.all, pixel, indirect);
+    }
+  });
 }
 
 }  // namespace lambent

@@ -7,6 +7,8 @@
 
 #include "compose/frame_passes.h"
 #include "compose/gbuffer.h"
+#include "compose/glossy/ray_reuse.h"
+#include "compose/layers.h"
 #include "gather/gather.h"
 #include "lambent/denoise.h"
 
@@ -26,14 +28,20 @@ struct FilteredPixels {
   std::vector<glm::vec3> indirect_albedo;
   std::vector<glm::vec3> emitter_albedo;  ///< Times the levels.
   std::vector<float> emitter_levels;      ///< As of filtered_level.
+  // Light that coats reflect by rays, without filtered_coat_albedo, and what they see
+  std::vector<glm::vec3> coats, coat_albedo, to_viewer_ws;
+  std::vector<float> coat_alphas;  ///< 0 where no rays light a coat.
+  std::vector<float> coat_inverse_distances;
+  // Specular light of emitters, without filtered_coat_albedo where rays light the coat; the lobes
+  // are those of highlight_alpha
+  std::vector<glm::vec3> highlights, highlight_albedo;
+  std::vector<float> highlight_alphas;
   // Light that is
-  std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters;
+  std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_coats,
+      filtered_highlights;
 
   Denoiser denoiser;
 };
-
-/// Settings by which what rare bright rays brought is spread over surfaces, whatever their light.
-DenoiseSettings excess_denoising();
 
 /// Light of a band that is to be filtered.
 struct BandToFilter {
@@ -41,6 +49,7 @@ struct BandToFilter {
   const ReflectedLight& direct;
   const GatheredLight* gathered = nullptr;            ///< Null: it is not gathered.
   const std::vector<glm::vec3>* looked_up = nullptr;  ///< With `gathered`.
+  const CoatLight* coats = nullptr;                   ///< Null: none have rays.
   std::span<const glm::vec4> fog = {};  ///< As of fog_along, a pixel each; empty: there is none.
 };
 
@@ -50,5 +59,9 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
 
 /// Filters all of them. The filtered light stands in `pixels`, empty where there was none.
 void filter_pixels(const FrameRequest& request, FilteredPixels& pixels);
+
+/// Adds the filtered light to the layers of the rows that are shown, with this weight.
+void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float share,
+                   Layers& layers);
 
 }  // namespace lambent

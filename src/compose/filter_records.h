@@ -4,6 +4,7 @@
 #define LAMBENT_COMPOSE_FILTER_RECORDS_H
 
 #include "compose/frame_records.h"
+#include "denoise/denoise_records.h"
 
 LAMBENT_BEGIN
 
@@ -23,8 +24,16 @@ struct FilteredPixelsRecord {
   FloatArray emitter_variance;
   Vec3Array emitter_albedo;
   FloatArray emitter_levels;
+  Vec3Array coats;
+  Vec3Array coat_albedo;
+  LobeGuideArray coat_lobes;  ///< Of sharpness 0 where no rays light a coat.
+  Vec3Array highlights;
+  Vec3Array highlight_albedo;
+  LobeGuideArray highlight_lobes;
   Vec3Array filtered_gathered;
   Vec3Array filtered_emitters;
+  Vec3Array filtered_coats;
+  Vec3Array filtered_highlights;
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)
 
@@ -33,19 +42,20 @@ struct KeepPixelsArguments {
   SceneArray scene;
   LitPointArray points;
   PixelSurfaceArray surfaces;
-  Vec3Array emitters;          ///< Direct light of emissive surfaces.
+  Vec3Array emitters;  ///< Direct light of emissive surfaces.
+  Vec3Array emitter_specular;
   FloatArray emitter_squares;  ///< Sums of squares of what each draw brings, without albedo.
   Vec3Array irradiance;        ///< As it was looked up.
-  Vec4Array fog;               ///< As of fog_along, where has_fog is 1.
+  Vec4Array fog;               ///< As of fog_along, where there is any.
+  Vec4Array coats;             ///< As in struct CoatLight, where there are any.
+  FloatArray coat_inverse_distances;
   FilteredPixelsArray pixels;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
   uint first;        ///< Of the band, among the traced pixels.
   uint count;
-  uint draws;     ///< Of emitters, a pixel.
-  uint gathered;  ///< 1: indirect light is gathered.
-  uint has_fog;
-  uint padding;
+  uint draws;  ///< Of emitters, a pixel.
+  uint has;    ///< kHasCoats, kHasFog; kIsFiltered and kCoatsAreFiltered where such light is kept.
 };
 
 /// Adds filtered light to layers.
@@ -57,7 +67,7 @@ struct AddFilteredArguments {
   float share;
   uint emitters;  ///< 1: there is such light, and so on.
   uint gathered;
-  uint padding;
+  uint coats;
 };
 
 LAMBENT_END

@@ -66,7 +66,8 @@ struct BandLight {
   bool looked_up = false;               // it was looked up in the field
   bool is_filtered = false;             // it is gathered, and shown once it was filtered
   std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces coat_direction()
-  std::vector<vec4> coats;              // light of coats by rays, and its share; none: no rays
+  CoatLight coats;                      // light of coats by rays; none: no rays
+  bool coats_are_filtered = false;      // that of rays is shown once it was filtered
   std::vector<vec3> clearcoats;         // light of clearcoats; none: of mirror_irradiance
   std::vector<vec3> transmitted;        // light that comes through surfaces; none: no glass
   std::vector<vec4> fog;                // that pixels are seen through, as of fog_along; or none
@@ -101,9 +102,10 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
           indirect = reflected_indirect(reflectance, n_dot_v, irradiance);
           add(layers.irradiance, pixel, share * irradiance);
         }
-        glossy += coat_light(reflectance, n_dot_v, surface.gi_share,
-                             light.coats.empty() ? vec4(0.0f) : light.coats[i],
-                             light.mirror_irradiance[i]);
+        vec4 by_rays = light.coats.empty() ? vec4(0.0f) : light.coats.light[i];
+        if (light.coats_are_filtered) by_rays = vec4(vec3(0.0f), by_rays.w);
+        glossy +=
+            coat_light(reflectance, n_dot_v, surface.gi_share, by_rays, light.mirror_irradiance[i]);
         glossy += light.clearcoats.empty() ? clearcoat_light(reflectance.layers, surface.gi_share,
                                                              light.mirror_irradiance[i])
                                            : light.clearcoats[i];
@@ -123,27 +125,6 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       add(layers.normal, pixel, share * surface.normal_ws);
       add(layers.position, pixel, share * surface.position_ws);
       layers.depth.data[pixel] += share * view_depth(record, surface.position_ws);
-    }
-  });
-}
-
-/// Adds filtered light to the layers of the rows that are shown.
-void accumulate_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float share,
-                         Layers& layers) {
-  parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
-      if (!pixels.filtered_emitters.empty()) {
-        const vec3 direct = share * pixels.emitter_albedo[i] * pixels.filtered_emitters[i];
-        add(layers.direct, pixel, direct);
-        add(layers.all, pixel, direct);
-      }
-      if (pixels.filtered_gathered.empty() || pixels.receives[i] == 0) continue;
-      const vec3 irradiance = share * pixels.filtered_gathered[i];
-      const vec3 indirect = pixels.indirect_albedo[i] * irradiance;
-      add(layers.irradiance, pixel, irradiance);
-      add(layers.indirect, pixel, indirect);
-      add(layers.all, pixel, indirect);
     }
   });
 }
@@ -185,6 +166,8 @@ class FramePassesCpu final : public FramePasses {
     sample_ = sample;
     trace_gbuffer(request().world, request().camera, request().settings, band, sample, gbuffer_,
                   request().jitter());
+    gbuffer_.coat_shares.clear();
+    gbuffer_.clearcoat_shares.clear();
     if (traces_coats(request())) find_coat_shares(gbuffer_);
     light_.transmitted.clear();
     now_->frame.rays += gbuffer_.size();
@@ -293,11 +276,13 @@ class FramePassesCpu final : public FramePasses {
     light_.has_indirect = request().sources.field != nullptr || request().sources.rsm;
     light_.looked_up = is_looked_up(request());
     light_.is_filtered = settings.denoise && gathers(request());
+    light_.coats_are_filtered = settings.denoise && traces_coats(request());
     accumulate(request().world, request().camera, gbuffer_, light_, shown_pixels(band_, settings),
                share, now_->layers);
     if (settings.denoise) {
       BandToFilter band{gbuffer_, light_.direct};
       band.fog = light_.fog;
+      if (light_.coats_are_filtered) band.coats = &light_.coats;
       if (light_.is_filtered) band.gathered = &gathered_, band.looked_up = &light_.irradiance;
       keep_pixels(request(), band_, band, to_filter_);
     }
@@ -312,8 +297,7 @@ class FramePassesCpu final : public FramePasses {
     }
     filter_pixels(request(), to_filter_);
     const FrameSettings& settings = request().settings;
-    accumulate_filtered(to_filter_, shown_pixels(traced_rows(settings), settings), share,
-                        now_->layers);
+    show_filtered(to_filter_, shown_pixels(traced_rows(settings), settings), share, now_->layers);
     finish_pass("denoise");
   }
 

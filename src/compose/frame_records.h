@@ -74,13 +74,14 @@ struct ReplaceLightArguments {
 };
 
 // ComposeArguments::has
-const uint kHasCoats = 1u;         ///< Rays bring light of coats,
-const uint kHasTransmission = 2u;  ///< and through surfaces.
-const uint kHasFog = 4u;           ///< Pixels are seen through fog.
-const uint kHasIndirect = 8u;      ///< There is indirect light,
-const uint kIsLookedUp = 16u;      ///< which was looked up in the field; see indirect_share(),
-const uint kIsFiltered = 32u;      ///< and is added once it was filtered.
-const uint kHasClearcoats = 64u;   ///< Light of clearcoats is part of `specular`.
+const uint kHasCoats = 1u;            ///< Rays bring light of coats,
+const uint kHasTransmission = 2u;     ///< and through surfaces.
+const uint kHasFog = 4u;              ///< Pixels are seen through fog.
+const uint kHasIndirect = 8u;         ///< There is indirect light,
+const uint kIsLookedUp = 16u;         ///< which was looked up in the field; see indirect_share(),
+const uint kIsFiltered = 32u;         ///< and is added once it was filtered.
+const uint kHasClearcoats = 64u;      ///< Light of clearcoats is part of `specular`.
+const uint kCoatsAreFiltered = 128u;  ///< Light of coats by rays is added once it was filtered.
 
 /// Adds what pixels show to their layers.
 struct ComposeArguments {

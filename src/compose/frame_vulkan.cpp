@@ -129,6 +129,7 @@ void FramePassesVulkan::direct() {
   const bool apart = emitter_draws() > 0;
   reserve<vec3>(apart ? pixels_ : 0, "direct drawn", memory_.emitters);
   reserve<float>(apart ? pixels_ : 0, "squares of direct drawn", memory_.emitter_squares);
+  reserve<vec3>(apart ? pixels_ : 0, "specular drawn", memory_.emitter_specular);
   add("direct", [this, apart](Recorder& to) {
     ShadeHitsSettings shading;
     shading.emissive_samples = request_->settings.emissive_samples;
@@ -140,7 +141,8 @@ void FramePassesVulkan::direct() {
         {{memory_.diffuse.address()},
          {memory_.specular.address()},
          {apart ? memory_.emitters.address() : 0},
-         {apart ? memory_.emitter_squares.address() : 0}});
+         {apart ? memory_.emitter_squares.address() : 0},
+         {apart ? memory_.emitter_specular.address() : 0}});
   });
 }
 
@@ -158,7 +160,8 @@ void FramePassesVulkan::compose(float share) {
     const glm::mat4& view = request_->camera.world_from_view;
     const uint has = rays_bring_ | (has_fog(*request_) ? kHasFog : 0u) |
                      (has_indirect ? kHasIndirect : 0u) |
-                     (is_looked_up(*request_) ? kIsLookedUp : 0u) | (filtered ? kIsFiltered : 0u);
+                     (is_looked_up(*request_) ? kIsLookedUp : 0u) | (filtered ? kIsFiltered : 0u) |
+                     (filters_coats() ? kCoatsAreFiltered : 0u);
     const ComposeArguments arguments = {{memory_.points.address()},
                                         {memory_.surfaces.address()},
                                         {memory_.diffuse.address()},

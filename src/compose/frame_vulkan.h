@@ -79,14 +79,16 @@ struct FrameKernels {
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 148 bytes a pixel. As in FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 284 bytes a pixel. As in FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< That record.
   vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
   vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, receives;
   vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
-  vulkan::Buffer filtered_gathered, filtered_emitters;
+  vulkan::Buffer coats, coat_albedo, coat_lobes;
+  vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
+  vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
 };
 
 /// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
@@ -112,7 +114,7 @@ struct FrameMemory {
   // Of a band's pixels
   vulkan::Buffer rays, cones, hits, points, surfaces, diffuse, specular;
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
-  vulkan::Buffer gathered_variance, emitters, emitter_squares;
+  vulkan::Buffer gathered_variance, emitters, emitter_squares, emitter_specular;
   // Of the rays that gather some pixels' light
   vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
       gathered_direct, gathered_field;
@@ -124,7 +126,7 @@ struct FrameMemory {
   vulkan::Buffer scene_before, instances_before, positions_before;
   // Of the rows around a band whose coats rays light: pixels, rays, and lists of ways; those of one
   // bounce and of the next take turns
-  vulkan::Buffer coats, coat_points, coat_surfaces, coat_rays;
+  vulkan::Buffer coats, coat_inverse_distances, coat_points, coat_surfaces, coat_rays;
   vulkan::Buffer way_rays[2], way_cones[2], way_paths[2], way_pixels[2], way_length;
   vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
   vulkan::Buffer way_queries, way_answers;
@@ -209,6 +211,7 @@ class FramePassesVulkan final : public FramePasses {
   void begin_motion(std::size_t pixels);
   void finish_motion(LayeredImage& image);
   std::uint32_t emitter_draws() const;
+  bool filters_coats() const;
   void begin_filter();
   void keep_pixels();
   /// Of the band, among the traced pixels.

@@ -43,6 +43,17 @@ void FramePassesVulkan::begin_filter() {
   r.emitter_levels.address = room(lit, sizeof(float), f.emitter_levels);
   r.filtered_gathered.address = room(gathered, sizeof(vec3), f.filtered_gathered);
   r.filtered_emitters.address = room(lit, sizeof(vec3), f.filtered_emitters);
+  const std::size_t coated = filters_coats() ? pixels : 0;
+  r.coats.address = room(coated, sizeof(vec3), f.coats);
+  r.coat_albedo.address = room(coated, sizeof(vec3), f.coat_albedo);
+  r.coat_lobes.address = room(coated, sizeof(LobeGuide), f.coat_lobes);
+  r.highlights.address = room(lit, sizeof(vec3), f.highlights);
+  r.highlight_albedo.address = room(lit, sizeof(vec3), f.highlight_albedo);
+  r.highlight_lobes.address = room(lit, sizeof(LobeGuide), f.highlight_lobes);
+  // Without coats there is nothing to filter, and highlights are taken as they are
+  r.filtered_highlights.address =
+      coated > 0 ? room(lit, sizeof(vec3), f.filtered_highlights) : r.highlights.address;
+  r.filtered_coats.address = room(coated, sizeof(vec3), f.filtered_coats);
   reserve<FilteredPixelsRecord>(1, "where pixels to filter are", f.addresses);
   vulkan::write(device_, std::span<const FilteredPixelsRecord>(&r, 1), f.addresses);
   memory_.denoiser.reserve(pixels);
@@ -56,36 +67,43 @@ std::uint32_t FramePassesVulkan::first_traced_pixel() const {
 /// Keeps what is filtered of the band.
 void FramePassesVulkan::keep_pixels() {
   add("compose", [this](Recorder& to) {
+    const uint has = (rays_bring_ & kHasCoats) | (has_fog(*request_) ? kHasFog : 0u) |
+                     (gathers(*request_) ? kIsFiltered : 0u) |
+                     (filters_coats() ? kCoatsAreFiltered : 0u);
     const glm::mat4& view = request_->camera.world_from_view;
     const KeepPixelsArguments arguments = {{world_.scene().address()},
                                            {memory_.points.address()},
                                            {memory_.surfaces.address()},
                                            {memory_.emitters.address()},
+                                           {memory_.emitter_specular.address()},
                                            {memory_.emitter_squares.address()},
                                            {memory_.irradiance.address()},
                                            {memory_.pixel_fog.address()},
+                                           {memory_.coats.address()},
+                                           {memory_.coat_inverse_distances.address()},
                                            {memory_.filtered.addresses.address()},
                                            vec3(view[3]),
                                            normalize(vec3(view[2])),
                                            first_traced_pixel(),
                                            pixels_,
                                            emitter_draws(),
-                                           gathers(*request_) ? 1u : 0u,
-                                           has_fog(*request_) ? 1u : 0u,
-                                           0u};
+                                           has};
     to.run(kernels_.keep_pixels, arguments, pixels_);
   });
 }
 
 void FramePassesVulkan::denoise(float share) {
   const FrameSettings& settings = request_->settings;
-  const bool lit = emitter_draws() > 0, gathered = gathers(*request_);
-  if (!lit && !gathered) return;
+  const bool lit = emitter_draws() > 0, gathered = gathers(*request_), coats = filters_coats();
+  if (!lit && !gathered && !coats) return;
   const ShownPixels shown = shown_pixels(traced_rows(settings), settings);
   const FilteredPixelsRecord& r = memory_.filtered.record;
   const DenoiseViewOnDevice view{static_cast<std::uint32_t>(settings.width),
                                  static_cast<std::uint32_t>(traced_rows(settings).rows),
-                                 r.positions_ws, r.geometric_normals_ws, r.depths};
+                                 r.positions_ws,
+                                 r.geometric_normals_ws,
+                                 r.depths,
+                                 {}};
   const auto variance = [](bool measured, FloatArray array) {
     return measured ? array : FloatArray{};
   };
@@ -95,7 +113,7 @@ void FramePassesVulkan::denoise(float share) {
           to, view,
           {r.gathered, r.looked_up, variance(settings.gather_rays > 1, r.gathered_variance)}, {},
           r.filtered_gathered);
-      memory_.denoiser.record(to, view, {r.excess}, excess_denoising(), r.filtered_gathered, true);
+      memory_.denoiser.record(to, view, {r.excess}, blind_denoising(), r.filtered_gathered, true);
     });
   }
   if (lit) {
@@ -108,6 +126,18 @@ void FramePassesVulkan::denoise(float share) {
           emitter_denoising(), r.filtered_emitters);
     });
   }
+  if (coats) {
+    add("denoise", [=, this, &r](Recorder& to) {
+      DenoiseViewOnDevice of_lobes = view;
+      of_lobes.normals_ws = r.normals_ws;
+      of_lobes.lobes = r.coat_lobes;
+      memory_.denoiser.record(to, of_lobes, {r.coats}, blind_denoising(), r.filtered_coats);
+      if (!lit) return;
+      of_lobes.lobes = r.highlight_lobes;
+      memory_.denoiser.record(to, of_lobes, {r.highlights}, emitter_denoising(),
+                              r.filtered_highlights);
+    });
+  }
   add("denoise", [=, this](Recorder& to) {
     const AddFilteredArguments arguments = {{memory_.filtered.addresses.address()},
                                             {memory_.layers.address()},
@@ -116,7 +146,7 @@ void FramePassesVulkan::denoise(float share) {
                                             share,
                                             lit ? 1u : 0u,
                                             gathered ? 1u : 0u,
-                                            0u};
+                                            coats ? 1u : 0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
   run_steps();

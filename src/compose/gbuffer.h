@@ -69,8 +69,10 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
 struct ReflectedLight {
   std::vector<glm::vec3> diffuse;
   std::vector<glm::vec3> specular;
-  /// What emissive surfaces send, which is drawn at random; empty where it is part of `diffuse`.
+  /// What emissive surfaces send, which is drawn at random, diffuse and specular apart; empty where
+  /// it is part of `diffuse` and `specular`.
   std::vector<glm::vec3> emitters;
+  std::vector<glm::vec3> emitter_specular;
   /// Variance of luminance of `emitters` over filtered_albedo(); empty where pixels have one draw,
   /// which tells nothing of it.
   std::vector<float> emitter_variance;

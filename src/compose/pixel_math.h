@@ -6,6 +6,7 @@
 #include "glossy/glossy_math.h"
 #include "raytracing/shaded_hit.h"
 #include "shared/brdf.h"
+#include "shared/demodulate.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 #include "temporal/taa_math.h"
@@ -37,6 +38,24 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed, uint jitt
 LAMBENT_FN float indirect_share(float gi_share, uint looked_up) {
   if (looked_up != 0u) return gi_share;
   return gi_share > 0.0f ? 1.0f : 0.0f;
+}
+
+/// The albedo without which light that a coat reflects by rays is filtered, where these bring
+/// `coat_share` of its light.
+LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float coat_share) {
+  vec3 albedo = specular_albedo(coat_under_layers(surface, n_dot_v), n_dot_v);
+  return coat_share * max(albedo, vec3(kLeastFilteredAlbedo));
+}
+
+// A clearcoat whose normal makes at least this cosine with the base's has the same: 0.8 degrees.
+const float kSameNormalCosine = 0.9999f;
+
+/// GGX width of the narrowest lobe with which a surface reflects lights, around its shading normal;
+/// 0 where its clearcoat has another normal.
+LAMBENT_FN float highlight_alpha(Reflectance surface) {
+  if (!has_clearcoat(surface.layers)) return surface.alpha;
+  if (surface.layers.clearcoat_normal.z < kSameNormalCosine) return 0.0f;
+  return min(surface.alpha, surface.layers.clearcoat_alpha);
 }
 
 /// The field's light at a pixel once another source has taken the place of a part of it.

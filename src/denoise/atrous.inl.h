@@ -10,9 +10,11 @@
 //   LAMBENT_REAL_FN          before a function
 //   LAMBENT_UNROLL_TAPS      before the loop over neighbours
 //   Real zero_unless_positive(Real condition, Real value)
+//   Real larger(Real a, Real b)
 //   Real fetch_guide(int plane, int x, int y)
 //       a plane of the guide (atrous_pass.h) at the pixel that lies so far from this one
 //   Real fetch_light(int plane, int x, int y)   planes of atrous_pass.h, likewise
+//   Real fetch_lobe(int plane, int x, int y)    planes of struct LobeGuide, where there are lobes
 // In C++ it is included in the body of a struct that has these as members.
 
 /// Where a pixel is, and how it faces.
@@ -41,6 +43,10 @@ LAMBENT_REAL_FN Real3 guide_vector(int plane, int x, int y) {
 LAMBENT_REAL_FN Real3 light_vector(int plane, int x, int y) {
   return Real3(fetch_light(plane, x, y), fetch_light(plane + 1, x, y),
                fetch_light(plane + 2, x, y));
+}
+
+LAMBENT_REAL_FN Real3 lobe_vector(int plane, int x, int y) {
+  return Real3(fetch_lobe(plane, x, y), fetch_lobe(plane + 1, x, y), fetch_lobe(plane + 2, x, y));
 }
 
 LAMBENT_REAL_FN AtrousGuide guide_at(int x, int y) {
@@ -80,6 +86,37 @@ LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Rea
   return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
 }
 
+/// The lobe that reflects a pixel's light: members as in struct LobeGuide. It has no meaning in
+/// passes without lobes.
+struct AtrousLobe {
+  Real3 mirror_ws;
+  Real sharpness;
+  Real inverse_distance;
+};
+
+LAMBENT_REAL_FN AtrousLobe lobe_at(int x, int y) {
+  AtrousLobe lobe;
+  lobe.mirror_ws = lobe_vector(kMirrorPlane, x, y);
+  lobe.sharpness = fetch_lobe(kLobeSharpnessPlane, x, y);
+  lobe.inverse_distance = fetch_lobe(kSeenDistancePlane, x, y);
+  return lobe;
+}
+
+/// How much a neighbour counts by what its lobe sees: the exponent of its weight. What a lobe sees
+/// at a distance lies, as seen from the other pixel, in a direction that differs from where that
+/// one's lobe points to. The closer of the two distances and the sharper of the two lobes decide,
+/// so that light goes from pixel to pixel as it comes back; lobes of other widths see other things.
+LAMBENT_REAL_FN Real difference_of_lobes(AtrousLobe here, AtrousLobe there, Real3 to_neighbour,
+                                         Real3 across_ws) {
+  Real3 apart = to_neighbour * larger(here.inverse_distance, there.inverse_distance) +
+                (there.mirror_ws - here.mirror_ws);
+  Real sideways = dot(apart, across_ws);
+  Real widths =
+      (here.sharpness - there.sharpness) / (here.sharpness + there.sharpness + kLeastLobeSharpness);
+  return (dot(apart, apart) + sideways * sideways) * larger(here.sharpness, there.sharpness) +
+         kWidthSharpness * (widths * widths);
+}
+
 /// The variance that the difference of two pixels' luminance is compared with. That of their
 /// difference is the sum. Where both were measured, twice their harmonic mean is less where one
 /// pixel knows better, and keeps noisy light out of what is known to be dark.
@@ -88,12 +125,41 @@ LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
   return 4.0f * a * b / (a + b + kLeastContrast);
 }
 
+/// The pixel's light from the weighted sums over its neighbours.
+LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousLight sum,
+                                         Real weights) {
+  // What neighbours share of noise, pass by pass, is left out (Schied et al. 2017, Eq. 7)
+  Real scale = 1.0f / weights;
+  if (by.only_spread != 0u) {
+    own.spread = sum.spread * scale;
+    return own;
+  }
+  sum.light = sum.light * scale;
+  if (by.has_base != 0u) sum.base = sum.base * scale;
+  sum.spread = sum.spread * scale;
+  sum.share = sum.share * (scale * scale);
+  if (by.ends_blind != 0u && by.measured == 0u) {
+    // The unbiased estimate of a variance from several pixels
+    Real level = filtered_luminance(by, sum);
+    Real square = level * level;
+    sum.spread = larger(sum.spread - square, kLeastVariance * square) /
+                 (1.0f - min(sum.share, kMostKnownShare));
+  }
+  return sum;
+}
+
 /// The pixel's light after the pass.
 LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
   AtrousGuide here = guide_at(0, 0);
   Real plane_scale = fetch_guide(kInverseDepthPlane, 0, 0) * by.plane_scale;
   Real inverse_level = plane_scale * 0.0f + 1.0f;
   if (by.has_levels != 0u) inverse_level = 1.0f / max(fetch_guide(kLevelPlane, 0, 0), kLeastLevel);
+  AtrousLobe lobe;
+  Real3 across_ws = here.normal_ws;
+  if (by.has_lobes != 0u) {
+    lobe = lobe_at(0, 0);
+    across_ws = lobe_vector(kAcrossPlane, 0, 0);
+  }
   AtrousLight own = light_at(by, 0, 0);
   Real own_luminance = filtered_luminance(by, own);
 
@@ -109,6 +175,10 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
     AtrousLight neighbour = light_at(by, x * by.apart, y * by.apart);
     Real cosine = dot(here.normal_ws, there.normal_ws);
     Real difference = difference_of_surfaces(by, here, plane_scale, there, cosine);
+    if (by.has_lobes != 0u) {
+      difference += difference_of_lobes(lobe, lobe_at(x * by.apart, y * by.apart),
+                                        there.position_ws - here.position_ws, across_ws);
+    }
     if (by.blind == 0u) {
       Real contrast = own_luminance - filtered_luminance(by, neighbour);
       difference +=
@@ -130,20 +200,5 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
     sum.share += neighbour.share * (weight * weight);
   }
 
-  // Divide; what neighbours share of noise, pass by pass, is left out (Schied et al. 2017, Eq. 7)
-  Real scale = 1.0f / weights;
-  if (by.only_spread != 0u) {
-    own.spread = sum.spread * scale;
-    return own;
-  }
-  sum.light = sum.light * scale;
-  if (by.has_base != 0u) sum.base = sum.base * scale;
-  sum.spread = sum.spread * scale;
-  sum.share = sum.share * (scale * scale);
-  if (by.ends_blind != 0u && by.measured == 0u) {
-    // The unbiased estimate of a variance from several pixels
-    Real level = filtered_luminance(by, sum);
-    sum.spread = max(sum.spread - level * level, 0.0f) / (1.0f - min(sum.share, kMostKnownShare));
-  }
-  return sum;
+  return divided_sums(by, own, sum, weights);
 }

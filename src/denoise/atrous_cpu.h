@@ -10,10 +10,11 @@ namespace lambent {
 /// Pixels of a row, as planes whose guards see nothing.
 struct AtrousRow {
   ConstPlanes guide;  ///< Of the row's first pixel, and so on.
+  ConstPlanes lobes;  ///< Where there are some.
   ConstPlanes in;
   Planes out;
-  std::ptrdiff_t guide_row, light_row;  ///< Floats from a row to the next one.
-  int count;                            ///< Pixels.
+  std::ptrdiff_t guide_row, lobe_row, light_row;  ///< Floats from a row to the next one.
+  int count;                                      ///< Pixels.
 };
 
 /// Filters a row. Single-threaded.

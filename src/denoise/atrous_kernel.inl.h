@@ -12,6 +12,9 @@ struct Lanes3 {
 LAMBENT_FORCE_INLINE Lanes3 operator-(Lanes3 a, Lanes3 b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+LAMBENT_FORCE_INLINE Lanes3 operator+(Lanes3 a, Lanes3 b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 LAMBENT_FORCE_INLINE Lanes3 operator*(Lanes3 a, Lanes b) {
   return {a.x * b, a.y * b, a.z * b};
 }
@@ -47,6 +50,9 @@ struct PixelLanes {
   LAMBENT_FORCE_INLINE static Lanes zero_unless_positive(Lanes condition, Lanes value) {
     return condition > 0.0f ? value : Lanes{};
   }
+  LAMBENT_FORCE_INLINE static Lanes larger(Lanes a, Lanes b) {
+    return a > b ? a : b;
+  }
   LAMBENT_FORCE_INLINE Lanes fetch_guide(int plane, int x, int y) const {
     Lanes lanes;
     load(lanes, guide.at(plane) + y * guide_row + x);
@@ -55,6 +61,11 @@ struct PixelLanes {
   LAMBENT_FORCE_INLINE Lanes fetch_light(int plane, int x, int y) const {
     Lanes lanes;
     load(lanes, light.at(plane) + y * light_row + x);
+    return lanes;
+  }
+  LAMBENT_FORCE_INLINE Lanes fetch_lobe(int plane, int x, int y) const {
+    Lanes lanes;
+    load(lanes, lobes.at(plane) + y * lobe_row + x);
     return lanes;
   }
 
@@ -76,31 +87,37 @@ struct PixelLanes {
     }
   }
 
-  ConstPlanes guide, light;
-  std::ptrdiff_t guide_row, light_row;  // floats from a row to the next one
+  ConstPlanes guide, light, lobes;
+  std::ptrdiff_t guide_row, light_row, lobe_row;  // floats from a row to the next one
 };
 
 /// A row with flags that the compiler knows, so that loops hold no branch.
 LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint blind,
-                                       uint has_base, uint has_levels) {
+                                       uint has_base, uint has_levels, uint has_lobes) {
   by.blind = blind;
   by.has_base = has_base;
   by.has_levels = has_levels;
+  by.has_lobes = has_lobes;
   for (int i = 0; i < row.count; i += kLanes) {
+    const float* lobes = has_lobes != 0 ? row.lobes.first + i : nullptr;
     PixelLanes pixels{{row.guide.first + i, row.guide.stride},
                       {row.in.first + i, row.in.stride},
+                      {lobes, row.lobes.stride},
                       row.guide_row,
-                      row.light_row};
+                      row.light_row,
+                      row.lobe_row};
     pixels.filter(by, {row.out.first + i, row.out.stride});
   }
 }
 
 static void filter_row(const AtrousPass& by, const AtrousRow& row) {
-  if (by.has_base != 0) {
-    by.blind != 0 ? filter_lanes(by, row, 1, 1, 0) : filter_lanes(by, row, 0, 1, 0);
+  if (by.has_lobes != 0) {
+    by.blind != 0 ? filter_lanes(by, row, 1, 0, 0, 1) : filter_lanes(by, row, 0, 0, 0, 1);
+  } else if (by.has_base != 0) {
+    by.blind != 0 ? filter_lanes(by, row, 1, 1, 0, 0) : filter_lanes(by, row, 0, 1, 0, 0);
   } else if (by.has_levels != 0) {
-    by.blind != 0 ? filter_lanes(by, row, 1, 0, 1) : filter_lanes(by, row, 0, 0, 1);
+    by.blind != 0 ? filter_lanes(by, row, 1, 0, 1, 0) : filter_lanes(by, row, 0, 0, 1, 0);
   } else {
-    by.blind != 0 ? filter_lanes(by, row, 1, 0, 0) : filter_lanes(by, row, 0, 0, 0);
+    by.blind != 0 ? filter_lanes(by, row, 1, 0, 0, 0) : filter_lanes(by, row, 0, 0, 0, 0);
   }
 }

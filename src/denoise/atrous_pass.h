@@ -26,9 +26,36 @@ const int kDenoisePlanes = 8;
 const int kLevelPlane = kGuidePlanes;
 const int kDenoiseGuidePlanes = kGuidePlanes + 1;
 
+// Planes of the lobes that reflect the light, if that is what is filtered: struct LobeGuide.
+const int kMirrorPlane = 0;
+const int kAcrossPlane = 3;
+const int kLobeSharpnessPlane = 6;
+const int kSeenDistancePlane = 7;
+const int kLobePlanes = 8;
+
+// The filter averages over this share of a lobe's own width [GGX alpha, radians]. All passes
+// together so have a fifth of the lobe's deviation, and what coats show is blurred as if they were
+// 2 % wider: that much roughness nobody sees.
+const float kFilteredLobeShare = 0.5f;
+
+// How much less neighbours count whose lobes have another width, by the square of the difference of
+// the two sharpnesses over their sum: a roughness that is a tenth higher takes an eighth of the
+// weight, and one twice as high nearly all.
+const float kWidthSharpness = 4.0f;
+
+// Keeps lobes without sharpness from dividing by zero: far below that of the widest lobe.
+const float kLeastLobeSharpness = 1e-6f;
+
+// Least cosine of the angle of incidence by which lobes are stretched: below it they are slivers.
+const float kLeastLobeCosine = 1e-3f;
+
 // Contrast that is always taken for noise, in squares of luminance: far below any light, so that
 // equal pixels without variance do not divide zero by zero.
 const float kLeastContrast = 1e-20f;
+
+// A variance from several pixels is at least this share of the square of their mean: less is the
+// rounding of the two of which it is the difference.
+const float kLeastVariance = 1e-6f;
 
 // Lower levels of light count as this one, so that none divides by zero.
 const float kLeastLevel = 1e-30f;
@@ -49,7 +76,29 @@ struct AtrousPass {
   uint only_spread;        ///< 1: variances alone are averaged, light stays as it is.
   uint has_base;           ///< 1: there is a base.
   uint has_levels;         ///< 1: the light is given over a level.
+  uint has_lobes;          ///< 1: lobes reflect the light; 0: it comes from the hemisphere.
 };
+
+/// How far light that a lobe reflects may be averaged over pixels.
+struct LobeGuide {
+  vec3 mirror_ws;  ///< Where the lobe is about densest; unit.
+  vec3 across_ws;  ///< Perpendicular to the plane of incidence, as long as the tangent of the angle
+                   ///< of incidence: lobes of grazing angles are that much narrower sideways.
+  float sharpness;  ///< One over the square of the angle that is averaged over [1/rad^2]; 0: there
+                    ///< is no lobe.
+  float inverse_distance;  ///< One over the distance to what the lobe sees [1/m].
+};
+
+/// `normal_ws` and `to_viewer_ws`: unit. `alpha`: the lobe's GGX width, above 0.
+LAMBENT_FN LobeGuide lobe_guide(vec3 normal_ws, vec3 to_viewer_ws, float alpha,
+                                float inverse_distance) {
+  float cosine = max(dot(normal_ws, to_viewer_ws), kLeastLobeCosine);
+  float width = kFilteredLobeShare * alpha;
+  LobeGuide guide = {reflect(-to_viewer_ws, normal_ws),
+                     cross(normal_ws, to_viewer_ws) * (1.0f / cosine), 1.0f / (width * width),
+                     inverse_distance};
+  return guide;
+}
 
 /// AtrousLight::spread of a pixel before the first pass, where its variance was not measured.
 LAMBENT_FN float unmeasured_spread(vec3 light, vec3 base) {

@@ -42,12 +42,18 @@ DenoiseSettings emitter_denoising() {
   return settings;
 }
 
+DenoiseSettings blind_denoising() {
+  DenoiseSettings blind;
+  blind.blind_passes = blind.passes;
+  return blind;
+}
+
 int denoise_reach(const DenoiseSettings& settings) {
   return (1 << settings.passes) - 1;
 }
 
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
-                                       bool measured, bool has_levels) {
+                                       bool measured, bool has_levels, bool has_lobes) {
   // Light over its level has no rare bright rays, and its samples tell how noisy it is: that alone
   // is averaged at first, and not even the closest shadows are blurred (Schied et al. 2017, sec.
   // 4.4: variances are filtered before they are used)
@@ -65,6 +71,7 @@ std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has
     pass.measured = measured ? 1 : 0;
     pass.has_base = has_base ? 1 : 0;
     pass.has_levels = has_levels ? 1 : 0;
+    pass.has_lobes = has_lobes ? 1 : 0;
     passes.push_back(pass);
   }
   return passes;

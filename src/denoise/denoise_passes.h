@@ -11,6 +11,6 @@ namespace lambent {
 
 /// The passes, in their order.
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
-                                       bool measured, bool has_levels);
+                                       bool measured, bool has_levels, bool has_lobes);
 
 }  // namespace lambent

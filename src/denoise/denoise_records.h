@@ -17,6 +17,8 @@ struct DenoiseRecord {
 };
 LAMBENT_DEVICE_ARRAY(DenoiseArray, DenoiseRecord, 4)
 
+LAMBENT_DEVICE_ARRAY(LobeGuideArray, LobeGuide, 4)
+
 /// Light of pixels as it was sampled.
 struct DenoiseStartArguments {
   Vec3Array light;
@@ -34,12 +36,14 @@ struct DenoisePassArguments {
   Vec3Array positions_ws;
   Vec3Array normals_ws;
   FloatArray depths;
-  FloatArray levels;  ///< Read where `by.has_levels` is 1.
+  FloatArray levels;     ///< Read where `by.has_levels` is 1.
+  LobeGuideArray lobes;  ///< Read where `by.has_lobes` is 1.
   DenoiseArray in_light;
   DenoiseArray out_light;
   AtrousPass by;
   uint width;
   uint height;
+  uint padding;
 };
 
 /// Light of pixels once it is filtered.

@@ -19,16 +19,16 @@ void DenoiserVulkan::record(vulkan::Recorder& to, const DenoiseViewOnDevice& vie
                             Vec3Array filtered, bool adds) const {
   const std::uint32_t count = view.width * view.height;
   const bool has_base = light.base.address != 0, measured = light.variance.address != 0,
-             has_levels = light.levels.address != 0;
+             has_levels = light.levels.address != 0, has_lobes = view.lobes.address != 0;
   DenoiseArray from{light_[0].address()}, into{light_[1].address()};
   const DenoiseStartArguments start = {light.light, light.base,         light.variance,     from,
                                        count,       has_base ? 1u : 0u, measured ? 1u : 0u, 0u};
   to.run(kernels_.start, start, count);
   to.barrier();
-  for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels)) {
+  for (const AtrousPass& by : denoise_passes(settings, has_base, measured, has_levels, has_lobes)) {
     const DenoisePassArguments pass = {
-        view.positions_ws, view.normals_ws, view.depths, light.levels, from, into, by,
-        view.width,        view.height};
+        view.positions_ws, view.normals_ws, view.depths, light.levels, view.lobes, from, into, by,
+        view.width,        view.height,     0u};
     to.run(kernels_.pass, pass, count);
     to.barrier();
     std::swap(from, into);

@@ -22,6 +22,7 @@ struct DenoiseViewOnDevice {
   Vec3Array positions_ws;
   Vec3Array normals_ws;
   FloatArray depths;
+  LobeGuideArray lobes = {};  ///< Where lobes reflect the light.
 };
 
 /// NoisyLight in a device's memory; addresses of 0 where there is no base, no variance, no levels.

@@ -46,6 +46,15 @@ void for_each_row(int height, Body body) {
                   });
 }
 
+bool has_lobes(const DenoiseView& view) {
+  return !view.lobes.alphas.empty();
+}
+
+/// Whether light of a pixel is filtered.
+bool is_filtered(const DenoiseView& view, std::size_t pixel) {
+  return view.depths[pixel] > 0.0f && (!has_lobes(view) || view.lobes.alphas[pixel] > 0.0f);
+}
+
 void load_guide(const DenoiseView& view, std::span<const float> levels, PlanePicture& guide) {
   guide.shape(view.width, view.height, kDenoiseGuidePlanes);
   for_each_row(view.height, [&](int y) {
@@ -53,11 +62,30 @@ void load_guide(const DenoiseView& view, std::span<const float> levels, PlanePic
     const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
     for (int x = 0; x < view.width; ++x) {
       const std::size_t i = first + static_cast<std::size_t>(x);
-      const bool seen = view.depths[i] > 0.0f;
+      const bool seen = is_filtered(view, i);
       store_vector(row, kPositionPlane, x, view.positions_ws[i]);
       store_vector(row, kNormalPlane, x, seen ? view.normals_ws[i] : vec3(0.0f));
       row.at(kInverseDepthPlane)[x] = seen ? 1.0f / view.depths[i] : 0.0f;
       row.at(kLevelPlane)[x] = levels.empty() ? 0.0f : levels[i];
+    }
+  });
+}
+
+void load_lobes(const DenoiseView& view, PlanePicture& lobes) {
+  lobes.shape(view.width, view.height, kLobePlanes);
+  for_each_row(view.height, [&](int y) {
+    const Planes row = lobes.row(y);
+    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
+    for (int x = 0; x < view.width; ++x) {
+      const std::size_t i = first + static_cast<std::size_t>(x);
+      const LobeGuide guide =
+          is_filtered(view, i) ? lobe_guide(view.normals_ws[i], view.lobes.to_viewer_ws[i],
+                                            view.lobes.alphas[i], view.lobes.inverse_distances[i])
+                               : LobeGuide{};
+      store_vector(row, kMirrorPlane, x, guide.mirror_ws);
+      store_vector(row, kAcrossPlane, x, guide.across_ws);
+      row.at(kLobeSharpnessPlane)[x] = guide.sharpness;
+      row.at(kSeenDistancePlane)[x] = guide.inverse_distance;
     }
   });
 }
@@ -93,6 +121,15 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
   const auto fits = [&](std::size_t size, bool optional) {
     return size == pixels || (optional && size == 0);
   };
+  if (const DenoiseLobes& lobes = view.lobes; !lobes.alphas.empty()) {
+    if (!fits(lobes.alphas.size(), false) || !fits(lobes.to_viewer_ws.size(), false) ||
+        !fits(lobes.inverse_distances.size(), false)) {
+      return fail("", "denoise lobes", "have not one element a pixel");
+    }
+    if (!light.base.empty() || !light.levels.empty()) {
+      return fail("", "noisy light", "of lobes has a base or levels");
+    }
+  }
   if (fits(light.light.size(), false) && fits(light.base.size(), true) &&
       fits(light.variance.size(), true) && fits(light.levels.size(), true) &&
       fits(filtered.size(), false)) {
@@ -107,14 +144,16 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
 }  // namespace
 
 struct Denoiser::State {
-  PlanePicture guide, light[2];
+  PlanePicture guide, lobes, light[2];
 
   /// Runs a pass from one picture of light to the other.
   void run(const AtrousPass& pass, int from) {
     const PlaneLayout& layout = guide.layout;
+    const bool lobed = pass.has_lobes != 0;
     for_each_row(layout.height, [&](int y) {
-      filter_row(pass, {guide.row(y), light[from].row(y), light[1 - from].row(y),
-                        guide.row_floats(), light[from].row_floats(), layout.width});
+      filter_row(pass, {guide.row(y), lobed ? lobes.row(y) : Planes{}, light[from].row(y),
+                        light[1 - from].row(y), guide.row_floats(), lobed ? lobes.row_floats() : 0,
+                        light[from].row_floats(), layout.width});
     });
   }
 };
@@ -130,12 +169,13 @@ Expected<void> Denoiser::filter(const DenoiseView& view, const NoisyLight& light
   if (const Expected<void> fine = check(view, light, filtered); !fine) return fine;
   State& s = *state_;
   load_guide(view, light.levels, s.guide);
+  if (has_lobes(view)) load_lobes(view, s.lobes);
   load_light(view, light, s.light[0]);
   const bool has_base = !light.base.empty();
   s.light[1].shape(view.width, view.height, kDenoisePlanes);
   int at = 0;
-  for (const AtrousPass& pass :
-       denoise_passes(settings, has_base, !light.variance.empty(), !light.levels.empty())) {
+  for (const AtrousPass& pass : denoise_passes(settings, has_base, !light.variance.empty(),
+                                               !light.levels.empty(), has_lobes(view))) {
     s.run(pass, at);
     at = 1 - at;
   }

@@ -29,15 +29,33 @@ struct NoisyWall {
         base.push_back(vec3(0.5f + 0.2f * next_uniform(random)));
         variance.push_back(u * u);
         levels.push_back(0.1f + along);
+        to_viewer.push_back(normalize(vec3(0.3f - along, 0.2f, 1.0f)));
+        alphas.push_back((x + 2 * y) % 13 == 5 ? 0.0f : 0.05f + 0.3f * along);
+        inverse_distances.push_back(0.3f * u);
       }
     }
   }
   DenoiseView view() const { return {width, height, positions, normals, depths}; }
+  DenoiseView view_with_lobes() const {
+    return {width, height, positions, normals, depths, {to_viewer, alphas, inverse_distances}};
+  }
 
   int width, height;
-  std::vector<vec3> positions, normals, light, base;
-  std::vector<float> depths, variance, levels;
+  std::vector<vec3> positions, normals, light, base, to_viewer;
+  std::vector<float> depths, variance, levels, alphas, inverse_distances;
 };
+
+/// The lobes of a view as a device reads them; none if it has none.
+std::vector<LobeGuide> lobes_of(const DenoiseView& view) {
+  const DenoiseLobes& of = view.lobes;
+  std::vector<LobeGuide> lobes(of.alphas.size());
+  for (std::size_t i = 0; i < lobes.size(); ++i) {
+    if (of.alphas[i] <= 0.0f) continue;
+    lobes[i] =
+        lobe_guide(view.normals_ws[i], of.to_viewer_ws[i], of.alphas[i], of.inverse_distances[i]);
+  }
+  return lobes;
+}
 
 /// Largest difference, over the light and a hundredth of the mean.
 float difference(const std::vector<vec3>& a, const std::vector<vec3>& b) {
@@ -62,6 +80,8 @@ class DenoiseTwin : public test::OnDevice {
                          depths = buffer(view.depths), noisy = buffer(light.light),
                          base = buffer(light.base), variance = buffer(light.variance),
                          levels = buffer(light.levels);
+    const std::vector<LobeGuide> guides = lobes_of(view);
+    const vulkan::Buffer lobes = buffer(std::span<const LobeGuide>(guides));
     std::vector<vec3> result = added;
     result.resize(light.light.size());
     const vulkan::Buffer filtered = buffer(std::span<const vec3>(result));
@@ -73,7 +93,8 @@ class DenoiseTwin : public test::OnDevice {
                        static_cast<std::uint32_t>(view.height),
                        {positions.address()},
                        {normals.address()},
-                       {depths.address()}},
+                       {depths.address()},
+                       {guides.empty() ? 0 : lobes.address()}},
                       {{noisy.address()},
                        {light.base.empty() ? 0 : base.address()},
                        {light.variance.empty() ? 0 : variance.address()},
@@ -108,6 +129,24 @@ TEST_F(DenoiseTwin, FiltersTheSameLight) {
           EXPECT_LT(difference(expected, on_device(wall.view(), light, settings)), kTolerance)
               << size.x << " x " << size.y << " " << beside << " measured " << measured;
         }
+      }
+    }
+  }
+}
+
+TEST_F(DenoiseTwin, FiltersTheSameLightOfLobes) {
+  for (const ivec2 size : {ivec2(1, 1), ivec2(37, 23), ivec2(130, 33)}) {
+    const NoisyWall wall(size.x, size.y);
+    for (const bool measured : {false, true}) {
+      NoisyLight light{wall.light, {}, {}};
+      if (measured) light.variance = wall.variance;
+      for (const DenoiseSettings& settings : {blind_denoising(), emitter_denoising()}) {
+        const std::vector<vec3> expected = on_host(wall.view_with_lobes(), light, settings);
+        EXPECT_LT(difference(expected, on_device(wall.view_with_lobes(), light, settings)),
+                  kTolerance)
+            << size.x << " x " << size.y << " measured " << measured;
+        if (size.x == 1) continue;
+        EXPECT_GT(difference(expected, on_host(wall.view(), light, settings)), 0.01f);
       }
     }
   }

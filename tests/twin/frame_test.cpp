@@ -9,6 +9,7 @@
 #include "lambent/rsm.h"
 #include "lambent/world.h"
 #include "scenes/builtin.h"
+#include "support/floor_under_a_pane.h"
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
 
@@ -150,6 +151,17 @@ TEST_F(Frame, OfGlassIsTheSame) {
   expect_alike(render_both(job));
 }
 
+// The lamp behind the pane has the weights of the floor's own samples on both sides.
+TEST_F(Frame, OfALampBehindAPaneIsTheSameWhateverTheNumbersOfSamples) {
+  Job job = small("");
+  job.frame.emissive_samples = 1;
+  job.frame.reflected_emissive_samples = 16;
+  const Scene scene = test::floor_under_a_pane();
+  const World here(scene), there(scene, shared_device());
+  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance);
+}
+
 // A ray that grazes a lamp or a sphere on one side and misses it on the other changes a pixel and
 // those that take its rays.
 TEST_F(Frame, WithReflectionsIsTheSame) {
@@ -233,6 +245,42 @@ TEST_F(Frame, WithFilteredLightIsTheSame) {
     job.frame.denoise = true;
     expect_alike(render_both(job));
   }
+}
+
+// Coats, with and without the light of a field's gather beside them, and lamps' highlights.
+TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
+  constexpr double kGrazing = 0.02;  // as in WithReflectionsIsTheSame
+  for (const int rows : {1, 2}) {
+    Job job = small("spheres");
+    job.frame.glossy_rows = rows;
+    job.frame.gather_rays = rows - 1;
+    job.frame.samples = 2;
+    job.frame.denoise = true;
+    EXPECT_LE(relative_rmse(render_both(job), "glossy"), kGrazing) << rows;
+  }
+  Job job = small("");
+  job.frame.denoise = true;
+  Scene scene = test::floor_under_a_pane();
+  scene.materials[0].clearcoat = 0.5f;
+  scene.materials[0].clearcoat_roughness = 0.4f;
+  const World here(scene), there(scene, shared_device());
+  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance);
+  job.frame.denoise = false;
+  EXPECT_GT(relative_rmse({frames.cpu, render(scene, there, job)}, "glossy"), 0.02);
+}
+
+TEST_F(Frame, WithRowsOfFilteredReflectionsIsTheSame) {
+  Job job = small("");
+  job.frame.width = 20;
+  job.frame.height = 150;
+  job.frame.first_row = 70;
+  job.frame.rows = 9;
+  job.frame.denoise = true;
+  const Scene scene = test::floor_under_a_pane();
+  const World here(scene), there(scene, shared_device());
+  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance);
 }
 
 TEST_F(Frame, WithRowsOfFilteredLightIsTheSame) {

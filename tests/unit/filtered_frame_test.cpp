@@ -27,8 +27,9 @@ FrameSettings of_quality(Quality quality) {
 
 /// A stage lit by a field, and its pictures.
 struct LitStage {
-  explicit LitStage(const std::string& name)
-      : stage(name), field(test::make_field(stage, few_probes(), 4)) {}
+  explicit LitStage(const std::string& name) : LitStage(scenes::make(name).value()) {}
+  explicit LitStage(Scene scene)
+      : stage(std::move(scene)), field(test::make_field(stage, few_probes(), 4)) {}
   LayeredImage picture(const FrameSettings& settings) const {
     Renderer renderer(stage.world, {.field = &field});
     return renderer.render(stage.scene.cameras.at(0), settings).value().image;
@@ -69,6 +70,63 @@ TEST(FilteredFrame, ComesCloseToOneOfManyMoreRays) {
                                       {.block = 8, .perceptual = false})
                            .value();
   EXPECT_NEAR(mean.mean_ratio, 1.0, 0.02);
+}
+
+/// A box of rough metal with a lamp: its walls reflect each other, the lamp and what stands there.
+/// The camera sees a small part of it, so that lobes are many pixels wide.
+Scene metal_cornell() {
+  Scene scene = scenes::make("cornell").value();
+  scene.cameras.at(0).vertical_fov *= 0.15f;
+  for (Material& material : scene.materials) {
+    if (material.emission != glm::vec3(0.0f)) continue;
+    Material metal;
+    metal.base_color = material.base_color;
+    metal.metallic = 1.0f;
+    metal.roughness = 0.4f;
+    material = metal;
+  }
+  return scene;
+}
+
+TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
+  const LitStage metal(metal_cornell());
+  FrameSettings filtered = of_quality(Quality::high);
+  filtered.samples = 1;  // through the middle of pixels, whatever the seed
+  filtered.gather_rays = 0;
+  FrameSettings raw = filtered;
+  raw.denoise = false;
+  FrameSettings filtered_again = filtered, raw_again = raw;
+  filtered_again.seed = raw_again.seed = 7;
+  const LayeredImage one = metal.picture(raw), smooth = metal.picture(filtered);
+  const auto seen_difference = [](const LayeredImage& a, const LayeredImage& b) {
+    return compare_images(*a.find("glossy"), *b.find("glossy"), {}).value().flip;
+  };
+  constexpr double kLess = 0.7;  // of the noise is left at most
+  EXPECT_LT(seen_difference(smooth, metal.picture(filtered_again)),
+            kLess * seen_difference(one, metal.picture(raw_again)));
+  const Metrics mean =
+      compare_images(*smooth.find("glossy"), *one.find("glossy"), {.block = 8, .perceptual = false})
+          .value();
+  EXPECT_NEAR(mean.mean_ratio, 1.0, 0.005);
+}
+
+// Settings may change from frame to frame: nothing of the frame before is shown.
+TEST(FilteredFrame, OfARendererThatFilteredBeforeIsThatOfANewOne) {
+  const LitStage metal(metal_cornell());
+  FrameSettings filtered = of_quality(Quality::interactive);
+  FrameSettings unreflected = filtered, raw = filtered;
+  unreflected.glossy_rows = 0;
+  raw.denoise = false;
+  Renderer renderer(metal.stage.world, {.field = &metal.field});
+  for (const FrameSettings& settings : {filtered, unreflected, filtered, raw, filtered}) {
+    const Camera& camera = metal.stage.scene.cameras.at(0);
+    const LayeredImage shown = renderer.render(camera, settings).value().image;
+    const LayeredImage anew = metal.picture(settings);
+    for (const Layer& layer : anew.layers) {
+      EXPECT_TRUE(shown.find(layer.name)->pixels == layer.image.pixels)
+          << layer.name << " filtered " << settings.denoise << " rows " << settings.glossy_rows;
+    }
+  }
 }
 
 TEST(FilteredFrame, LeavesHardShadowsOfASpotLightAsTheyAre) {

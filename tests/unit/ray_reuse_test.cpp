@@ -123,12 +123,12 @@ TEST_F(RayReuseTest, SumsUpInLanesWhatOnePixelAfterTheOtherDoes) {
       const GlossySettings settings{world, nullptr, frame, camera_record(camera, kWidth, kHeight),
                                     sample};
       const GlossyRows all{picture.pixels, 0};
-      std::vector<vec4> light;
+      CoatLight light;
       RayReuse().reflect(settings, {&all, 1}, all, picture.rays, light);
       int reflecting = 0;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 0; x < kWidth; ++x) {
-          const vec4 should = expected(settings, {x, y}), found = light[place_of({x, y})];
+          const vec4 should = expected(settings, {x, y}), found = light.light[place_of({x, y})];
           for (int c = 0; c < 4; ++c) {
             // Lobes of mirrors turn the rounding of half vectors into that of light
             EXPECT_NEAR(found[c], should[c], 1e-3f * std::abs(should[c]) + 1e-6f)

@@ -45,7 +45,7 @@ std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, 
       const Surface& coat = coats.surfaces[i];
       light[i] =
           coat_light(coat.reflectance, dot(coat.normal_ws, coats.to_viewer_ws[i]), coat.gi_share,
-                     memory.clearcoat_rays.empty() ? vec4(0.0f) : memory.clearcoat_rays[i],
+                     memory.clearcoat_rays.empty() ? vec4(0.0f) : memory.clearcoat_rays.light[i],
                      memory.clearcoat_irradiance[i]);
     }
   });

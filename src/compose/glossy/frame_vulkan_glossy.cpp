@@ -19,6 +19,12 @@ bool has_coats(const Scene& scene) {
 
 }  // namespace
 
+/// Whether light of coats by rays is filtered.
+bool FramePassesVulkan::filters_coats() const {
+  return request_->settings.denoise && traces_coats(*request_) &&
+         has_coats(request_->world.scene());
+}
+
 void FramePassesVulkan::glossy() {
   light_clearcoats();
   if (traces_coats(*request_) && has_coats(request_->world.scene())) {
@@ -268,6 +274,8 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
 
 void FramePassesVulkan::reuse_coat_rays(const Band& around) {
   reserve<vec4>(pixels_, "coats", memory_.coats);
+  const bool filters = request_->settings.denoise;
+  reserve<float>(filters ? pixels_ : 0, "distances of coats", memory_.coat_inverse_distances);
   add("glossy", [=, this](Recorder& to) {
     const FrameMemory& m = memory_;
     const FrameSettings& settings = request_->settings;
@@ -276,6 +284,7 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around) {
                                           {m.coat_surfaces.address()},
                                           {m.coat_rays.address()},
                                           {m.coats.address()},
+                                          {m.coat_inverse_distances.address()},
                                           camera.position_ws,
                                           camera.axes[2],
                                           camera.half_view / camera.half_size.y,
@@ -287,7 +296,9 @@ void FramePassesVulkan::reuse_coat_rays(const Band& around) {
                                           static_cast<uint>(settings.height),
                                           static_cast<uint>(settings.glossy_rows),
                                           sample_,
-                                          static_cast<uint>(settings.emissive_samples)};
+                                          static_cast<uint>(settings.emissive_samples),
+                                          settings.denoise ? 1u : 0u,
+                                          0u};
     to.run(kernels_.coat_reuse, arguments, pixels_);
   });
 }

@@ -58,7 +58,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
-  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f});
+  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, 0u});
   next_.resize(pixels);
   cones_.resize(pixels);
 }
@@ -73,7 +73,7 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_[i];
-    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha};
+    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, 0u};
     const vec2 u = next_uniform2(random);
     const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
                                        seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
@@ -116,7 +116,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         }
         rays_[first + i].direction_ws = drawn.direction_ws;
         rays_[first + i].pdf = drawn.pdf;
-        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha};
+        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, 1u};
         next_[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
         cones_[first + i] =
             reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
@@ -166,14 +166,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       path.throughput *= left_of_light(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
-      if (bounce == 1 && path.pdf != kFoundByNobodyElse) {
-        rays_[i].emission = surface.emission;
-      } else {
-        rays_[i].radiance +=
-            path.throughput * surface.emission *
-            found_emitter_weight(path.pdf,
-                                 static_cast<uint>(settings.frame.reflected_emissive_samples));
-      }
+      meet_emitter(path, surface.emission,
+                   static_cast<uint>(settings.frame.reflected_emissive_samples), rays_[i]);
       met_.coat_shares[i] = meet_coat(dot(surface.normal_ws, met_.to_viewer_ws[i]),
                                       settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
                                       met_.surfaces[i].reflectance, path);
@@ -270,15 +264,14 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
 }
 
 std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-                              const GlossyRows& band, std::vector<glm::vec4>& light) {
+                              const GlossyRows& band, CoatLight& light) {
   const std::uint64_t traced = follow_all(settings, send_rays(settings, around));
   reuse_.reflect(settings, around, band, rays_, light);
   return traced;
 }
 
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
-                           const GBuffer& pixels, GlossyMemory& memory,
-                           std::vector<glm::vec4>& light) {
+                           const GBuffer& pixels, GlossyMemory& memory, CoatLight& light) {
   light.clear();
   if (!traces_coats(request)) return 0;
   const std::vector<float>& shares = pixels.coat_shares;
@@ -321,16 +314,15 @@ std::uint64_t look_through_band(const FrameRequest& request, const Band& band, i
   return memory.coats.look_through(through, {pixels, band.first_row}, light);
 }
 
-void look_up_coats(const FrameRequest& request, const GBuffer& pixels,
-                   const std::vector<glm::vec4>& light, GlossyMemory& memory,
-                   std::vector<glm::vec3>& irradiance) {
+void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,
+                   GlossyMemory& memory, std::vector<glm::vec3>& irradiance) {
   irradiance.assign(pixels.size(), vec3(0.0f));
   memory.queries.clear();
   memory.asked.clear();
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const Surface& surface = pixels.surfaces[i];
     if (pixels.hit[i] == 0 || surface.reflectance.f90 <= 0.0f) continue;
-    if (!light.empty() && light[i].w >= 1.0f) continue;
+    if (!by_rays.empty() && by_rays.light[i].w >= 1.0f) continue;
     const vec3& to_viewer_ws = pixels.to_viewer_ws[i];
     memory.queries.push_back(
         {surface.position_ws,

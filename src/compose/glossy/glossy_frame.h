@@ -28,12 +28,11 @@ void find_coat_shares(GBuffer& pixels);
 
 class Glossy {
  public:
-  /// Light of the coats of `band`'s pixels by rays (RGB, times A) and the share of their light that
-  /// this is (A). `around` lists rows from glossy_halo above the band to as many below it, as far
-  /// as the picture reaches, the band among them; all with their coat_shares. Returns the rays
-  /// traced.
+  /// Light of the coats of `band`'s pixels by rays. `around` lists rows from glossy_halo above the
+  /// band to as many below it, as far as the picture reaches, the band among them; all with their
+  /// coat_shares. Returns the rays traced.
   std::uint64_t reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-                        const GlossyRows& band, std::vector<glm::vec4>& light);
+                        const GlossyRows& band, CoatLight& light);
 
   /// Light that comes through the surfaces of `band`'s pixels. Returns the rays traced.
   std::uint64_t look_through(const GlossySettings& settings, const GlossyRows& band,
@@ -65,9 +64,9 @@ class Glossy {
 /// Memory of the pass, kept from band to band.
 struct GlossyMemory {
   Glossy coats;
-  GBuffer above, below;                   ///< The band.
-  GBuffer clearcoats;                     ///< The band's pixels as show_clearcoats leaves them, and
-  std::vector<glm::vec4> clearcoat_rays;  ///< their light of rays,
+  GBuffer above, below;      ///< The band.
+  GBuffer clearcoats;        ///< The band's pixels as show_clearcoats leaves them, and
+  CoatLight clearcoat_rays;  ///< their light of rays,
   std::vector<glm::vec3> clearcoat_irradiance;  ///< and of the field.
   std::vector<FieldQuery> queries;
   std::vector<std::size_t> asked;  ///< Pixels of the queries, and what is answered.
@@ -84,8 +83,7 @@ void show_clearcoats(GBuffer& pixels);
 /// `light` as of Glossy::reflect, empty where no pixel does. Rows above and below the band are seen
 /// for that once more. Returns the rays traced.
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
-                           const GBuffer& pixels, GlossyMemory& memory,
-                           std::vector<glm::vec4>& light);
+                           const GBuffer& pixels, GlossyMemory& memory, CoatLight& light);
 
 /// Light that the clearcoats of a band's pixels reflect but for what lights sent them straight: by
 /// rays and by the field. Empty where no pixel has one. Returns the rays traced.
@@ -100,8 +98,7 @@ std::uint64_t look_through_band(const FrameRequest& request, const Band& band, i
 
 /// The field's irradiance where coats have light from no ray, on surfaces that face
 /// coat_direction(); 0 at other pixels.
-void look_up_coats(const FrameRequest& request, const GBuffer& pixels,
-                   const std::vector<glm::vec4>& light, GlossyMemory& memory,
-                   std::vector<glm::vec3>& irradiance);
+void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,
+                   GlossyMemory& memory, std::vector<glm::vec3>& irradiance);
 
 }  // namespace lambent

@@ -8,6 +8,22 @@
 namespace lambent {
 namespace {
 
+/// Rays of the rows around a band.
+struct RaysAround {
+  using CoatViewRef = const RaysAround&;
+  static CoatRay fetch_ray(CoatViewRef view, ivec2 pixel) {
+    const int place = (pixel.y - view.first_row) * view.picture_size.x + pixel.x;
+    return view.coat_rays[static_cast<std::size_t>(place)];
+  }
+  static ivec2 view_size(CoatViewRef view) { return view.picture_size; }
+
+#include "glossy/seen_distance.inl.h"
+
+  std::span<const CoatRay> coat_rays;
+  int first_row;
+  ivec2 picture_size;  // [pixels]
+};
+
 /// The rows of rays around a row of the picture; the outermost have half their weight.
 std::vector<NeighbourRow> rows_around(const GlossySettings& settings, int row, int first_row) {
   const int between = settings.frame.glossy_rows;
@@ -55,15 +71,17 @@ void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRow
 
 void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                        const GlossyRows& band, std::span<const CoatRay> rays,
-                       std::vector<glm::vec4>& light) {
+                       CoatLight& reflected) {
   lay_out(settings, around, rays);
   const int width = settings.frame.width;
   const int first_row = around.front().first_row;
   const auto samples = static_cast<uint>(settings.frame.emissive_samples);
   const GBuffer& pixels = band.pixels;
-  light.assign(pixels.size(), vec4(0.0f));
+  reflected.light.assign(pixels.size(), vec4(0.0f));
+  reflected.inverse_distances.assign(pixels.size(), 0.0f);
   parallel_chunks(pixels.size() / width, 1, [&](std::size_t begin, std::size_t) {
     const int y = band.first_row + static_cast<int>(begin);
+    RaysAround seen{rays, first_row, {width, settings.frame.height}};
     std::vector<CoatReceiver> receivers;
     std::vector<int> places;
     RowPlanes asked, sums;
@@ -93,8 +111,12 @@ void RayReuse::reflect(const GlossySettings& settings, std::span<const GlossyRow
     reuse_row({coats_, asked, y - first_row, 0, width, samples, neighbours}, sums);
     for (std::size_t k = 0; k < receivers.size(); ++k) {
       const std::size_t i = begin * width + places[k];
-      light[i] = pixels.coat_shares[i] *
-                 light_by_rays(reflected_rays(receivers[k], sums_of(sums, 0, places[k])));
+      reflected.light[i] = pixels.coat_shares[i] *
+                           light_by_rays(reflected_rays(receivers[k], sums_of(sums, 0, places[k])));
+      if (!settings.frame.denoise) continue;
+      reflected.inverse_distances[i] =
+          seen.seen_inverse_distance(seen, {places[k], y}, static_cast<uint>(settings.sample),
+                                     static_cast<uint>(settings.frame.glossy_rows));
     }
   });
 }

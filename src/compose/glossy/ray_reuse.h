@@ -29,6 +29,19 @@ struct GlossyRows {
   int first_row;
 };
 
+/// Light that coats reflect by rays, an entry a pixel.
+struct CoatLight {
+  std::vector<glm::vec4>
+      light;  ///< Light (RGB, times A) and the share of the coat's that it is (A).
+  std::vector<float> inverse_distances;  ///< One over the distance to what the coat sees [1/m].
+
+  bool empty() const { return light.empty(); }
+  void clear() {
+    light.clear();
+    inverse_distances.clear();
+  }
+};
+
 /// The lobe of a pixel's coat.
 CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel);
 
@@ -37,8 +50,7 @@ class RayReuse {
  public:
   /// Light of `band`'s pixels, as of Glossy::reflect, from the rays of all pixels `around`.
   void reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
-               const GlossyRows& band, std::span<const CoatRay> rays,
-               std::vector<glm::vec4>& light);
+               const GlossyRows& band, std::span<const CoatRay> rays, CoatLight& reflected);
 
  private:
   void lay_out(const GlossySettings& settings, std::span<const GlossyRows> around,

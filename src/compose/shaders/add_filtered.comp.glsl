@@ -17,8 +17,17 @@ void main() {
   if (args.emitters != 0u) {
     vec3 direct = args.share * args.pixels.at[0].emitter_albedo.at[i] *
                   args.pixels.at[0].filtered_emitters.at[i];
+    vec3 glossy = args.share * args.pixels.at[0].highlight_albedo.at[i] *
+                  args.pixels.at[0].filtered_highlights.at[i];
     layers.direct += direct;
-    layers.all += direct;
+    layers.glossy += glossy;
+    layers.all += direct + glossy;
+  }
+  if (args.coats != 0u && args.pixels.at[0].coat_lobes.at[i].sharpness > 0.0f) {
+    vec3 glossy =
+        args.share * args.pixels.at[0].coat_albedo.at[i] * args.pixels.at[0].filtered_coats.at[i];
+    layers.glossy += glossy;
+    layers.all += glossy;
   }
   if (args.gathered != 0u && args.pixels.at[0].receives.at[i] != 0u) {
     vec3 irradiance = args.share * args.pixels.at[0].filtered_gathered.at[i];

@@ -13,6 +13,44 @@ layout(push_constant, scalar) uniform Push {
   KeepPixelsArguments args;
 };
 
+/// Keeps the light that a pixel's coat reflects by rays. Returns whether there is any.
+bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface, float passed) {
+  vec4 by_rays = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
+  args.pixels.at[0].coats.at[pixel] = vec3(0.0f);
+  args.pixels.at[0].coat_lobes.at[pixel].sharpness = 0.0f;
+  if ((surface.flags & kSurfaceMissed) != 0u || by_rays.w <= 0.0f) return false;
+  float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
+  vec3 albedo = filtered_coat_albedo(surface.reflectance, n_dot_v, by_rays.w);
+  args.pixels.at[0].coats.at[pixel] = vec3(by_rays) / albedo;
+  args.pixels.at[0].coat_albedo.at[pixel] = passed * albedo;
+  args.pixels.at[0].coat_lobes.at[pixel] =
+      lobe_guide(point.normal_ws, surface.to_viewer_ws, surface.reflectance.alpha,
+                 args.coat_inverse_distances.at[i]);
+  return true;
+}
+
+/// Keeps the specular light of emitters.
+void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface,
+                    bool has_rays, float passed) {
+  args.pixels.at[0].highlights.at[pixel] = vec3(0.0f);
+  args.pixels.at[0].highlight_albedo.at[pixel] = vec3(0.0f);
+  args.pixels.at[0].highlight_lobes.at[pixel].sharpness = 0.0f;
+  if ((surface.flags & kSurfaceMissed) != 0u) return;
+  vec3 albedo = vec3(1.0f);
+  if (has_rays) {
+    float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
+    albedo = filtered_coat_albedo(surface.reflectance, n_dot_v, 1.0f);
+    float alpha = highlight_alpha(surface.reflectance);
+    if (alpha > 0.0f) {
+      args.pixels.at[0].highlight_lobes.at[pixel] =
+          lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha,
+                     args.coat_inverse_distances.at[i]);
+    }
+  }
+  args.pixels.at[0].highlights.at[pixel] = args.emitter_specular.at[i] / albedo;
+  args.pixels.at[0].highlight_albedo.at[pixel] = passed * albedo;
+}
+
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
@@ -25,8 +63,11 @@ void main() {
   args.pixels.at[0].normals_ws.at[pixel] = point.normal_ws;
   args.pixels.at[0].geometric_normals_ws.at[pixel] = point.geometric_normal_ws;
   args.pixels.at[0].depths.at[pixel] = seen ? depth : 0.0f;
-  float passed = args.has_fog != 0u ? args.fog.at[i].w : 1.0f;
+  float passed = (args.has & kHasFog) != 0u ? args.fog.at[i].w : 1.0f;
+  bool has_rays = (args.has & kCoatsAreFiltered) != 0u &&
+                  keep_coat(i, pixel, point, surface, passed);
   if (args.draws > 0u) {
+    keep_highlight(i, pixel, point, surface, has_rays, passed);
     vec3 albedo = filtered_albedo(surface.reflectance);
     vec3 light = seen ? args.emitters.at[i] / albedo : vec3(0.0f);
     float level = 0.0f;
@@ -45,7 +86,7 @@ void main() {
                : 0.0f;
     }
   }
-  if (args.gathered != 0u) {
+  if ((args.has & kIsFiltered) != 0u) {
     float share = seen ? surface.gi_share : 0.0f;
     args.pixels.at[0].looked_up.at[pixel] = seen ? share * args.irradiance.at[i] : vec3(0.0f);
     args.pixels.at[0].receives.at[pixel] = share > 0.0f ? 1u : 0u;

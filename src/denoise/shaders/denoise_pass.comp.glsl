@@ -20,6 +20,10 @@ float zero_unless_positive(float condition, float value) {
   return condition > 0.0f ? value : 0.0f;
 }
 
+float larger(float a, float b) {
+  return max(a, b);
+}
+
 /// The pixel that lies so far from this one; none where that is outside the picture.
 bool pixel_at(int x, int y, out uint i) {
   ivec2 place = pixel + ivec2(x, y);
@@ -34,6 +38,7 @@ float fetch_guide(int plane, int x, int y) {
   float depth = args.depths.at[i];
   if (plane == kInverseDepthPlane) return depth > 0.0f ? 1.0f / depth : 0.0f;
   if (plane < kNormalPlane) return args.positions_ws.at[i][plane - kPositionPlane];
+  if (args.by.has_lobes != 0u && args.lobes.at[i].sharpness <= 0.0f) return 0.0f;
   return depth > 0.0f ? args.normals_ws.at[i][plane - kNormalPlane] : 0.0f;
 }
 
@@ -44,6 +49,15 @@ float fetch_light(int plane, int x, int y) {
   if (plane == kSharePlane) return args.in_light.at[i].share;
   return plane < kSpreadPlane ? args.in_light.at[i].light[plane - kLightPlane]
                               : args.in_light.at[i].base[plane - kBasePlane];
+}
+
+float fetch_lobe(int plane, int x, int y) {
+  uint i;
+  if (!pixel_at(x, y, i)) return 0.0f;
+  if (plane == kLobeSharpnessPlane) return args.lobes.at[i].sharpness;
+  if (plane == kSeenDistancePlane) return args.lobes.at[i].inverse_distance;
+  return plane < kAcrossPlane ? args.lobes.at[i].mirror_ws[plane - kMirrorPlane]
+                              : args.lobes.at[i].across_ws[plane - kAcrossPlane];
 }
 
 #include "denoise/atrous.inl.h"

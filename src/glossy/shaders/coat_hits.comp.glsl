@@ -26,12 +26,10 @@ void main() {
     return;
   }
   path.throughput *= left_of_light(surface.transmission, args.hits.at[k].distance);
-  if (args.bounce == 1u && path.pdf != kFoundByNobodyElse) {
-    args.coat_rays.at[i].emission = surface.emission;
-  } else {
-    args.coat_rays.at[i].radiance +=
-        path.throughput * surface.emission * found_emitter_weight(path.pdf, args.emitter_samples);
-  }
+  CoatRay ray = args.coat_rays.at[i];
+  meet_emitter(path, surface.emission, args.emitter_samples, ray);
+  args.coat_rays.at[i].radiance = ray.radiance;
+  args.coat_rays.at[i].emission = ray.emission;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
   surface.coat_share = meet_coat(n_dot_v, gi_share, args.bounce, surface.reflectance, path);

@@ -29,11 +29,13 @@ ivec2 view_size(CoatReuseArguments view) {
 }
 
 #include "glossy/reuse.inl.h"
+#include "glossy/seen_distance.inl.h"
 
 void main() {
   uint k = gl_GlobalInvocationID.x;
   if (k >= args.count) return;
   args.light.at[k] = vec4(0.0f);
+  if (args.finds_distances != 0u) args.inverse_distances.at[k] = 0.0f;
   ivec2 pixel = ivec2(k % args.width, args.band_row + k / args.width);
   uint i = index_of(args, pixel);
   PixelSurfaceRecord surface = args.surfaces.at[i];
@@ -55,4 +57,7 @@ void main() {
   find_lobe(at);
   args.light.at[k] =
       surface.coat_share * reuse_rays(args, pixel, at, args.sample_index, args.rows);
+  if (args.finds_distances == 0u) return;
+  args.inverse_distances.at[k] =
+      seen_inverse_distance(args, pixel, args.sample_index, args.rows);
 }

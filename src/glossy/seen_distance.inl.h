@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far away lies what coats see, in the common subset of C++ and GLSL. The includer provides the
+// type
+//   CoatViewRef   pixels and their rays
+// and
+//   CoatRay fetch_ray(CoatViewRef view, ivec2 pixel)
+//   ivec2 view_size(CoatViewRef view)                    of the picture [pixels]
+
+/// Mean of one over the distance to what a pixel's ray and those around it met [1/m]; 0 where none
+/// met anything. One ray alone would say little of what a rough coat sees.
+LAMBENT_FN float seen_inverse_distance(CoatViewRef view, ivec2 pixel, uint sample_index,
+                                       uint rows) {
+  ivec2 size = view_size(view);
+  int reach = kReuse * int(rows);
+  float sum = 0.0f;
+  float rays = 0.0f;
+  for (int dy = -reach; dy <= reach; ++dy) {
+    int y = pixel.y + dy;
+    if (y < 0 || y >= size.y) continue;
+    if (dy != 0 && !has_coat_rays(y, sample_index, rows)) continue;
+    for (int dx = -kReuse; dx <= kReuse; ++dx) {
+      int x = pixel.x + dx;
+      if (x < 0 || x >= size.x) continue;
+      CoatRay ray = fetch_ray(view, ivec2(x, y));
+      if (ray.pdf <= 0.0f) continue;
+      rays += 1.0f;
+      if (floatBitsToUint(ray.distance) != kMissedDistanceBits) {
+        sum += 1.0f / max(ray.distance, kLeastSeenDistance);
+      }
+    }
+  }
+  return rays > 0.0f ? sum / rays : 0.0f;
+}
