@@ -26,6 +26,12 @@ constexpr double kSettledChange = 0.002;
 // ... or after so many updates.
 constexpr int kMaxSettleUpdates = 256;
 
+// Light of a picture is calm enough when an update changes the field by less than this share of it:
+// about what is left of noise in clouds around probes is then a few percent. More updates than the
+// most bring less than they cost.
+constexpr double kCalmChange = 0.01;
+constexpr int kMaxCalmUpdates = 24;
+
 const std::map<std::string, IrradianceFormat> kIrradianceFormats = {
     {"rgb9e5", IrradianceFormat::rgb9e5},
     {"r11g11b10f", IrradianceFormat::r11g11b10f},
@@ -64,8 +70,15 @@ std::vector<std::string> names_of(const std::map<std::string, Value>& values) {
 
 using AfterUpdate = std::function<void(const FieldProgress&)>;
 
-/// Updates a field until it has had `most` updates more than `before`, or has settled.
-FieldProgress run_updates(const World& world, int before, int most, bool until_settled,
+/// How often a field is updated: until an update changes it by less than a share, within limits.
+struct UpdateLimits {
+  int least;
+  int most;
+  double change;  // 0: as often as may be
+};
+
+/// Updates a field that has had `before` updates already, which count.
+FieldProgress run_updates(const World& world, int before, const UpdateLimits& limits,
                           const UpdateRequest& request, IrradianceField& field,
                           const ProgressFn& progress, const AfterUpdate& after,
                           nlohmann::ordered_json& stats) {
@@ -74,7 +87,11 @@ FieldProgress run_updates(const World& world, int before, int most, bool until_s
   UpdateStatistics last, sum;
   std::map<std::string, double> pass_ms;
   for (const char* pass : kPasses) pass_ms[pass] = 0.0;
-  const auto done = [&] { return reached.updates >= most || (until_settled && reached.settled); };
+  const auto calm = [&] {
+    return reached.updates > before && reached.updates >= limits.least &&
+           reached.change < limits.change;
+  };
+  const auto done = [&] { return reached.updates >= limits.most || calm(); };
   while (!done()) {
     last = field.update(world, request);
     ++reached.updates;
@@ -88,7 +105,7 @@ FieldProgress run_updates(const World& world, int before, int most, bool until_s
     sum.probes_invalidated += last.probes_invalidated;
     sum.probes_changed += last.probes_changed;
     sum.probes_recycled += last.probes_recycled;
-    if (progress) progress("field", static_cast<double>(reached.updates) / most);
+    if (progress) progress("field", static_cast<double>(reached.updates) / limits.most);
     if (after && !done()) after(reached);
   }
   const FieldGrid& grid = field.grids().front();
@@ -246,19 +263,28 @@ Error in_options(Error error, const FieldOptions& options) {
 FieldProgress update_field(const World& world, int updates, const UpdateRequest& request,
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats) {
-  return run_updates(world, 0, updates, false, request, field, progress, {}, stats);
+  return run_updates(world, 0, {updates, updates, 0.0}, request, field, progress, {}, stats);
+}
+
+FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
+                         IrradianceField& field, const ProgressFn& progress,
+                         nlohmann::ordered_json& stats) {
+  const UpdateLimits limits{least, std::max(least, kMaxCalmUpdates), kCalmChange};
+  return run_updates(world, 0, limits, request, field, progress, {}, stats);
 }
 
 FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
                            const ProgressFn& progress, nlohmann::ordered_json& stats) {
-  return run_updates(world, 0, kMaxSettleUpdates, true, request, field, progress, {}, stats);
+  const UpdateLimits limits{1, kMaxSettleUpdates, kSettledChange};
+  return run_updates(world, 0, limits, request, field, progress, {}, stats);
 }
 
 FieldProgress bake_field(const World& world, const UpdateRequest& request, const BakeLoop& loop,
                          IrradianceField& field, nlohmann::ordered_json& stats) {
-  const bool until_settled = loop.updates == 0;
-  return run_updates(world, field.updates(), until_settled ? kMaxSettleUpdates : loop.updates,
-                     until_settled, request, field, loop.progress, loop.after_update, stats);
+  const UpdateLimits limits = loop.updates == 0 ? UpdateLimits{1, kMaxSettleUpdates, kSettledChange}
+                                                : UpdateLimits{loop.updates, loop.updates, 0.0};
+  return run_updates(world, field.updates(), limits, request, field, loop.progress,
+                     loop.after_update, stats);
 }
 
 }  // namespace lambent::cli

@@ -59,6 +59,12 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats);
 
+/// Likewise, at least so often, until an update changes the field by less than 1 %, at most 24
+/// times: what small bright patches leave of noise in it shows in mirrors and on walls.
+FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
+                         IrradianceField& field, const ProgressFn& progress,
+                         nlohmann::ordered_json& stats);
+
 /// Likewise, until an update changes the field by less than 0.2 %, at most 256 times.
 FieldProgress settle_field(const World& world, const UpdateRequest& request, IrradianceField& field,
                            const ProgressFn& progress, nlohmann::ordered_json& stats);

@@ -96,6 +96,13 @@ glm::ivec2 preview_of(const glm::ivec2& size, int side) {
           std::max(1, static_cast<int>(std::lround(size.y * scale)))};
 }
 
+// Updates that bring all bounces to all probes, with what noise is left.
+constexpr int kFewUpdates = 8;
+
+int first_updates(const RenderOptions& options) {
+  return options.updates < 0 ? kFewUpdates : options.updates;
+}
+
 }  // namespace
 
 FrameRenderer::FrameRenderer(const RenderOptions& options, const World& world,
@@ -119,7 +126,12 @@ Expected<void> FrameRenderer::follow(const Camera& camera, Json& stats) {
   if (options_.converge) {
     settle_field(world_, {0, 0.0, viewer}, *field_, progress_, stats);
   } else {
-    update_field(world_, options_.updates, {0, 0.0, viewer}, *field_, progress_, stats);
+    const UpdateRequest request{0, 0.0, viewer};
+    if (wants_calm_field(options_)) {
+      calm_field(world_, kFewUpdates, request, *field_, progress_, stats);
+    } else {
+      update_field(world_, first_updates(options_), request, *field_, progress_, stats);
+    }
   }
   return {};
 }
@@ -138,8 +150,9 @@ Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
   const FirstBounce lights_alone(world_.scene());
   Json ignored;
   const UpdateRequest request{0, 0.0, viewer};
-  update_field(lights_alone.world(), options_.updates, request, *first_bounce_, progress_, ignored);
-  update_field(world_, options_.updates, request, *field_, progress_, stats);
+  const int updates = first_updates(options_);
+  update_field(lights_alone.world(), updates, request, *first_bounce_, progress_, ignored);
+  update_field(world_, updates, request, *field_, progress_, stats);
   return {};
 }
 

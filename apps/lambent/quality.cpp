@@ -89,6 +89,10 @@ Expected<FieldSettings> picture_field_settings(const RenderOptions& options, con
   return settings;
 }
 
+bool wants_calm_field(const RenderOptions& options) {
+  return options.updates < 0 && options.frames == 0 && chosen_quality(options) == Quality::high;
+}
+
 bool uses_taa(const RenderOptions& options) {
   return options.frames > 0 && options.method != "reference" && !leaves_out(options, "taa");
 }

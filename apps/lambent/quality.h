@@ -28,6 +28,9 @@ FrameSettings frame_settings(const RenderOptions& options, const glm::ivec2& siz
 /// otherwise.
 Expected<FieldSettings> picture_field_settings(const RenderOptions& options, const Scene& scene);
 
+/// Whether the field is updated until its light is calm, not a fixed number of times.
+bool wants_calm_field(const RenderOptions& options);
+
 /// Whether a sequence's frames are anti-aliased over time.
 bool uses_taa(const RenderOptions& options);
 

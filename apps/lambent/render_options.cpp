@@ -84,9 +84,11 @@ void add_field_render_options(CLI::App& command, RenderOptions& o) {
       ->type_name("N");
   command.add_option("--field", o.field_file, "Start from the field in this file, of lambent bake")
       ->type_name("FILE");
-  command.add_option("--updates", o.updates, "Updates of the field before the frame")
+  command
+      .add_option("--updates", o.updates,
+                  "Updates of the field before the frame (8; of pictures of --quality high up to "
+                  "24, until one changes it by less than 1 %)")
       ->check(whole_number(0, kMaxUpdates))
-      ->capture_default_str()
       ->type_name("N");
   command.add_flag("--converge", o.converge, "Or update until the field has settled")
       ->excludes("--updates");

@@ -58,7 +58,7 @@ struct RenderOptions {
 
   FieldOptions field;
   std::string field_file;  // to start from; empty: nothing
-  int updates = 8;
+  int updates = -1;        // -1: the quality's
   bool converge = false;
   std::string show_probes;                            // which aspect; empty: not
   std::vector<const CLI::Option*> of_running_fields;  // what a field that frames share is asked

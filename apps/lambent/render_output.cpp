@@ -20,7 +20,7 @@ constexpr const char* kFramePlace = "####";
 /// Rendered and written at a time: about 120 MB with all layers, and enough to keep all cores busy.
 constexpr std::size_t kBandPixels = std::size_t{1} << 20;
 /// The same of pictures that are filtered, of which each band takes rows of its neighbours with it:
-/// about 0.7 GB.
+/// about 1 GB.
 constexpr std::size_t kFilteredBandPixels = std::size_t{1} << 21;
 /// Pictures of no more are kept until their exposure is known (400 MB, an 8K frame); of larger ones
 /// a small picture of the same view tells it.

@@ -150,6 +150,22 @@ TEST_F(Render, ConvergesAndTellsHowMuchTheLastUpdateChanged) {
   EXPECT_LT(json["field_change_last_update"].get<double>(), 0.01);
 }
 
+// Few rays leave noise: a picture of high quality has more updates, until the light is calm.
+TEST_F(Render, UpdatesTheFieldUntilItIsCalmWhereQualityIsHigh) {
+  const std::string stats = directory.file("stats.json");
+  const auto updates_of = [&](const std::string& options) {
+    const std::string picture = "two-rooms --size 8x8 --probes 4x4x4 --rays 16 --gather 0 ";
+    EXPECT_EQ(render(picture + options + " --stats " + stats, exr).status, 0);
+    return nlohmann::json::parse(bytes_of(stats));
+  };
+  const auto high = updates_of("--quality high");
+  EXPECT_GT(high["updates"], 8);
+  EXPECT_LE(high["updates"], 24);
+  EXPECT_TRUE(high["updates"] == 24 || high["field_change_last_update"] < 0.01);
+  EXPECT_EQ(updates_of("--quality draft")["updates"], 8);
+  EXPECT_EQ(updates_of("--quality high --updates 3")["updates"], 3);
+}
+
 struct BadUse {
   const char* name;
   const char* arguments;
