@@ -15,11 +15,6 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 4096;
 
-std::size_t traced_pixels(const FrameRequest& request) {
-  const Band rows = traced_rows(request.settings);
-  return static_cast<std::size_t>(rows.rows) * static_cast<std::size_t>(request.settings.width);
-}
-
 /// Copies a band's values to their place, where there are any.
 template <class T>
 void keep(std::span<const T> band, std::size_t first, std::size_t pixels, std::vector<T>& all) {
@@ -131,6 +126,11 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
 
 }  // namespace
 
+std::size_t traced_pixels(const FrameRequest& request) {
+  const Band rows = traced_rows(request.settings);
+  return static_cast<std::size_t>(rows.rows) * static_cast<std::size_t>(request.settings.width);
+}
+
 Band traced_rows(const FrameSettings& settings) {
   const Band rows = rendered_rows(settings);
   if (!settings.denoise) return rows;
@@ -170,7 +170,14 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
   } else {
     pixels.highlights.clear();
   }
-  if (!emitters && !gathered && light.coats == nullptr) {
+  if (light.transmitted != nullptr) {
+    keep_through(
+        {gbuffer, light.transmitted->light, light.transmitted->distances, light.fog, first},
+        pixels.through);
+  } else {
+    pixels.through.clear();
+  }
+  if (!emitters && !gathered && light.coats == nullptr && light.transmitted == nullptr) {
     pixels.emitters.clear();
     pixels.gathered.clear();
     return;
@@ -205,15 +212,17 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       pixels.depths[pixel] = seen ? view_depth(camera, surface.position_ws) : 0.0f;
       const float passed = passed_by_fog(light, i);
       if (emitters) {
-        const vec3 albedo = filtered_albedo(surface.reflectance);
-        const vec3 found = light.direct.emitters[i] / albedo;
-        const float level =
-            seen ? filtered_level(light.direct.unoccluded[i], luminance(found)) : 0.0f;
-        const float inverse = inverse_level(level);
-        pixels.emitter_levels[pixel] = level;
-        pixels.emitter_albedo[pixel] = passed * level * albedo;
-        pixels.emitters[pixel] = inverse * found;
-        if (!pixels.emitter_variance.empty()) pixels.emitter_variance[pixel] *= inverse * inverse;
+        FilteredEmitter emitter{};
+        if (seen) {
+          emitter = filtered_emitter(surface.reflectance, light.direct.emitters[i],
+                                     light.direct.unoccluded[i]);
+        }
+        pixels.emitter_levels[pixel] = emitter.level;
+        pixels.emitter_albedo[pixel] = passed * emitter.albedo;
+        pixels.emitters[pixel] = emitter.light;
+        if (!pixels.emitter_variance.empty()) {
+          pixels.emitter_variance[pixel] *= emitter.inverse * emitter.inverse;
+        }
       }
       if (gathered) {
         pixels.receives[pixel] = surface.gi_share > 0.0f ? 1 : 0;
@@ -250,10 +259,12 @@ void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
     assert(done);
   }
   filter_coats(view, pixels);
+  filter_through(view, pixels.denoiser, pixels.through);
 }
 
 void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float share,
                    Layers& layers) {
+  show_through(pixels.through, shown, share, layers);
   parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;

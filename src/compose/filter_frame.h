@@ -7,7 +7,7 @@
 
 #include "compose/frame_passes.h"
 #include "compose/gbuffer.h"
-#include "compose/glossy/ray_reuse.h"
+#include "compose/glossy/glossy_frame.h"
 #include "compose/layers.h"
 #include "gather/gather.h"
 #include "lambent/denoise.h"
@@ -40,6 +40,8 @@ struct FilteredPixels {
   std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_coats,
       filtered_highlights;
 
+  SeenThrough through;
+
   Denoiser denoiser;
 };
 
@@ -50,8 +52,12 @@ struct BandToFilter {
   const GatheredLight* gathered = nullptr;            ///< Null: it is not gathered.
   const std::vector<glm::vec3>* looked_up = nullptr;  ///< With `gathered`.
   const CoatLight* coats = nullptr;                   ///< Null: none have rays.
+  const TransmittedLight* transmitted = nullptr;      ///< Null: no surface lets light through.
   std::span<const glm::vec4> fog = {};  ///< As of fog_along, a pixel each; empty: there is none.
 };
+
+/// How many these are.
+std::size_t traced_pixels(const FrameRequest& request);
 
 /// Keeps a band's sample.
 void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilter& light,

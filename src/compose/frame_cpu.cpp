@@ -61,16 +61,17 @@ void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<
 /// Everything that one sample of one band brings.
 struct BandLight {
   ReflectedLight direct;
-  std::vector<vec3> irradiance;         // indirect, on the surface
-  bool has_indirect = false;            // there is such light
-  bool looked_up = false;               // it was looked up in the field
-  bool is_filtered = false;             // it is gathered, and shown once it was filtered
-  std::vector<vec3> mirror_irradiance;  // indirect, on a surface that faces coat_direction()
-  CoatLight coats;                      // light of coats by rays; none: no rays
-  bool coats_are_filtered = false;      // that of rays is shown once it was filtered
-  std::vector<vec3> clearcoats;         // light of clearcoats; none: of mirror_irradiance
-  std::vector<vec3> transmitted;        // light that comes through surfaces; none: no glass
-  std::vector<vec4> fog;                // that pixels are seen through, as of fog_along; or none
+  std::vector<vec3> irradiance;          // indirect, on the surface
+  bool has_indirect = false;             // there is such light
+  bool looked_up = false;                // it was looked up in the field
+  bool is_filtered = false;              // it is gathered, and shown once it was filtered
+  std::vector<vec3> mirror_irradiance;   // indirect, on a surface that faces coat_direction()
+  CoatLight coats;                       // light of coats by rays; none: no rays
+  bool coats_are_filtered = false;       // that of rays is shown once it was filtered
+  std::vector<vec3> clearcoats;          // light of clearcoats; none: of mirror_irradiance
+  TransmittedLight transmitted;          // light that comes through surfaces; none: no glass
+  bool transmitted_is_filtered = false;  // and is shown once it was filtered
+  std::vector<vec4> fog;                 // that pixels are seen through, as of fog_along; or none
 };
 
 /// Adds a band's sample to the layers, each pixel with weight `share`.
@@ -112,7 +113,8 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       }
 
       const float seen = share * passed;
-      const vec3 transmitted = light.transmitted.empty() ? vec3(0.0f) : light.transmitted[i];
+      const bool adds_transmitted = !light.transmitted.empty() && !light.transmitted_is_filtered;
+      const vec3 transmitted = adds_transmitted ? light.transmitted.light[i] : vec3(0.0f);
       add(layers.direct, pixel, seen * light.direct.diffuse[i]);
       add(layers.indirect, pixel, seen * indirect);
       add(layers.glossy, pixel, seen * glossy);
@@ -241,8 +243,14 @@ class FramePassesCpu final : public FramePasses {
   }
 
   void transmission() override {
+    EmittersApart apart;
+    if (filters_through(request())) {
+      apart = {&to_filter_.through, first_pixel()};
+      if (first_pixel() == 0)
+        to_filter_.through.start(traced_pixels(request()), request().settings);
+    }
     now_->frame.rays +=
-        look_through_band(request(), band_, sample_, gbuffer_, glossy_, light_.transmitted);
+        look_through_band(request(), band_, sample_, gbuffer_, apart, glossy_, light_.transmitted);
     finish_pass("transmission");
   }
 
@@ -277,6 +285,7 @@ class FramePassesCpu final : public FramePasses {
     light_.looked_up = is_looked_up(request());
     light_.is_filtered = settings.denoise && gathers(request());
     light_.coats_are_filtered = settings.denoise && traces_coats(request());
+    light_.transmitted_is_filtered = filters_through(request());
     accumulate(request().world, request().camera, gbuffer_, light_, shown_pixels(band_, settings),
                share, now_->layers);
     if (settings.denoise) {
@@ -284,6 +293,7 @@ class FramePassesCpu final : public FramePasses {
       band.fog = light_.fog;
       if (light_.coats_are_filtered) band.coats = &light_.coats;
       if (light_.is_filtered) band.gathered = &gathered_, band.looked_up = &light_.irradiance;
+      if (light_.transmitted_is_filtered) band.transmitted = &light_.transmitted;
       keep_pixels(request(), band_, band, to_filter_);
     }
     finish_pass("compose");

@@ -8,7 +8,7 @@
 #include "core/stopwatch.h"
 #include "field/field_access.h"
 #include "field/field_backend.h"
-#include "gather/gather.h"
+#include "gather/gather_math.h"
 #include "lambent/field.h"
 #include "raytracing/camera_rays.h"
 
@@ -86,7 +86,7 @@ void FramePassesVulkan::gather() {
   shading.max_albedo = request_->sources.field->settings().max_albedo;
   shading.salt = sample_;
   shading.seed = request_->settings.seed;
-  shading.candidates = gather_candidates(world_.scene().light_tree_size());
+  shading.candidates = kGatherCandidates;
 
   for (std::uint32_t first = 0; first < pixels_; first += chunk) {
     const std::uint32_t count = std::min(chunk, pixels_ - first), rays = count * rays_per_pixel;

@@ -40,6 +40,24 @@ LAMBENT_FN float indirect_share(float gi_share, uint looked_up) {
   return gi_share > 0.0f ? 1.0f : 0.0f;
 }
 
+/// Direct light of emitters as it is filtered.
+struct FilteredEmitter {
+  vec3 light;     ///< Without albedo, over the level.
+  vec3 albedo;    ///< What comes of filtered light to the viewer: albedo times level.
+  float level;    ///< As of filtered_level.
+  float inverse;  ///< One over it.
+};
+
+/// `reflected`: what was found, with albedo. `unoccluded`: as of filtered_level.
+LAMBENT_FN FilteredEmitter filtered_emitter(Reflectance surface, vec3 reflected, float unoccluded) {
+  vec3 albedo = filtered_albedo(surface);
+  vec3 found = reflected / albedo;
+  float level = filtered_level(unoccluded, luminance(found));
+  float inverse = inverse_level(level);
+  FilteredEmitter filtered = {inverse * found, level * albedo, level, inverse};
+  return filtered;
+}
+
 /// The albedo without which light that a coat reflects by rays is filtered, where these bring
 /// `coat_share` of its light.
 LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float coat_share) {

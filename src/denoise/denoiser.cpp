@@ -55,56 +55,50 @@ bool is_filtered(const DenoiseView& view, std::size_t pixel) {
   return view.depths[pixel] > 0.0f && (!has_lobes(view) || view.lobes.alphas[pixel] > 0.0f);
 }
 
-void load_guide(const DenoiseView& view, std::span<const float> levels, PlanePicture& guide) {
-  guide.shape(view.width, view.height, kDenoiseGuidePlanes);
+/// Fills a picture of so many planes: write(row, x, i) stores pixel i, which stands at x of a row.
+template <class Write>
+void fill_planes(const DenoiseView& view, int planes, PlanePicture& picture, Write write) {
+  picture.shape(view.width, view.height, planes);
   for_each_row(view.height, [&](int y) {
-    const Planes row = guide.row(y);
+    const Planes row = picture.row(y);
     const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
-    for (int x = 0; x < view.width; ++x) {
-      const std::size_t i = first + static_cast<std::size_t>(x);
-      const bool seen = is_filtered(view, i);
-      store_vector(row, kPositionPlane, x, view.positions_ws[i]);
-      store_vector(row, kNormalPlane, x, seen ? view.normals_ws[i] : vec3(0.0f));
-      row.at(kInverseDepthPlane)[x] = seen ? 1.0f / view.depths[i] : 0.0f;
-      row.at(kLevelPlane)[x] = levels.empty() ? 0.0f : levels[i];
-    }
+    for (int x = 0; x < view.width; ++x) write(row, x, first + static_cast<std::size_t>(x));
+  });
+}
+
+void load_guide(const DenoiseView& view, std::span<const float> levels, PlanePicture& guide) {
+  fill_planes(view, kDenoiseGuidePlanes, guide, [&](const Planes& row, int x, std::size_t i) {
+    const bool seen = is_filtered(view, i);
+    store_vector(row, kPositionPlane, x, view.positions_ws[i]);
+    store_vector(row, kNormalPlane, x, seen ? view.normals_ws[i] : vec3(0.0f));
+    row.at(kInverseDepthPlane)[x] = seen ? 1.0f / view.depths[i] : 0.0f;
+    row.at(kLevelPlane)[x] = levels.empty() ? 0.0f : levels[i];
   });
 }
 
 void load_lobes(const DenoiseView& view, PlanePicture& lobes) {
-  lobes.shape(view.width, view.height, kLobePlanes);
-  for_each_row(view.height, [&](int y) {
-    const Planes row = lobes.row(y);
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
-    for (int x = 0; x < view.width; ++x) {
-      const std::size_t i = first + static_cast<std::size_t>(x);
-      const LobeGuide guide =
-          is_filtered(view, i) ? lobe_guide(view.normals_ws[i], view.lobes.to_viewer_ws[i],
-                                            view.lobes.alphas[i], view.lobes.inverse_distances[i])
-                               : LobeGuide{};
-      store_vector(row, kMirrorPlane, x, guide.mirror_ws);
-      store_vector(row, kAcrossPlane, x, guide.across_ws);
-      row.at(kLobeSharpnessPlane)[x] = guide.sharpness;
-      row.at(kSeenDistancePlane)[x] = guide.inverse_distance;
+  fill_planes(view, kLobePlanes, lobes, [&](const Planes& row, int x, std::size_t i) {
+    LobeGuide guide{};
+    if (is_filtered(view, i)) {
+      guide = lobe_guide(view.normals_ws[i], view.lobes.to_viewer_ws[i], view.lobes.alphas[i],
+                         view.lobes.inverse_distances[i]);
     }
+    store_vector(row, kMirrorPlane, x, guide.mirror_ws);
+    store_vector(row, kAcrossPlane, x, guide.across_ws);
+    row.at(kLobeSharpnessPlane)[x] = guide.sharpness;
+    row.at(kSeenDistancePlane)[x] = guide.inverse_distance;
   });
 }
 
 void load_light(const DenoiseView& view, const NoisyLight& light, PlanePicture& to) {
   const bool has_base = !light.base.empty();
-  to.shape(view.width, view.height, kDenoisePlanes);
-  for_each_row(view.height, [&](int y) {
-    const Planes row = to.row(y);
-    const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(view.width);
-    for (int x = 0; x < view.width; ++x) {
-      const std::size_t i = first + static_cast<std::size_t>(x);
-      const vec3 base = has_base ? light.base[i] : vec3(0.0f);
-      store_vector(row, 0, x, light.light[i]);
-      row.at(kSpreadPlane)[x] =
-          light.variance.empty() ? unmeasured_spread(light.light[i], base) : light.variance[i];
-      row.at(kSharePlane)[x] = 1.0f;
-      if (has_base) store_vector(row, kBasePlane, x, base);
-    }
+  fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
+    const vec3 base = has_base ? light.base[i] : vec3(0.0f);
+    store_vector(row, kLightPlane, x, light.light[i]);
+    row.at(kSpreadPlane)[x] =
+        light.variance.empty() ? unmeasured_spread(light.light[i], base) : light.variance[i];
+    row.at(kSharePlane)[x] = 1.0f;
+    if (has_base) store_vector(row, kBasePlane, x, base);
   });
 }
 

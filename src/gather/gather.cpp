@@ -134,7 +134,7 @@ std::uint64_t gather_irradiance(const World& world, const IrradianceField& field
   shading.max_albedo = field.settings().max_albedo;
   shading.salt = request.sample;
   shading.seed = request.seed;
-  shading.candidates = gather_candidates(lights_of(world).nodes().size());
+  shading.candidates = kGatherCandidates;
   std::atomic<std::uint64_t> traced = 0;
   parallel_chunks(request.seen.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     GatherChunk chunk(world, request, begin, end);

@@ -9,7 +9,6 @@
 
 #include "lambent/field.h"
 #include "lambent/world.h"
-#include "raytracing/emitter_sampling.h"
 #include "raytracing/surface.h"
 
 namespace lambent {
@@ -36,13 +35,6 @@ struct GatheredLight {
   /// without; empty where there are none.
   std::vector<glm::vec3> excess;
 };
-
-/// Candidates of emitters at what gathering rays meet, for a light tree of so many nodes; see
-/// candidates_per_sample. In rooms of many lamps, four take gathers 1.25 to 1.4 times as long as
-/// two, for 5 to 10 % less noise; in a tree of one group a candidate costs next to nothing.
-inline std::uint32_t gather_candidates(std::size_t light_tree_size) {
-  return light_tree_size < 2 * kLightGroupSize ? kCandidates : kMinCandidates;
-}
 
 /// Returns the rays traced, shadow rays included.
 std::uint64_t gather_irradiance(const World& world, const IrradianceField& field,

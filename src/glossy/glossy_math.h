@@ -88,6 +88,13 @@ const float kPlaneTolerance = 4.0f;
 /// Distances to what rays met count as this long at least [m], so that one over them is a number.
 const float kLeastSeenDistance = 1e-4f;
 
+/// One over the distance to what a ray met [1/m]; 0 where it met nothing.
+LAMBENT_FN float inverse_seen_distance(float distance) {
+  return floatBitsToUint(distance) == kMissedDistanceBits
+             ? 0.0f
+             : 1.0f / max(distance, kLeastSeenDistance);
+}
+
 // Keep the random numbers of rays and of lights at what they meet apart from those of other passes.
 const uint kCoatSalt = 0x434F4154u;
 const uint kCoatBounceSalt = 0x9E3779B9u;

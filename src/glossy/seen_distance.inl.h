@@ -24,9 +24,7 @@ LAMBENT_FN float seen_inverse_distance(CoatViewRef view, ivec2 pixel, uint sampl
       CoatRay ray = fetch_ray(view, ivec2(x, y));
       if (ray.pdf <= 0.0f) continue;
       rays += 1.0f;
-      if (floatBitsToUint(ray.distance) != kMissedDistanceBits) {
-        sum += 1.0f / max(ray.distance, kLeastSeenDistance);
-      }
+      sum += inverse_seen_distance(ray.distance);
     }
   }
   return rays > 0.0f ? sum / rays : 0.0f;

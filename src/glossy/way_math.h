@@ -5,6 +5,7 @@
 
 #include "glossy/glossy_math.h"
 #include "raytracing/transmission_math.h"
+#include "shared/demodulate.h"
 
 LAMBENT_BEGIN
 
@@ -45,6 +46,29 @@ LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
   } else {
     ray.radiance += brought * found_emitter_weight(path.pdf, emitter_samples);
   }
+}
+
+/// The tint without which light that comes through a surface is filtered.
+LAMBENT_FN vec3 filtered_tint(Transmission through) {
+  return max(through.tint, vec3(kLeastFilteredAlbedo));
+}
+
+/// The lobe through which a rough surface shows what is behind it: that of a coat which faces away
+/// from the camera.
+struct SeenLobe {
+  vec3 to_viewer_ws;  ///< The viewer whose lobe such a coat would have; unit.
+  float alpha;        ///< GGX width; 0: what is behind is seen sharp.
+};
+
+LAMBENT_FN SeenLobe seen_lobe(Transmission through, vec3 normal_ws, vec3 to_viewer_ws) {
+  SeenLobe lobe = {to_viewer_ws, 0.0f};
+  if (through.alpha <= kStraightAlpha) return lobe;
+  vec3 onwards = -to_viewer_ws;
+  if (through.kind != kCrossesPane) onwards = refract(-to_viewer_ws, normal_ws, through.eta);
+  if (onwards == vec3(0.0f)) return lobe;  // all is reflected inwards
+  lobe.to_viewer_ws = reflect(-onwards, normal_ws);
+  lobe.alpha = through.alpha;
+  return lobe;
 }
 
 /// Where a way goes on.

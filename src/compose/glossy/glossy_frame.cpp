@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cassert>
 
+#include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "raytracing/camera_rays.h"
 #include "raytracing/world_access.h"
@@ -239,33 +240,69 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   return going_on;
 }
 
+/// Keeps apart what emitters send to the first surfaces that let no light through. Elsewhere, and
+/// where it is specular, their light is part of all other light of lights.
+void Glossy::keep_emitters(const GlossySettings& settings, const EmittersApart& apart) {
+  if (direct_.emitters.empty()) return;
+  SeenThrough& seen = *apart.seen;
+  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (met_.hit[i] == 0) continue;
+      const Surface& surface = met_.surfaces[i];
+      const std::size_t pixel = apart.first + i;
+      direct_.specular[i] += direct_.emitter_specular[i];
+      if (seen.depths[pixel] > 0.0f || lets_light_through(surface.transmission)) {
+        direct_.diffuse[i] += direct_.emitters[i];
+        continue;
+      }
+      const FilteredEmitter emitter =
+          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
+      seen.depths[pixel] = distance(surface.position_ws, settings.camera.position_ws);
+      seen.positions_ws[pixel] = surface.position_ws;
+      seen.normals_ws[pixel] = surface.normal_ws;
+      seen.emitters[pixel] = emitter.light;
+      seen.emitter_levels[pixel] = emitter.level;
+      seen.emitter_albedo[pixel] = paths_[i].throughput * emitter.albedo;
+      if (direct_.emitter_variance.empty()) continue;
+      seen.emitter_variance[pixel] =
+          emitter.inverse * emitter.inverse * direct_.emitter_variance[i];
+    }
+  });
+}
+
 /// Follows rays until all their ways have ended; returns the rays traced.
-std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going) {
+std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going,
+                                 const EmittersApart& apart) {
   FrameSettings lighting = settings.frame;
-  lighting.denoise = false;  // light of emitters is not to be kept apart
+  lighting.denoise = apart.seen != nullptr;
   lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
   for (std::uint32_t bounce = 1; going > 0 && bounce <= kMaxWays; ++bounce) {
     traced += follow_rays(settings, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
+    if (apart.seen != nullptr) keep_emitters(settings, apart);
     going = light_hits(settings, bounce);
   }
   return traced;
 }
 
 std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyRows& band,
-                                   std::vector<glm::vec3>& light) {
+                                   const EmittersApart& apart, TransmittedLight& light) {
   start(settings, band.first_row, band.pixels.size(), kThroughSalt);
-  const std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels));
-  light.resize(rays_.size());
-  for (std::size_t i = 0; i < rays_.size(); ++i) light[i] = rays_[i].radiance;
+  const std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), apart);
+  light.light.resize(rays_.size());
+  light.distances.resize(rays_.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    light.light[i] = rays_[i].radiance;
+    light.distances[i] = rays_[i].distance;
+  }
   return traced;
 }
 
 std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                               const GlossyRows& band, CoatLight& light) {
-  const std::uint64_t traced = follow_all(settings, send_rays(settings, around));
+  const std::uint64_t traced = follow_all(settings, send_rays(settings, around), {});
   reuse_.reflect(settings, around, band, rays_, light);
   return traced;
 }
@@ -279,7 +316,10 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   if (std::none_of(shares.begin(), shares.end(), shines)) return 0;
   const FrameSettings& settings = request.settings;
   FrameSettings drawing = settings;
-  if (kind == CoatKind::clearcoat) drawing.seed = clearcoat_seed(settings.seed);
+  if (kind == CoatKind::clearcoat) {
+    drawing.seed = clearcoat_seed(settings.seed);
+    drawing.denoise = false;  // nobody asks how far away what clearcoats show is
+  }
   const int halo = glossy_halo(settings.glossy_rows);
   const int end_row = band.first_row + band.rows;
   const Band above{std::max(0, band.first_row - halo), std::min(halo, band.first_row)};
@@ -304,14 +344,14 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
 }
 
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
-                                const GBuffer& pixels, GlossyMemory& memory,
-                                std::vector<glm::vec3>& light) {
+                                const GBuffer& pixels, const EmittersApart& apart,
+                                GlossyMemory& memory, TransmittedLight& light) {
   const FrameSettings& settings = request.settings;
   const GlossySettings through{
       request.world, request.sources.field,
       settings,      camera_record(request.camera, settings.width, settings.height),
       sample,        request.jitter()};
-  return memory.coats.look_through(through, {pixels, band.first_row}, light);
+  return memory.coats.look_through(through, {pixels, band.first_row}, apart, light);
 }
 
 void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,

@@ -13,6 +13,7 @@
 #include "compose/frame_passes.h"
 #include "compose/gbuffer.h"
 #include "compose/glossy/ray_reuse.h"
+#include "compose/glossy/seen_through.h"
 #include "glossy/way_math.h"
 #include "lambent/field.h"
 
@@ -26,6 +27,24 @@ inline int glossy_halo(int rows) {
 /// Share of each pixel's coat that rays light, 0 to 1: GBuffer::coat_shares.
 void find_coat_shares(GBuffer& pixels);
 
+/// Where light of emitters is kept apart from what else comes through surfaces.
+struct EmittersApart {
+  SeenThrough* seen = nullptr;  ///< Null: it is not.
+  std::size_t first = 0;        ///< Of the band's pixels, there.
+};
+
+/// Light that comes through the surfaces of pixels.
+struct TransmittedLight {
+  std::vector<glm::vec3> light;  ///< But for that of emitters which is kept apart.
+  std::vector<float> distances;  ///< To what rays met first behind the surfaces [m].
+
+  bool empty() const { return light.empty(); }
+  void clear() {
+    light.clear();
+    distances.clear();
+  }
+};
+
 class Glossy {
  public:
   /// Light of the coats of `band`'s pixels by rays. `around` lists rows from glossy_halo above the
@@ -36,12 +55,14 @@ class Glossy {
 
   /// Light that comes through the surfaces of `band`'s pixels. Returns the rays traced.
   std::uint64_t look_through(const GlossySettings& settings, const GlossyRows& band,
-                             std::vector<glm::vec3>& light);
+                             const EmittersApart& apart, TransmittedLight& light);
 
  private:
   void start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt);
   std::uint64_t send_through(const GlossySettings& settings, const GBuffer& seen);
-  std::uint64_t follow_all(const GlossySettings& settings, std::uint64_t going);
+  std::uint64_t follow_all(const GlossySettings& settings, std::uint64_t going,
+                           const EmittersApart& apart);
+  void keep_emitters(const GlossySettings& settings, const EmittersApart& apart);
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
@@ -93,8 +114,8 @@ std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, 
 
 /// Light that comes through the surfaces of a band's pixels. Returns the rays traced.
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
-                                const GBuffer& pixels, GlossyMemory& memory,
-                                std::vector<glm::vec3>& light);
+                                const GBuffer& pixels, const EmittersApart& apart,
+                                GlossyMemory& memory, TransmittedLight& light);
 
 /// The field's irradiance where coats have light from no ray, on surfaces that face
 /// coat_direction(); 0 at other pixels.

@@ -68,23 +68,20 @@ void main() {
                   keep_coat(i, pixel, point, surface, passed);
   if (args.draws > 0u) {
     keep_highlight(i, pixel, point, surface, has_rays, passed);
-    vec3 albedo = filtered_albedo(surface.reflectance);
-    vec3 light = seen ? args.emitters.at[i] / albedo : vec3(0.0f);
-    float level = 0.0f;
+    FilteredEmitter emitter = FilteredEmitter(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f);
+    float variance = 0.0f;
     if (seen) {
-      level = filtered_level(unoccluded_light(args.scene, point.position_ws, point.normal_ws),
-                             luminance(light));
+      emitter = filtered_emitter(
+          surface.reflectance, args.emitters.at[i],
+          unoccluded_light(args.scene, point.position_ws, point.normal_ws));
+      variance = emitter.inverse * emitter.inverse *
+                 variance_of_sum(emitter.level * luminance(emitter.light),
+                                 args.emitter_squares.at[i], args.draws);
     }
-    float inverse = inverse_level(level);
-    args.pixels.at[0].emitter_levels.at[pixel] = level;
-    args.pixels.at[0].emitter_albedo.at[pixel] = passed * level * albedo;
-    args.pixels.at[0].emitters.at[pixel] = inverse * light;
-    if (args.draws > 1u) {
-      args.pixels.at[0].emitter_variance.at[pixel] =
-          seen ? inverse * inverse *
-                     variance_of_sum(luminance(light), args.emitter_squares.at[i], args.draws)
-               : 0.0f;
-    }
+    args.pixels.at[0].emitter_levels.at[pixel] = emitter.level;
+    args.pixels.at[0].emitter_albedo.at[pixel] = passed * emitter.albedo;
+    args.pixels.at[0].emitters.at[pixel] = emitter.light;
+    if (args.draws > 1u) args.pixels.at[0].emitter_variance.at[pixel] = variance;
   }
   if ((args.has & kIsFiltered) != 0u) {
     float share = seen ? surface.gi_share : 0.0f;

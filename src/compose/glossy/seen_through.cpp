@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "compose/glossy/seen_through.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "compose/pixel_math.h"
+#include "core/parallel.h"
+#include "glossy/way_math.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPixelsPerTask = 4096;
+
+bool is_any_positive(const std::vector<float>& values) {
+  return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
+}
+
+}  // namespace
+
+void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
+  const bool has_variance = settings.reflected_emissive_samples > 1;
+  depths.assign(pixels, 0.0f);
+  positions_ws.resize(pixels);
+  normals_ws.resize(pixels);
+  emitters.resize(pixels);
+  emitter_variance.resize(has_variance ? pixels : 0);
+  emitter_levels.assign(pixels, 0.0f);
+  emitter_albedo.assign(pixels, vec3(0.0f));
+  light.assign(pixels, vec3(0.0f));
+  albedo.assign(pixels, vec3(0.0f));
+  away_normals_ws.resize(pixels);
+  to_viewer_ws.resize(pixels);
+  alphas.assign(pixels, 0.0f);
+  inverse_distances.resize(pixels);
+}
+
+void SeenThrough::clear() {
+  depths.clear();
+  light.clear();
+}
+
+void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
+  const GBuffer& gbuffer = band.gbuffer;
+  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (gbuffer.hit[i] == 0) continue;
+      const Surface& surface = gbuffer.surfaces[i];
+      if (!lets_light_through(surface.transmission)) continue;
+      const std::size_t pixel = band.first + i;
+      const vec3 tint = filtered_tint(surface.transmission);
+      seen.light[pixel] = band.light[i] / tint;
+      seen.emitter_albedo[pixel] /= tint;
+      seen.albedo[pixel] = (band.fog.empty() ? 1.0f : band.fog[i].w) * tint;
+      const SeenLobe lobe =
+          seen_lobe(surface.transmission, surface.normal_ws, gbuffer.to_viewer_ws[i]);
+      seen.away_normals_ws[pixel] = -surface.normal_ws;
+      seen.to_viewer_ws[pixel] = lobe.to_viewer_ws;
+      seen.alphas[pixel] = lobe.alpha;
+      seen.inverse_distances[pixel] = inverse_seen_distance(band.distances[i]);
+    }
+  });
+}
+
+void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
+  seen.filtered.resize(seen.light.size());
+  if (seen.light.empty()) return;
+  if (is_any_positive(seen.depths)) {
+    DenoiseView behind = view;
+    behind.positions_ws = seen.positions_ws;
+    behind.normals_ws = seen.normals_ws;
+    behind.depths = seen.depths;
+    seen.filtered_emitters.resize(seen.emitters.size());
+    [[maybe_unused]] const Expected<void> done =
+        denoiser.filter(behind, {seen.emitters, {}, seen.emitter_variance, seen.emitter_levels},
+                        emitter_denoising(), seen.filtered_emitters);
+    assert(done);  // sizes are the view's
+    parallel_chunks(seen.light.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        seen.light[i] += seen.emitter_albedo[i] * seen.filtered_emitters[i];
+      }
+    });
+  }
+  if (!is_any_positive(seen.alphas)) {
+    seen.filtered = seen.light;
+    return;
+  }
+  DenoiseView blurred = view;
+  blurred.normals_ws = seen.away_normals_ws;
+  blurred.lobes = {seen.to_viewer_ws, seen.alphas, seen.inverse_distances};
+  [[maybe_unused]] const Expected<void> done =
+      denoiser.filter(blurred, {seen.light, {}, {}}, blind_denoising(), seen.filtered);
+  assert(done);
+}
+
+void show_through(const SeenThrough& seen, const ShownPixels& shown, float share, Layers& layers) {
+  if (seen.filtered.empty()) return;
+  parallel_chunks(shown.count, kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t pixel = shown.first_in_layers + k, i = shown.first + k;
+      const vec3 transmitted = share * seen.albedo[i] * seen.filtered[i];
+      add(layers.transmission, pixel, transmitted);
+      add(layers.all, pixel, transmitted);
+    }
+  });
+}
+
+}  // namespace lambent
