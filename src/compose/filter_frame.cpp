@@ -171,9 +171,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
     pixels.highlights.clear();
   }
   if (light.transmitted != nullptr) {
-    keep_through(
-        {gbuffer, light.transmitted->light, light.transmitted->distances, light.fog, first},
-        pixels.through);
+    keep_through({gbuffer, *light.transmitted, light.fog, first}, pixels.through);
   } else {
     pixels.through.clear();
   }

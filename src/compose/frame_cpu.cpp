@@ -243,14 +243,14 @@ class FramePassesCpu final : public FramePasses {
   }
 
   void transmission() override {
-    EmittersApart apart;
+    KeptBehind kept;
     if (filters_through(request())) {
-      apart = {&to_filter_.through, first_pixel()};
+      kept = {&to_filter_.through, first_pixel()};
       if (first_pixel() == 0)
         to_filter_.through.start(traced_pixels(request()), request().settings);
     }
     now_->frame.rays +=
-        look_through_band(request(), band_, sample_, gbuffer_, apart, glossy_, light_.transmitted);
+        look_through_band(request(), band_, sample_, gbuffer_, kept, glossy_, light_.transmitted);
     finish_pass("transmission");
   }
 

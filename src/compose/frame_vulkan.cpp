@@ -158,7 +158,8 @@ void FramePassesVulkan::compose(float share) {
       request_->sources.field != nullptr ? memory_.mirror_irradiance : memory_.irradiance;
   add("compose", [=, this, &mirrored](Recorder& to) {
     const glm::mat4& view = request_->camera.world_from_view;
-    const uint has = rays_bring_ | (has_fog(*request_) ? kHasFog : 0u) |
+    const uint brought = filters_through(*request_) ? rays_bring_ & ~kHasTransmission : rays_bring_;
+    const uint has = brought | (has_fog(*request_) ? kHasFog : 0u) |
                      (has_indirect ? kHasIndirect : 0u) |
                      (is_looked_up(*request_) ? kIsLookedUp : 0u) | (filtered ? kIsFiltered : 0u) |
                      (filters_coats() ? kCoatsAreFiltered : 0u);

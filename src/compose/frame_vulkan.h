@@ -13,6 +13,7 @@
 #include "compose/filter_records.h"
 #include "compose/frame_passes.h"
 #include "compose/frame_records.h"
+#include "compose/glossy/seen_through_records.h"
 #include "compose/motion_records.h"
 #include "compose/pixel_math.h"
 #include "denoise/denoise_vulkan.h"
@@ -24,6 +25,7 @@
 #include "raytracing/vulkan/hit_shading.h"
 #include "rsm/vulkan/direct_vulkan.h"
 #include "rsm/vulkan/gather_vulkan.h"
+#include "shaders/add_behind_comp.h"
 #include "shaders/add_filtered_comp.h"
 #include "shaders/camera_rays_comp.h"
 #include "shaders/clearcoat_light_comp.h"
@@ -35,13 +37,17 @@
 #include "shaders/fog_pixels_comp.h"
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
+#include "shaders/keep_behind_comp.h"
 #include "shaders/keep_pixels_comp.h"
+#include "shaders/keep_through_comp.h"
 #include "shaders/motion_comp.h"
 #include "shaders/motion_rays_comp.h"
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
 #include "shaders/show_clearcoats_comp.h"
+#include "shaders/show_through_comp.h"
+#include "shaders/start_through_comp.h"
 #include "shaders/through_rays_comp.h"
 #include "shaders/view_geometry_comp.h"
 #include "temporal/taa_vulkan.h"
@@ -73,6 +79,11 @@ struct FrameKernels {
   vulkan::Kernel show_clearcoats{device, shaders::show_clearcoats_comp(), "show clearcoats"};
   vulkan::Kernel clearcoat_light{device, shaders::clearcoat_light_comp(), "clearcoat light"};
   vulkan::Kernel through_rays{device, shaders::through_rays_comp(), "rays through surfaces"};
+  vulkan::Kernel start_through{device, shaders::start_through_comp(), "start of what is seen"};
+  vulkan::Kernel keep_behind{device, shaders::keep_behind_comp(), "keep light behind glass"};
+  vulkan::Kernel keep_through{device, shaders::keep_through_comp(), "keep light through surfaces"};
+  vulkan::Kernel add_behind{device, shaders::add_behind_comp(), "add light behind glass"};
+  vulkan::Kernel show_through{device, shaders::show_through_comp(), "show light through surfaces"};
   vulkan::Kernel fog_pixels{device, shaders::fog_pixels_comp(), "fog of pixels"};
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
   vulkan::Kernel keep_pixels{device, shaders::keep_pixels_comp(), "keep pixels"};
@@ -89,6 +100,16 @@ struct FilteredBuffers {
   vulkan::Buffer coats, coat_albedo, coat_lobes;
   vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
+};
+
+/// What is seen through surfaces and filtered, of the traced rows: 252 bytes a pixel.
+struct SeenThroughBuffers {
+  SeenThroughRecord record;
+  vulkan::Buffer addresses;  ///< That record.
+  vulkan::Buffer depths, positions_ws, normals_ws;
+  vulkan::Buffer emitters, emitter_variance, emitter_levels, emitter_albedo;
+  vulkan::Buffer coats, coat_albedo, coat_lobes, light, albedo, lobes;
+  vulkan::Buffer filtered_emitters, filtered_coats, filtered;
 };
 
 /// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
@@ -109,6 +130,7 @@ struct FrameMemory {
   RsmMapsOnDevice maps;
   DenoiserVulkan denoiser;
   FilteredBuffers filtered;
+  SeenThroughBuffers through;
   TaaVulkan antialiasing;
 
   // Of a band's pixels
@@ -130,6 +152,7 @@ struct FrameMemory {
   vulkan::Buffer way_rays[2], way_cones[2], way_paths[2], way_pixels[2], way_length;
   vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
   vulkan::Buffer way_queries, way_answers;
+  vulkan::Buffer way_drawn, way_drawn_squares, way_drawn_specular, coat_distances;
   // Fog: its froxels, and what it does to a band's pixels
   FroxelFog fog;
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
@@ -207,6 +230,13 @@ class FramePassesVulkan final : public FramePasses {
   void follow_ways(std::uint32_t ways, std::uint32_t bounce, std::uint32_t first_index,
                    std::uint32_t salt);
   void reuse_coat_rays(const Band& around);
+  /// Samples of emitters at what ways meet behind glass; 0 where their light is not kept apart.
+  std::uint32_t way_emitter_draws() const;
+  void begin_through(std::size_t pixels);
+  void start_through();
+  void keep_behind(Recorder& to, std::uint32_t ways, int from);
+  void keep_through();
+  void denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown, float share);
   void upload_before();
   void begin_motion(std::size_t pixels);
   void finish_motion(LayeredImage& image);
@@ -239,6 +269,7 @@ class FramePassesVulkan final : public FramePasses {
   uint rays_bring_ = 0;         // to the band's sample, see ComposeArguments
   const char* way_pass_ = "";   // whose rays are being followed
   std::uint32_t way_seed_ = 0;  // of their random numbers
+  bool keeps_behind_ = false;   // light of the first surfaces behind glass is kept apart
 };
 
 }  // namespace lambent

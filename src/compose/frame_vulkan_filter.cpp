@@ -57,6 +57,7 @@ void FramePassesVulkan::begin_filter() {
   reserve<FilteredPixelsRecord>(1, "where pixels to filter are", f.addresses);
   vulkan::write(device_, std::span<const FilteredPixelsRecord>(&r, 1), f.addresses);
   memory_.denoiser.reserve(pixels);
+  if (filters_through(*request_)) begin_through(pixels);
 }
 
 std::uint32_t FramePassesVulkan::first_traced_pixel() const {
@@ -90,12 +91,14 @@ void FramePassesVulkan::keep_pixels() {
                                            has};
     to.run(kernels_.keep_pixels, arguments, pixels_);
   });
+  if (filters_through(*request_)) keep_through();
 }
 
 void FramePassesVulkan::denoise(float share) {
   const FrameSettings& settings = request_->settings;
   const bool lit = emitter_draws() > 0, gathered = gathers(*request_), coats = filters_coats();
-  if (!lit && !gathered && !coats) return;
+  const bool through = filters_through(*request_);
+  if (!lit && !gathered && !coats && !through) return;
   const ShownPixels shown = shown_pixels(traced_rows(settings), settings);
   const FilteredPixelsRecord& r = memory_.filtered.record;
   const DenoiseViewOnDevice view{static_cast<std::uint32_t>(settings.width),
@@ -149,6 +152,11 @@ void FramePassesVulkan::denoise(float share) {
                                             coats ? 1u : 0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
+  if (through) {
+    DenoiseViewOnDevice by_shading = view;
+    by_shading.normals_ws = r.normals_ws;
+    denoise_through(by_shading, shown, share);
+  }
   run_steps();
 }
 

@@ -65,6 +65,12 @@ LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float c
   return coat_share * max(albedo, vec3(kLeastFilteredAlbedo));
 }
 
+/// That of the coat of a surface that a way met behind glass.
+LAMBENT_FN vec3 coat_albedo_behind(CoatPath path, Reflectance surface, float n_dot_v) {
+  return max(path.throughput, vec3(kLeastFilteredAlbedo)) *
+         filtered_coat_albedo(surface, n_dot_v, 1.0f);
+}
+
 // A clearcoat whose normal makes at least this cosine with the base's has the same: 0.8 degrees.
 const float kSameNormalCosine = 0.9999f;
 

@@ -21,13 +21,24 @@ LAMBENT_BEGIN
 struct CoatRay {
   vec3 direction_ws;  ///< Unit.
   float distance;     ///< To what it met first [m]; infinite: it left the scene.
-  vec3 radiance;      ///< But for `emission` [W/(m^2 sr)].
+  vec3 radiance;      ///< But for `apart` [W/(m^2 sr)].
   float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
                       ///< into the surface and brings nothing.
-  vec3 emission;      ///< Of what it met before another coat reflected it [W/(m^2 sr)], which the
-                      ///< pixel's direct light samples, too: the first surface, or behind glass.
+  vec3 apart;         ///< Light that is kept apart, see CoatPath::brings [W/(m^2 sr)].
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
+
+// CoatPath::brings, and what of it is kept apart in CoatRay::apart
+const uint kBringsOther = 0u;  ///< Light of another coat, or of none: nothing.
+/// Light of the pixel's own coat, no other one having reflected it: what emissive surfaces send,
+/// which the pixel's direct light samples, too.
+const uint kBringsOwnCoat = 1u;
+/// The way has come to the first surface behind glass that lets no light through: nothing yet.
+const uint kBringsBehind = 2u;
+/// Light of that surface's coat: all. The way has met nothing but glass since, ...
+const uint kBringsCoatBehind = 3u;
+/// ... or something else.
+const uint kBringsMoreBehind = 4u;
 
 /// A ray's way through the scene.
 struct CoatPath {
@@ -35,7 +46,7 @@ struct CoatPath {
   float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
                     ///< 0: the way has ended.
   float alpha;      ///< GGX width of the widest lobe on the way.
-  uint own_coat;  ///< 1: the coat that it left last is that of its pixel; 0: another one, or none.
+  uint brings;      ///< kBringsOther, ...
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
@@ -293,7 +304,7 @@ LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction
   if (dot(at.lobe.geometric_normal_ws, direction_ws) <= 0.0f) return;
   vec3 reflected = weight * fresnel(at.reflectance, lobe.v_dot_h);
   sums.light += reflected * ray.radiance;
-  sums.emission += reflected * (found_emitter_weight(lobe.pdf, at.emitter_samples) * ray.emission);
+  sums.emission += reflected * (found_emitter_weight(lobe.pdf, at.emitter_samples) * ray.apart);
 }
 
 /// Adds what a receiver makes of a neighbour's ray, and of its own beside that one.

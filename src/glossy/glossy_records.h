@@ -38,7 +38,8 @@ struct ThroughRaysArguments {
   CoatPathArray paths;
   UintArray pixels;  ///< Of the ways.
   UintArray ways;    ///< How many these are: one number.
-  uint count;        ///< Pixels.
+  FloatArray coat_distances;  ///< As in struct TransmittedLight, a pixel each.
+  uint count;                 ///< Pixels.
   uint first_index;  ///< Of the first one among those of the picture.
   uint salt;
   uint seed;
@@ -53,7 +54,8 @@ struct CoatHitsArguments {
   UintArray pixels;
   QueryArray queries;
   CoatRayArray coat_rays;
-  uint count;  ///< Ways.
+  FloatArray coat_distances;  ///< Of ways that bring light of coats behind glass.
+  uint count;                 ///< Ways.
   uint bounce;
   uint emitter_samples;  ///< Of the direct light of what they meet.
   uint first_index;      ///< Of the first pixel among those of the picture.

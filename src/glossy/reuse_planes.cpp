@@ -31,7 +31,7 @@ void set_coat(RowPlanes& coats, int row, int x, const CoatLobe& lobe, const Coat
   put(coats, row, kRayDistance, x, ray.distance);
   put(coats, row, kRayPdf, x, ray.pdf);
   put(coats, row, kRayRadiance, x, ray.radiance);
-  put(coats, row, kRayEmission, x, ray.emission);
+  put(coats, row, kRayEmission, x, ray.apart);
 }
 
 void set_no_coat(RowPlanes& coats, int row, int x) {

@@ -34,17 +34,31 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
   return share;
 }
 
+/// The distance to what a coat behind glass sees, which lies behind further glass: so far to that,
+/// infinite where nothing was met yet, and so far from there [m].
+LAMBENT_FN float farther_seen(float so_far, float further) {
+  return floatBitsToUint(so_far) == kMissedDistanceBits ? further : so_far + further;
+}
+
+/// Adds light that a way met, but for what emissive surfaces send, to what its pixel's ray brings.
+LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
+  if (path.brings >= kBringsCoatBehind) {
+    ray.apart += path.throughput * light;
+  } else {
+    ray.radiance += path.throughput * light;
+  }
+}
+
 /// Adds what a surface emits that a way met to what its pixel's ray brings. The direct light of the
 /// coat that the way left last samples emitters, too, and the two estimates share them by weights.
 /// Coats that ways meet take `emitter_samples` samples. Those of pixels take others, and weigh
-/// CoatRay::emission themselves.
+/// what is kept apart themselves.
 LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
                              LAMBENT_INOUT(CoatRay) ray) {
-  vec3 brought = path.throughput * emission;
-  if (path.own_coat != 0u) {
-    ray.emission += brought;
+  if (path.brings == kBringsOwnCoat) {
+    ray.apart += path.throughput * emission;
   } else {
-    ray.radiance += brought * found_emitter_weight(path.pdf, emitter_samples);
+    bring_light(path, found_emitter_weight(path.pdf, emitter_samples) * emission, ray);
   }
 }
 
@@ -90,7 +104,8 @@ LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 norm
   path.throughput *= coat_share * drawn.weight;
   path.pdf = drawn.pdf;
   path.alpha = coat.alpha;
-  path.own_coat = 0u;
+  if (path.brings < kBringsBehind) path.brings = kBringsOther;
+  if (path.brings == kBringsBehind) path.brings = kBringsCoatBehind;
   next.direction_ws = drawn.direction_ws;
   return next;
 }

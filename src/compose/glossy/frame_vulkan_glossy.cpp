@@ -167,35 +167,6 @@ bool FramePassesVulkan::follow_all(std::uint32_t first_index, std::uint32_t salt
   return any;
 }
 
-/// Light that comes through the band's surfaces, as Glossy::look_through.
-void FramePassesVulkan::transmission() {
-  // What was recorded reads the lists that are to be used again
-  run_steps();
-  reserve_ways(pixels_);
-  const uint salt = sample_ ^ kThroughSalt;
-  add("transmission", [=, this](Recorder& to) {
-    FrameMemory& m = memory_;
-    to.fill(m.way_length, 0u);
-    to.barrier();
-    const ThroughRaysArguments drawn = {{m.points.address()},
-                                        {m.surfaces.address()},
-                                        {m.coat_rays.address()},
-                                        {m.way_rays[0].address()},
-                                        {m.way_cones[0].address()},
-                                        {m.way_paths[0].address()},
-                                        {m.way_pixels[0].address()},
-                                        {m.way_length.address()},
-                                        pixels_,
-                                        first_pixel_,
-                                        coat_salt(salt, 0u),
-                                        request_->settings.seed};
-    to.run(kernels_.through_rays, drawn, pixels_);
-  });
-  way_pass_ = "transmission";
-  way_seed_ = request_->settings.seed;
-  if (follow_all(first_pixel_, salt)) rays_bring_ |= kHasTransmission;
-}
-
 /// Has ways meet what is next, adds its light, and lists those that go on.
 void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
                                     std::uint32_t first_index, std::uint32_t salt_of_pass) {
@@ -204,6 +175,10 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
   reserve<PixelSurfaceRecord>(ways, "surfaces of ways", m.way_surfaces);
   reserve<vec3>(ways, "diffuse light of ways", m.way_diffuse);
   reserve<vec3>(ways, "specular light of ways", m.way_specular);
+  const std::size_t drawn = way_emitter_draws() > 0 ? ways : 0;
+  reserve<vec3>(drawn, "drawn light of ways", m.way_drawn);
+  reserve<float>(drawn, "squares of drawn light of ways", m.way_drawn_squares);
+  reserve<vec3>(drawn, "drawn specular light of ways", m.way_drawn_specular);
   reserve<QueryRecord>(2 * std::size_t{ways}, "queries of ways", m.way_queries);
   reserve<vec3>(2 * std::size_t{ways}, "answers of ways", m.way_answers);
   frame_->rays += ways;
@@ -225,6 +200,7 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
         {m.way_pixels[from].address()},
         {m.way_queries.address()},
         {m.coat_rays.address()},
+        {m.coat_distances.address()},
         ways,
         bounce,
         static_cast<uint>(request_->settings.reflected_emissive_samples),
@@ -237,8 +213,17 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
     lighting.emissive_samples = request_->settings.reflected_emissive_samples;
     lighting.salt = salt;
     lighting.seed = way_seed_;
+    const bool apart = way_emitter_draws() > 0;
     m.gather_shading.reflected_light(to, stage(), met, ways, lighting,
-                                     {{m.way_diffuse.address()}, {m.way_specular.address()}});
+                                     {{m.way_diffuse.address()},
+                                      {m.way_specular.address()},
+                                      {apart ? m.way_drawn.address() : 0},
+                                      {apart ? m.way_drawn_squares.address() : 0},
+                                      {apart ? m.way_drawn_specular.address() : 0}});
+    if (keeps_behind_) {
+      to.barrier();
+      keep_behind(to, ways, from);
+    }
   });
   if (has_field) {
     look_up(way_pass_, *request_->sources.field, m.way_queries, 2 * ways, CorrectionUse::smooth,

@@ -62,6 +62,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, 0u});
   next_.resize(pixels);
   cones_.resize(pixels);
+  coat_distances_.assign(pixels, infinity());
 }
 
 /// Draws the rays of pixels whose surfaces let light through.
@@ -117,7 +118,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         }
         rays_[first + i].direction_ws = drawn.direction_ws;
         rays_[first + i].pdf = drawn.pdf;
-        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, 1u};
+        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kBringsOwnCoat};
         next_[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
         cones_[first + i] =
             reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
@@ -157,13 +158,19 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       CoatPath& path = paths_[i];
       met_.to_viewer_ws[i] = -rays[k].direction;
       if (bounce == 1) rays_[i].distance = hits[k].distance;
+      if (path.brings == kBringsCoatBehind) {
+        coat_distances_[i] = farther_seen(coat_distances_[i], hits[k].distance);
+      }
       if (hits[k].missed()) {
-        rays_[i].radiance += path.throughput * sky_radiance(scene.environment, rays[k].direction);
+        bring_light(path, sky_radiance(scene.environment, rays[k].direction), rays_[i]);
         path.pdf = 0.0f;
         continue;
       }
       cones_[i].width = width_at(cones_[i], hits[k].distance);
       const Surface surface = seen_surface_at(scene, rays[k], hits[k], cones_[i].width);
+      if (path.brings == kBringsCoatBehind && !lets_light_through(surface.transmission)) {
+        path.brings = kBringsMoreBehind;
+      }
       path.throughput *= left_of_light(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
@@ -214,7 +221,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
                                                          surface.gi_share * answers_[k])
                                     : coats_light(surface.reflectance, n_dot_v, surface.gi_share,
                                                   met_.coat_shares[i], answers_[k]);
-    rays_[i].radiance += paths_[i].throughput * light;
+    bring_light(paths_[i], light, rays_[i]);
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   std::atomic<std::uint64_t> going_on = 0;
@@ -224,7 +231,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       CoatPath& path = paths_[i];
-      rays_[i].radiance += path.throughput * (direct_.diffuse[i] + direct_.specular[i]);
+      bring_light(path, direct_.diffuse[i] + direct_.specular[i], rays_[i]);
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
@@ -240,29 +247,37 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   return going_on;
 }
 
-/// Keeps apart what emitters send to the first surfaces that let no light through. Elsewhere, and
-/// where it is specular, their light is part of all other light of lights.
-void Glossy::keep_emitters(const GlossySettings& settings, const EmittersApart& apart) {
-  if (direct_.emitters.empty()) return;
-  SeenThrough& seen = *apart.seen;
+/// Keeps apart what lights up the first surfaces behind glass that let no light through: light of
+/// emitters, and all light of their coats. Elsewhere that of emitters is part of other direct
+/// light.
+void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept) {
+  const bool has_emitters = !direct_.emitters.empty();
   parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
-      const std::size_t pixel = apart.first + i;
-      direct_.specular[i] += direct_.emitter_specular[i];
-      if (seen.depths[pixel] > 0.0f || lets_light_through(surface.transmission)) {
-        direct_.diffuse[i] += direct_.emitters[i];
+      CoatPath& path = paths_[i];
+      if (path.brings != kBringsOther || lets_light_through(surface.transmission)) {
+        if (has_emitters) direct_.diffuse[i] += direct_.emitters[i] + direct_.emitter_specular[i];
         continue;
       }
-      const FilteredEmitter emitter =
-          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
+      path.brings = kBringsBehind;
+      SeenThrough& seen = *kept.seen;
+      const std::size_t pixel = kept.first + i;
       seen.depths[pixel] = distance(surface.position_ws, settings.camera.position_ws);
       seen.positions_ws[pixel] = surface.position_ws;
       seen.normals_ws[pixel] = surface.normal_ws;
+      seen.coat_to_viewer_ws[pixel] = met_.to_viewer_ws[i];
+      seen.coat_alphas[pixel] = highlight_alpha(surface.reflectance);
+      seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
+                                                   dot(surface.normal_ws, met_.to_viewer_ws[i]));
+      if (!has_emitters) continue;
+      rays_[i].apart += path.throughput * direct_.emitter_specular[i];
+      const FilteredEmitter emitter =
+          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
       seen.emitters[pixel] = emitter.light;
       seen.emitter_levels[pixel] = emitter.level;
-      seen.emitter_albedo[pixel] = paths_[i].throughput * emitter.albedo;
+      seen.emitter_albedo[pixel] = path.throughput * emitter.albedo;
       if (direct_.emitter_variance.empty()) continue;
       seen.emitter_variance[pixel] =
           emitter.inverse * emitter.inverse * direct_.emitter_variance[i];
@@ -272,30 +287,34 @@ void Glossy::keep_emitters(const GlossySettings& settings, const EmittersApart& 
 
 /// Follows rays until all their ways have ended; returns the rays traced.
 std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going,
-                                 const EmittersApart& apart) {
+                                 const KeptBehind& kept) {
   FrameSettings lighting = settings.frame;
-  lighting.denoise = apart.seen != nullptr;
+  lighting.denoise = kept.seen != nullptr;
   lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
   for (std::uint32_t bounce = 1; going > 0 && bounce <= kMaxWays; ++bounce) {
     traced += follow_rays(settings, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
-    if (apart.seen != nullptr) keep_emitters(settings, apart);
+    if (kept.seen != nullptr) keep_behind(settings, kept);
     going = light_hits(settings, bounce);
   }
   return traced;
 }
 
 std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyRows& band,
-                                   const EmittersApart& apart, TransmittedLight& light) {
+                                   const KeptBehind& kept, TransmittedLight& light) {
   start(settings, band.first_row, band.pixels.size(), kThroughSalt);
-  const std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), apart);
+  const std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), kept);
   light.light.resize(rays_.size());
   light.distances.resize(rays_.size());
+  light.coats_behind.resize(rays_.size());
+  light.coat_distances.resize(rays_.size());
   for (std::size_t i = 0; i < rays_.size(); ++i) {
     light.light[i] = rays_[i].radiance;
     light.distances[i] = rays_[i].distance;
+    light.coats_behind[i] = rays_[i].apart;
+    light.coat_distances[i] = coat_distances_[i];
   }
   return traced;
 }
@@ -344,14 +363,14 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
 }
 
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
-                                const GBuffer& pixels, const EmittersApart& apart,
-                                GlossyMemory& memory, TransmittedLight& light) {
+                                const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
+                                TransmittedLight& light) {
   const FrameSettings& settings = request.settings;
   const GlossySettings through{
       request.world, request.sources.field,
       settings,      camera_record(request.camera, settings.width, settings.height),
       sample,        request.jitter()};
-  return memory.coats.look_through(through, {pixels, band.first_row}, apart, light);
+  return memory.coats.look_through(through, {pixels, band.first_row}, kept, light);
 }
 
 void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,

@@ -27,24 +27,6 @@ inline int glossy_halo(int rows) {
 /// Share of each pixel's coat that rays light, 0 to 1: GBuffer::coat_shares.
 void find_coat_shares(GBuffer& pixels);
 
-/// Where light of emitters is kept apart from what else comes through surfaces.
-struct EmittersApart {
-  SeenThrough* seen = nullptr;  ///< Null: it is not.
-  std::size_t first = 0;        ///< Of the band's pixels, there.
-};
-
-/// Light that comes through the surfaces of pixels.
-struct TransmittedLight {
-  std::vector<glm::vec3> light;  ///< But for that of emitters which is kept apart.
-  std::vector<float> distances;  ///< To what rays met first behind the surfaces [m].
-
-  bool empty() const { return light.empty(); }
-  void clear() {
-    light.clear();
-    distances.clear();
-  }
-};
-
 class Glossy {
  public:
   /// Light of the coats of `band`'s pixels by rays. `around` lists rows from glossy_halo above the
@@ -55,14 +37,14 @@ class Glossy {
 
   /// Light that comes through the surfaces of `band`'s pixels. Returns the rays traced.
   std::uint64_t look_through(const GlossySettings& settings, const GlossyRows& band,
-                             const EmittersApart& apart, TransmittedLight& light);
+                             const KeptBehind& kept, TransmittedLight& light);
 
  private:
   void start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt);
   std::uint64_t send_through(const GlossySettings& settings, const GBuffer& seen);
   std::uint64_t follow_all(const GlossySettings& settings, std::uint64_t going,
-                           const EmittersApart& apart);
-  void keep_emitters(const GlossySettings& settings, const EmittersApart& apart);
+                           const KeptBehind& kept);
+  void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
@@ -74,7 +56,8 @@ class Glossy {
   std::vector<CoatPath> paths_;
   std::vector<Ray> next_;  // of paths that have not ended, as are:
   std::vector<RayCone> cones_;
-  GBuffer met_;  // by these
+  std::vector<float> coat_distances_;  // TransmittedLight::coat_distances
+  GBuffer met_;                        // by these
   ReflectedLight direct_;
   std::vector<FieldQuery> queries_;
   std::vector<std::size_t> asked_;  // pixels of the queries, and what is asked for there
@@ -114,8 +97,8 @@ std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, 
 
 /// Light that comes through the surfaces of a band's pixels. Returns the rays traced.
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
-                                const GBuffer& pixels, const EmittersApart& apart,
-                                GlossyMemory& memory, TransmittedLight& light);
+                                const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
+                                TransmittedLight& light);
 
 /// The field's irradiance where coats have light from no ray, on surfaces that face
 /// coat_direction(); 0 at other pixels.

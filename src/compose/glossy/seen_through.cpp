@@ -17,6 +17,32 @@ bool is_any_positive(const std::vector<float>& values) {
   return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
 }
 
+/// Filters what lights up the first surfaces behind glass, and adds it to all light.
+void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
+  DenoiseView behind = view;
+  behind.positions_ws = seen.positions_ws;
+  behind.normals_ws = seen.normals_ws;
+  behind.depths = seen.depths;
+  seen.filtered_emitters.assign(seen.emitters.size(), vec3(0.0f));
+  if (is_any_positive(seen.emitter_levels)) {
+    [[maybe_unused]] const Expected<void> done =
+        denoiser.filter(behind, {seen.emitters, {}, seen.emitter_variance, seen.emitter_levels},
+                        emitter_denoising(), seen.filtered_emitters);
+    assert(done);  // sizes are the view's
+  }
+  seen.filtered_coats.resize(seen.coats.size());
+  behind.lobes = {seen.coat_to_viewer_ws, seen.coat_alphas, seen.coat_inverse_distances};
+  [[maybe_unused]] const Expected<void> done =
+      denoiser.filter(behind, {seen.coats, {}, {}}, blind_denoising(), seen.filtered_coats);
+  assert(done);
+  parallel_chunks(seen.light.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      seen.light[i] += seen.emitter_albedo[i] * seen.filtered_emitters[i] +
+                       seen.coat_albedo[i] * seen.filtered_coats[i];
+    }
+  });
+}
+
 }  // namespace
 
 void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
@@ -24,10 +50,15 @@ void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
   depths.assign(pixels, 0.0f);
   positions_ws.resize(pixels);
   normals_ws.resize(pixels);
-  emitters.resize(pixels);
+  emitters.assign(pixels, vec3(0.0f));
   emitter_variance.resize(has_variance ? pixels : 0);
   emitter_levels.assign(pixels, 0.0f);
   emitter_albedo.assign(pixels, vec3(0.0f));
+  coats.assign(pixels, vec3(0.0f));
+  coat_albedo.assign(pixels, vec3(0.0f));
+  coat_to_viewer_ws.resize(pixels);
+  coat_alphas.assign(pixels, 0.0f);
+  coat_inverse_distances.resize(pixels);
   light.assign(pixels, vec3(0.0f));
   albedo.assign(pixels, vec3(0.0f));
   away_normals_ws.resize(pixels);
@@ -50,15 +81,21 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
       if (!lets_light_through(surface.transmission)) continue;
       const std::size_t pixel = band.first + i;
       const vec3 tint = filtered_tint(surface.transmission);
-      seen.light[pixel] = band.light[i] / tint;
+      seen.light[pixel] = band.transmitted.light[i] / tint;
       seen.emitter_albedo[pixel] /= tint;
+      if (seen.depths[pixel] > 0.0f) {
+        seen.coats[pixel] = band.transmitted.coats_behind[i] / seen.coat_albedo[pixel];
+        seen.coat_albedo[pixel] /= tint;
+        seen.coat_inverse_distances[pixel] =
+            inverse_seen_distance(band.transmitted.coat_distances[i]);
+      }
       seen.albedo[pixel] = (band.fog.empty() ? 1.0f : band.fog[i].w) * tint;
       const SeenLobe lobe =
           seen_lobe(surface.transmission, surface.normal_ws, gbuffer.to_viewer_ws[i]);
       seen.away_normals_ws[pixel] = -surface.normal_ws;
       seen.to_viewer_ws[pixel] = lobe.to_viewer_ws;
       seen.alphas[pixel] = lobe.alpha;
-      seen.inverse_distances[pixel] = inverse_seen_distance(band.distances[i]);
+      seen.inverse_distances[pixel] = inverse_seen_distance(band.transmitted.distances[i]);
     }
   });
 }
@@ -66,22 +103,7 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
 void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
   seen.filtered.resize(seen.light.size());
   if (seen.light.empty()) return;
-  if (is_any_positive(seen.depths)) {
-    DenoiseView behind = view;
-    behind.positions_ws = seen.positions_ws;
-    behind.normals_ws = seen.normals_ws;
-    behind.depths = seen.depths;
-    seen.filtered_emitters.resize(seen.emitters.size());
-    [[maybe_unused]] const Expected<void> done =
-        denoiser.filter(behind, {seen.emitters, {}, seen.emitter_variance, seen.emitter_levels},
-                        emitter_denoising(), seen.filtered_emitters);
-    assert(done);  // sizes are the view's
-    parallel_chunks(seen.light.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        seen.light[i] += seen.emitter_albedo[i] * seen.filtered_emitters[i];
-      }
-    });
-  }
+  if (is_any_positive(seen.depths)) filter_behind(view, denoiser, seen);
   if (!is_any_positive(seen.alphas)) {
     seen.filtered = seen.light;
     return;

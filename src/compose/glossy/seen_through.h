@@ -16,14 +16,30 @@
 
 namespace lambent {
 
+/// Light that comes through the surfaces of pixels.
+struct TransmittedLight {
+  std::vector<glm::vec3> light;  ///< But for what is kept apart.
+  std::vector<float> distances;  ///< To what rays met first behind the surfaces [m].
+  /// Kept apart: what coats of the first surfaces behind glass reflect, and the distances to what
+  /// their rays met [m].
+  std::vector<glm::vec3> coats_behind;
+  std::vector<float> coat_distances;
+
+  bool empty() const { return light.empty(); }
+  void clear() { light.clear(); }
+};
+
 /// One sample of the pixels of the traced rows. Its memory is used again.
 struct SeenThrough {
-  // Light of emitters on the first surface of a pixel's way that lets no light through
+  // The first surface on a pixel's way that lets no light through, and light of emitters there
   std::vector<float> depths;  ///< Distance from the camera to it [m]; 0: there is none.
   std::vector<glm::vec3> positions_ws, normals_ws;
   std::vector<glm::vec3> emitters;
   std::vector<float> emitter_variance, emitter_levels;
   std::vector<glm::vec3> emitter_albedo;  ///< What comes through of filtered light.
+  // Light that its coat reflects
+  std::vector<glm::vec3> coats, coat_albedo, coat_to_viewer_ws;
+  std::vector<float> coat_alphas, coat_inverse_distances;
 
   // All light that comes through, without the tint of the pixel's own surface
   std::vector<glm::vec3> light;
@@ -33,12 +49,18 @@ struct SeenThrough {
   std::vector<float> alphas;  ///< 0: what is seen is sharp.
   std::vector<float> inverse_distances;
 
-  std::vector<glm::vec3> filtered_emitters, filtered;
+  std::vector<glm::vec3> filtered_emitters, filtered_coats, filtered;
 
   /// Makes room for the rows' pixels, which see nothing through their surfaces yet.
   void start(std::size_t pixels, const FrameSettings& settings);
   /// Ends all of it, where scenes let no light through.
   void clear();
+};
+
+/// Where light of the first surfaces behind glass is kept apart that is to be filtered.
+struct KeptBehind {
+  SeenThrough* seen = nullptr;  ///< Null: it is not.
+  std::size_t first = 0;        ///< Of the band's pixels, there.
 };
 
 /// Whether light that comes through surfaces is filtered.
@@ -49,10 +71,9 @@ inline bool filters_through(const FrameRequest& request) {
 /// What a band's pixels see through their surfaces.
 struct BandSeenThrough {
   const GBuffer& gbuffer;
-  std::span<const glm::vec3> light;  ///< As of Glossy::look_through.
-  std::span<const float> distances;  ///< To what rays met first behind the surfaces [m].
-  std::span<const glm::vec4> fog;    ///< As in struct BandToFilter.
-  std::size_t first;                 ///< Of the band, among the traced pixels.
+  const TransmittedLight& transmitted;
+  std::span<const glm::vec4> fog;  ///< As in struct BandToFilter.
+  std::size_t first;               ///< Of the band, among the traced pixels.
 };
 
 /// Keeps a band's light; that of emitters stands in `seen` already.

@@ -21,15 +21,22 @@ void main() {
   args.queries.at[2u * k] = base;
   args.queries.at[2u * k + 1u] = base;
   if (args.bounce == 1u) args.coat_rays.at[i].distance = args.hits.at[k].distance;
+  if (path.brings == kBringsCoatBehind) {
+    args.coat_distances.at[i] =
+        farther_seen(args.coat_distances.at[i], args.hits.at[k].distance);
+  }
+  CoatRay ray = args.coat_rays.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u) {
-    args.coat_rays.at[i].radiance += path.throughput * surface.emission;
+    bring_light(path, surface.emission, ray);
+    args.coat_rays.at[i] = ray;
     return;
   }
+  if (path.brings == kBringsCoatBehind && !lets_light_through(surface.transmission)) {
+    path.brings = kBringsMoreBehind;
+  }
   path.throughput *= left_of_light(surface.transmission, args.hits.at[k].distance);
-  CoatRay ray = args.coat_rays.at[i];
   meet_emitter(path, surface.emission, args.emitter_samples, ray);
-  args.coat_rays.at[i].radiance = ray.radiance;
-  args.coat_rays.at[i].emission = ray.emission;
+  args.coat_rays.at[i] = ray;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
   surface.coat_share = meet_coat(n_dot_v, gi_share, args.bounce, surface.reflectance, path);

@@ -24,7 +24,9 @@ void main() {
                coats_light(surface.reflectance, n_dot_v, surface.gi_share, surface.coat_share,
                            args.field.at[2u * k + 1u]) +
                args.diffuse.at[k] + args.specular.at[k];
-  args.coat_rays.at[i].radiance += path.throughput * light;
+  CoatRay ray = args.coat_rays.at[i];
+  bring_light(path, light, ray);
+  args.coat_rays.at[i] = ray;
 
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   NextRay next = go_on(surface.transmission, surface.reflectance, surface.coat_share,

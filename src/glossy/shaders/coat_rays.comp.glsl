@@ -31,7 +31,7 @@ void main() {
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
   uint at = atomicAdd(args.ways.at[0], 1u);
-  args.paths.at[at] = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, 1u);
+  args.paths.at[at] = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kBringsOwnCoat);
   args.cones.at[at] = reflected_cone(surface.cone, drawn.pdf);
   args.pixels.at[at] = i;
   args.rays.at[at] = RayRecord(offset_ray_origin(point.position_ws, point.geometric_normal_ws),

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// What pixels see through their surfaces, on a device; see glossy_frame.cpp and seen_through.cpp.
+#include "compose/frame_vulkan.h"
+#include "compose/glossy/seen_through.h"
+#include "glossy/glossy_records.h"
+
+namespace lambent {
+
+/// Light that comes through the band's surfaces, as Glossy::look_through.
+void FramePassesVulkan::transmission() {
+  // What was recorded reads the lists that are to be used again
+  run_steps();
+  reserve_ways(pixels_);
+  reserve<float>(pixels_, "distances of coats behind glass", memory_.coat_distances);
+  const uint salt = sample_ ^ kThroughSalt;
+  add("transmission", [=, this](Recorder& to) {
+    FrameMemory& m = memory_;
+    to.fill(m.way_length, 0u);
+    to.barrier();
+    const ThroughRaysArguments drawn = {{m.points.address()},
+                                        {m.surfaces.address()},
+                                        {m.coat_rays.address()},
+                                        {m.way_rays[0].address()},
+                                        {m.way_cones[0].address()},
+                                        {m.way_paths[0].address()},
+                                        {m.way_pixels[0].address()},
+                                        {m.way_length.address()},
+                                        {m.coat_distances.address()},
+                                        pixels_,
+                                        first_pixel_,
+                                        coat_salt(salt, 0u),
+                                        request_->settings.seed};
+    to.run(kernels_.through_rays, drawn, pixels_);
+  });
+  keeps_behind_ = filters_through(*request_);
+  if (keeps_behind_) start_through();
+  way_pass_ = "transmission";
+  way_seed_ = request_->settings.seed;
+  if (follow_all(first_pixel_, salt)) rays_bring_ |= kHasTransmission;
+  keeps_behind_ = false;
+}
+
+std::uint32_t FramePassesVulkan::way_emitter_draws() const {
+  if (!keeps_behind_ || !world_.scene().has_light_tree()) return 0;
+  return static_cast<std::uint32_t>(request_->settings.reflected_emissive_samples);
+}
+
+/// Makes room for what is seen through surfaces, and tells kernels where it is.
+void FramePassesVulkan::begin_through(std::size_t pixels) {
+  SeenThroughBuffers& t = memory_.through;
+  const auto room = [&](std::size_t bytes, Buffer& buffer) {
+    buffer.reserve(device_, pixels * bytes, "what is seen through surfaces");
+    return buffer.address();
+  };
+  SeenThroughRecord& r = t.record;
+  r.depths.address = room(sizeof(float), t.depths);
+  r.positions_ws.address = room(sizeof(vec3), t.positions_ws);
+  r.normals_ws.address = room(sizeof(vec3), t.normals_ws);
+  r.emitters.address = room(sizeof(vec3), t.emitters);
+  r.emitter_variance.address = room(sizeof(float), t.emitter_variance);
+  r.emitter_levels.address = room(sizeof(float), t.emitter_levels);
+  r.emitter_albedo.address = room(sizeof(vec3), t.emitter_albedo);
+  r.coats.address = room(sizeof(vec3), t.coats);
+  r.coat_albedo.address = room(sizeof(vec3), t.coat_albedo);
+  r.coat_lobes.address = room(sizeof(LobeGuide), t.coat_lobes);
+  r.light.address = room(sizeof(vec3), t.light);
+  r.albedo.address = room(sizeof(vec3), t.albedo);
+  r.lobes.address = room(sizeof(LobeGuide), t.lobes);
+  r.filtered_emitters.address = room(sizeof(vec3), t.filtered_emitters);
+  r.filtered_coats.address = room(sizeof(vec3), t.filtered_coats);
+  r.filtered.address = room(sizeof(vec3), t.filtered);
+  reserve<SeenThroughRecord>(1, "where what is seen through surfaces is", t.addresses);
+  vulkan::write(device_, std::span<const SeenThroughRecord>(&r, 1), t.addresses);
+}
+
+void FramePassesVulkan::start_through() {
+  add("transmission", [this](Recorder& to) {
+    const StartThroughArguments arguments = {
+        {memory_.through.addresses.address()}, first_traced_pixel(), pixels_};
+    to.run(kernels_.start_through, arguments, pixels_);
+  });
+}
+
+/// Keeps apart what lights up the first surfaces behind glass, of ways in the list `from`.
+void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, int from) {
+  FrameMemory& m = memory_;
+  const KeepBehindArguments arguments = {{world_.scene().address()},
+                                         {m.way_points.address()},
+                                         {m.way_surfaces.address()},
+                                         {m.way_paths[from].address()},
+                                         {m.way_pixels[from].address()},
+                                         {m.way_diffuse.address()},
+                                         {m.way_drawn.address()},
+                                         {m.way_drawn_specular.address()},
+                                         {m.way_drawn_squares.address()},
+                                         {m.coat_rays.address()},
+                                         {m.through.addresses.address()},
+                                         vec3(request_->camera.world_from_view[3]),
+                                         first_traced_pixel(),
+                                         ways,
+                                         way_emitter_draws()};
+  to.run(kernels_.keep_behind, arguments, ways);
+}
+
+/// Keeps what the band's pixels see through their surfaces.
+void FramePassesVulkan::keep_through() {
+  add("compose", [this](Recorder& to) {
+    FrameMemory& m = memory_;
+    const KeepThroughArguments arguments = {
+        {m.points.address()},         {m.surfaces.address()},
+        {m.coat_rays.address()},      {m.coat_distances.address()},
+        {m.pixel_fog.address()},      {m.through.addresses.address()},
+        first_traced_pixel(),         pixels_,
+        has_fog(*request_) ? 1u : 0u, 0u};
+    to.run(kernels_.keep_through, arguments, pixels_);
+  });
+}
+
+/// Filters what is seen through surfaces, and adds it to the layers.
+void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown,
+                                        float share) {
+  const std::uint32_t pixels = view.width * view.height;
+  const std::uint32_t draws =
+      world_.scene().has_light_tree()
+          ? static_cast<std::uint32_t>(request_->settings.reflected_emissive_samples)
+          : 0;
+  add("denoise", [=, this](Recorder& to) {
+    const SeenThroughRecord& r = memory_.through.record;
+    DenoiseViewOnDevice behind = view;
+    behind.positions_ws = r.positions_ws;
+    behind.normals_ws = r.normals_ws;
+    behind.depths = r.depths;
+    if (draws > 0) {
+      const FloatArray variance = draws > 1 ? r.emitter_variance : FloatArray{};
+      memory_.denoiser.record(to, behind, {r.emitters, {}, variance, r.emitter_levels},
+                              emitter_denoising(), r.filtered_emitters);
+    }
+    behind.lobes = r.coat_lobes;
+    memory_.denoiser.record(to, behind, {r.coats}, blind_denoising(), r.filtered_coats);
+    const SeenThroughArray seen{memory_.through.addresses.address()};
+    to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws}, pixels);
+    to.barrier();
+    DenoiseViewOnDevice blurred = view;
+    blurred.lobes = r.lobes;
+    memory_.denoiser.record(to, blurred, {r.light}, blind_denoising(), r.filtered);
+    const ShowThroughArguments shows = {seen,
+                                        {memory_.layers.address()},
+                                        static_cast<uint>(shown.first),
+                                        static_cast<uint>(shown.count),
+                                        share,
+                                        0u};
+    to.run(kernels_.show_through, shows, static_cast<std::uint32_t>(shown.count));
+  });
+}
+
+}  // namespace lambent

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps what pixels of a band see through their surfaces; see keep_through().
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "compose/glossy/seen_through_records.h"
+#include "compose/pixel_math.h"
+#include "glossy/way_math.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  KeepThroughArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  PixelSurfaceRecord surface = args.surfaces.at[i];
+  if ((surface.flags & kSurfaceMissed) != 0u) return;
+  if (!lets_light_through(surface.transmission)) return;
+  uint pixel = args.first + i;
+  CoatRay ray = args.coat_rays.at[i];
+  vec3 tint = filtered_tint(surface.transmission);
+  args.seen.at[0].light.at[pixel] = ray.radiance / tint;
+  args.seen.at[0].emitter_albedo.at[pixel] /= tint;
+  if (args.seen.at[0].depths.at[pixel] > 0.0f) {
+    vec3 coat_albedo = args.seen.at[0].coat_albedo.at[pixel];
+    args.seen.at[0].coats.at[pixel] = ray.apart / coat_albedo;
+    args.seen.at[0].coat_albedo.at[pixel] = coat_albedo / tint;
+    args.seen.at[0].coat_lobes.at[pixel].inverse_distance =
+        inverse_seen_distance(args.coat_distances.at[i]);
+  }
+  args.seen.at[0].albedo.at[pixel] = (args.has_fog != 0u ? args.fog.at[i].w : 1.0f) * tint;
+  vec3 normal_ws = args.points.at[i].normal_ws;
+  SeenLobe lobe = seen_lobe(surface.transmission, normal_ws, surface.to_viewer_ws);
+  if (lobe.alpha <= 0.0f) return;
+  args.seen.at[0].lobes.at[pixel] = lobe_guide(-normal_ws, lobe.to_viewer_ws, lobe.alpha,
+                                               inverse_seen_distance(ray.distance));
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Has pixels see nothing through their surfaces.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "compose/glossy/seen_through_records.h"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  StartThroughArguments args;
+};
+
+void main() {
+  uint i = gl_GlobalInvocationID.x;
+  if (i >= args.count) return;
+  uint pixel = args.first + i;
+  args.seen.at[0].depths.at[pixel] = 0.0f;
+  args.seen.at[0].emitters.at[pixel] = vec3(0.0f);
+  args.seen.at[0].emitter_levels.at[pixel] = 0.0f;
+  args.seen.at[0].emitter_albedo.at[pixel] = vec3(0.0f);
+  args.seen.at[0].coats.at[pixel] = vec3(0.0f);
+  args.seen.at[0].coat_albedo.at[pixel] = vec3(0.0f);
+  args.seen.at[0].coat_lobes.at[pixel].sharpness = 0.0f;
+  args.seen.at[0].light.at[pixel] = vec3(0.0f);
+  args.seen.at[0].albedo.at[pixel] = vec3(0.0f);
+  args.seen.at[0].lobes.at[pixel].sharpness = 0.0f;
+}
