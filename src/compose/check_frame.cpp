@@ -126,7 +126,7 @@ Expected<void> check(const FrameRequest& request) {
   }
   if (const Expected<void> fine = validate_fog(request.world.scene()); !fine) return fine;
   if (has_fog(request)) {
-    const int rows = traced_rows(settings).rows;
+    const int rows = traced_rows(request).rows;
     const Expected<void> fine = check_froxels(settings.fog, settings.width, rows);
     if (!fine) return fine;
   }

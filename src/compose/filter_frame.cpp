@@ -127,15 +127,18 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
 }  // namespace
 
 std::size_t traced_pixels(const FrameRequest& request) {
-  const Band rows = traced_rows(request.settings);
+  const Band rows = traced_rows(request);
   return static_cast<std::size_t>(rows.rows) * static_cast<std::size_t>(request.settings.width);
 }
 
-Band traced_rows(const FrameSettings& settings) {
+Band traced_rows(const FrameRequest& request) {
+  const FrameSettings& settings = request.settings;
   const Band rows = rendered_rows(settings);
   if (!settings.denoise) return rows;
-  const int reach = std::max(
-      {denoise_reach({}), denoise_reach(emitter_denoising()), denoise_reach(blind_denoising())});
+  const int of_filter = kReuse + std::max({denoise_reach({}), denoise_reach(emitter_denoising()),
+                                           denoise_reach(blind_denoising())});
+  // Rough glass shows filtered light, and is filtered itself
+  const int reach = filters_through(request) ? 2 * of_filter : of_filter;
   const int first = std::max(0, rows.first_row - reach);
   const int end = std::min(settings.height, rows.first_row + rows.rows + reach);
   return {first, end - first};
@@ -156,7 +159,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
                  FilteredPixels& pixels) {
   const std::size_t count = traced_pixels(request);
   const std::size_t first =
-      static_cast<std::size_t>(band.first_row - traced_rows(request.settings).first_row) *
+      static_cast<std::size_t>(band.first_row - traced_rows(request).first_row) *
       static_cast<std::size_t>(request.settings.width);
   const GBuffer& gbuffer = light.gbuffer;
   const bool emitters = !light.direct.emitters.empty(), gathered = light.gathered != nullptr;
@@ -236,7 +239,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
 void filter_pixels(const FrameRequest& request, FilteredPixels& pixels) {
   DenoiseView view;
   view.width = request.settings.width;
-  view.height = traced_rows(request.settings).rows;
+  view.height = traced_rows(request).rows;
   view.positions_ws = pixels.positions_ws;
   view.depths = pixels.depths;
   pixels.filtered_gathered.resize(pixels.gathered.size());

@@ -26,7 +26,7 @@ void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& 
                 FramePasses& passes) {
   const FrameSettings& settings = request.settings;
   const IndirectSources& sources = request.sources;
-  const Band all = traced_rows(settings);
+  const Band all = traced_rows(request);
   const float share = 1.0f / static_cast<float>(settings.samples);
   const int band_rows = rows_of_a_band(settings.width);
 

@@ -149,7 +149,7 @@ class FramePassesCpu final : public FramePasses {
     frame.rays = 0;
     start_layers(request.settings, frame.image);
     if (wants_motion(request.settings)) {
-      const int rows = traced_rows(request.settings).rows;
+      const int rows = traced_rows(request).rows;
       motion_.resize(static_cast<std::size_t>(frame.image.width) * static_cast<std::size_t>(rows));
     }
     if (!averages(request.settings)) history_.is_there = false;
@@ -307,7 +307,7 @@ class FramePassesCpu final : public FramePasses {
     }
     filter_pixels(request(), to_filter_);
     const FrameSettings& settings = request().settings;
-    show_filtered(to_filter_, shown_pixels(traced_rows(settings), settings), share, now_->layers);
+    show_filtered(to_filter_, shown_pixels(traced_rows(request()), settings), share, now_->layers);
     finish_pass("denoise");
   }
 
@@ -320,7 +320,7 @@ class FramePassesCpu final : public FramePasses {
     RenderedFrame& frame = now_->frame;
     if (request().settings.motion) {
       const FrameSettings& settings = request().settings;
-      const ShownPixels shown = shown_pixels(traced_rows(settings), settings);
+      const ShownPixels shown = shown_pixels(traced_rows(request()), settings);
       frame.image.layers.push_back(
           motion_layer(frame.image.width, frame.image.height,
                        std::span(motion_).subspan(shown.first, shown.count)));
@@ -350,7 +350,7 @@ class FramePassesCpu final : public FramePasses {
   /// Of the band, among the traced pixels.
   std::size_t first_pixel() const {
     const FrameSettings& settings = request().settings;
-    const int first_row = band_.first_row - traced_rows(settings).first_row;
+    const int first_row = band_.first_row - traced_rows(request()).first_row;
     return static_cast<std::size_t>(first_row) * settings.width;
   }
   void finish_pass(const char* name) { now_->timer.finish(name); }

@@ -82,6 +82,9 @@ inline bool has_fog(const FrameRequest& request) {
   return has_fog(request.world.scene());
 }
 
+/// Rows that are traced: where light is filtered, also those that it is filtered with.
+Band traced_rows(const FrameRequest& request);
+
 /// Passes over bands of rows, of one frame after the other: always of the same world and sources.
 /// Each call leaves its result for those that follow, and its rays and time in the frame.
 class FramePasses {

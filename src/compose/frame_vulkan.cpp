@@ -39,7 +39,7 @@ void FramePassesVulkan::begin(const FrameRequest& request, RenderedFrame& frame)
   reserve<PixelLayers>(pixels, "layers", memory_.layers);
   device_.run([&](Recorder& to) { to.fill(memory_.layers, 0u, 0, pixels * sizeof(PixelLayers)); });
   const std::size_t traced =
-      static_cast<std::size_t>(traced_rows(request.settings).rows) * request.settings.width;
+      static_cast<std::size_t>(traced_rows(request).rows) * request.settings.width;
   if (wants_motion(request.settings)) begin_motion(traced);
   if (request.settings.denoise) begin_filter();
 }

@@ -45,6 +45,7 @@
 #include "shaders/pixel_queries_comp.h"
 #include "shaders/ray_queries_comp.h"
 #include "shaders/replace_light_comp.h"
+#include "shaders/seen_distances_comp.h"
 #include "shaders/show_clearcoats_comp.h"
 #include "shaders/show_through_comp.h"
 #include "shaders/start_through_comp.h"
@@ -82,6 +83,7 @@ struct FrameKernels {
   vulkan::Kernel start_through{device, shaders::start_through_comp(), "start of what is seen"};
   vulkan::Kernel keep_behind{device, shaders::keep_behind_comp(), "keep light behind glass"};
   vulkan::Kernel keep_through{device, shaders::keep_through_comp(), "keep light through surfaces"};
+  vulkan::Kernel seen_distances{device, shaders::seen_distances_comp(), "distances behind glass"};
   vulkan::Kernel add_behind{device, shaders::add_behind_comp(), "add light behind glass"};
   vulkan::Kernel show_through{device, shaders::show_through_comp(), "show light through surfaces"};
   vulkan::Kernel fog_pixels{device, shaders::fog_pixels_comp(), "fog of pixels"};
@@ -102,13 +104,14 @@ struct FilteredBuffers {
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
 };
 
-/// What is seen through surfaces and filtered, of the traced rows: 252 bytes a pixel.
+/// What is seen through surfaces and filtered, of the traced rows: 260 bytes a pixel.
 struct SeenThroughBuffers {
   SeenThroughRecord record;
   vulkan::Buffer addresses;  ///< That record.
   vulkan::Buffer depths, positions_ws, normals_ws;
   vulkan::Buffer emitters, emitter_variance, emitter_levels, emitter_albedo;
-  vulkan::Buffer coats, coat_albedo, coat_lobes, light, albedo, lobes;
+  vulkan::Buffer coats, coat_albedo, coat_lobes, coat_distances;
+  vulkan::Buffer light, albedo, lobes, distances;
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
 };
 

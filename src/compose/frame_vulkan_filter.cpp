@@ -18,7 +18,7 @@ std::uint32_t FramePassesVulkan::emitter_draws() const {
 /// Makes room for what is filtered, and tells kernels where it is.
 void FramePassesVulkan::begin_filter() {
   const FrameSettings& settings = request_->settings;
-  const std::size_t pixels = static_cast<std::size_t>(traced_rows(settings).rows) * settings.width;
+  const std::size_t pixels = static_cast<std::size_t>(traced_rows(*request_).rows) * settings.width;
   FilteredBuffers& f = memory_.filtered;
   const auto room = [&](std::size_t count, std::size_t bytes, Buffer& buffer) {
     buffer.reserve(device_, count * bytes, "pixels to filter");
@@ -61,7 +61,7 @@ void FramePassesVulkan::begin_filter() {
 }
 
 std::uint32_t FramePassesVulkan::first_traced_pixel() const {
-  return static_cast<std::uint32_t>(band_.first_row - traced_rows(request_->settings).first_row) *
+  return static_cast<std::uint32_t>(band_.first_row - traced_rows(*request_).first_row) *
          static_cast<std::uint32_t>(request_->settings.width);
 }
 
@@ -99,10 +99,10 @@ void FramePassesVulkan::denoise(float share) {
   const bool lit = emitter_draws() > 0, gathered = gathers(*request_), coats = filters_coats();
   const bool through = filters_through(*request_);
   if (!lit && !gathered && !coats && !through) return;
-  const ShownPixels shown = shown_pixels(traced_rows(settings), settings);
+  const ShownPixels shown = shown_pixels(traced_rows(*request_), settings);
   const FilteredPixelsRecord& r = memory_.filtered.record;
   const DenoiseViewOnDevice view{static_cast<std::uint32_t>(settings.width),
-                                 static_cast<std::uint32_t>(traced_rows(settings).rows),
+                                 static_cast<std::uint32_t>(traced_rows(*request_).rows),
                                  r.positions_ws,
                                  r.geometric_normals_ws,
                                  r.depths,

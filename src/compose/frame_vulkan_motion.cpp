@@ -111,7 +111,7 @@ void FramePassesVulkan::finish_motion(LayeredImage& image) {
   frame_->rays += further_rays;
   if (!request_->settings.motion) return;
   std::vector<PixelMotion> motion(static_cast<std::size_t>(image.width) * image.height);
-  const ShownPixels shown = shown_pixels(traced_rows(request_->settings), request_->settings);
+  const ShownPixels shown = shown_pixels(traced_rows(*request_), request_->settings);
   vulkan::read(device_, memory_.picture_motion, std::span(motion), shown.first);
   image.layers.push_back(motion_layer(image.width, image.height, motion));
 }

@@ -31,9 +31,6 @@ inline Band rendered_rows(const FrameSettings& settings) {
   return {settings.first_row, rows};
 }
 
-/// Rows that are traced for these: where light is filtered, also those that it is filtered with.
-Band traced_rows(const FrameSettings& settings);
-
 /// Pixels of a band that are shown, and where they lie among the layers' pixels.
 struct ShownPixels {
   std::size_t first = 0;  ///< Of the band's pixels.

@@ -99,6 +99,11 @@ const float kPlaneTolerance = 4.0f;
 /// Distances to what rays met count as this long at least [m], so that one over them is a number.
 const float kLeastSeenDistance = 1e-4f;
 
+/// The distance to what a pixel's ray met [m]; below 0 where there is no ray.
+LAMBENT_FN float seen_distance(CoatRay ray) {
+  return ray.pdf > 0.0f ? ray.distance : -1.0f;
+}
+
 /// One over the distance to what a ray met [1/m]; 0 where it met nothing.
 LAMBENT_FN float inverse_seen_distance(float distance) {
   return floatBitsToUint(distance) == kMissedDistanceBits

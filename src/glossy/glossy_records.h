@@ -36,11 +36,11 @@ struct ThroughRaysArguments {
   RayArray rays;  ///< A list, as are:
   RayConeArray cones;
   CoatPathArray paths;
-  UintArray pixels;  ///< Of the ways.
-  UintArray ways;    ///< How many these are: one number.
+  UintArray pixels;           ///< Of the ways.
+  UintArray ways;             ///< How many these are: one number.
   FloatArray coat_distances;  ///< As in struct TransmittedLight, a pixel each.
   uint count;                 ///< Pixels.
-  uint first_index;  ///< Of the first one among those of the picture.
+  uint first_index;           ///< Of the first one among those of the picture.
   uint salt;
   uint seed;
 };

@@ -3,11 +3,12 @@
 // type
 //   CoatViewRef   pixels and their rays
 // and
-//   CoatRay fetch_ray(CoatViewRef view, ivec2 pixel)
-//   ivec2 view_size(CoatViewRef view)                    of the picture [pixels]
+//   float fetch_distance(CoatViewRef view, ivec2 pixel)   to what its ray met [m]; below 0: no ray
+//   ivec2 view_size(CoatViewRef view)                     of the picture [pixels]
 
 /// Mean of one over the distance to what a pixel's ray and those around it met [1/m]; 0 where none
-/// met anything. One ray alone would say little of what a rough coat sees.
+/// met anything. One ray alone would say little of what a rough coat sees, and rays that bring
+/// light would tell their pixels apart from others.
 LAMBENT_FN float seen_inverse_distance(CoatViewRef view, ivec2 pixel, uint sample_index,
                                        uint rows) {
   ivec2 size = view_size(view);
@@ -21,10 +22,10 @@ LAMBENT_FN float seen_inverse_distance(CoatViewRef view, ivec2 pixel, uint sampl
     for (int dx = -kReuse; dx <= kReuse; ++dx) {
       int x = pixel.x + dx;
       if (x < 0 || x >= size.x) continue;
-      CoatRay ray = fetch_ray(view, ivec2(x, y));
-      if (ray.pdf <= 0.0f) continue;
+      float distance = fetch_distance(view, ivec2(x, y));
+      if (distance < 0.0f) continue;
       rays += 1.0f;
-      sum += inverse_seen_distance(ray.distance);
+      sum += inverse_seen_distance(distance);
     }
   }
   return rays > 0.0f ? sum / rays : 0.0f;

@@ -9,6 +9,7 @@
 #include "lambent/rsm.h"
 #include "lambent/world.h"
 #include "scenes/builtin.h"
+#include "support/floor_behind_a_pane.h"
 #include "support/floor_under_a_pane.h"
 #include "support/lit_box.h"
 #include "support/vulkan_device.h"
@@ -85,6 +86,10 @@ class Frame : public test::OnDevice {
       const World here(scene), there(scene, shared_device());
       return {render_directly(scene, here, job), render_directly(scene, there, job)};
     }
+    return render_both(scene, job);
+  }
+
+  static Frames render_both(const Scene& scene, const Job& job) {
     const World here(scene), there(scene, shared_device());
     return {render(scene, here, job), render(scene, there, job)};
   }
@@ -156,10 +161,7 @@ TEST_F(Frame, OfALampBehindAPaneIsTheSameWhateverTheNumbersOfSamples) {
   Job job = small("");
   job.frame.emissive_samples = 1;
   job.frame.reflected_emissive_samples = 16;
-  const Scene scene = test::floor_under_a_pane();
-  const World here(scene), there(scene, shared_device());
-  const Frames frames{render(scene, here, job), render(scene, there, job)};
-  EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance);
+  EXPECT_LE(relative_rmse(render_both(test::floor_under_a_pane(), job), "glossy"), kTolerance);
 }
 
 // A ray that grazes a lamp or a sphere on one side and misses it on the other changes a pixel and
@@ -263,11 +265,26 @@ TEST_F(Frame, WithFilteredReflectionsIsTheSame) {
   Scene scene = test::floor_under_a_pane();
   scene.materials[0].clearcoat = 0.5f;
   scene.materials[0].clearcoat_roughness = 0.4f;
-  const World here(scene), there(scene, shared_device());
-  const Frames frames{render(scene, here, job), render(scene, there, job)};
+  const Frames frames = render_both(scene, job);
   EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance);
   job.frame.denoise = false;
-  EXPECT_GT(relative_rmse({frames.cpu, render(scene, there, job)}, "glossy"), 0.02);
+  EXPECT_GT(relative_rmse({frames.cpu, render_both(scene, job).device}, "glossy"), 0.02);
+}
+
+// What panes show: of matte and glossy floors, sharp and blurred, whole and in part.
+TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
+  Job job = small("");
+  job.frame.denoise = true;
+  for (const float roughness : {0.0f, 0.4f}) {
+    for (const Material& floor : {test::matte_floor(), test::metal_floor()}) {
+      const Frames frames = render_both(test::floor_behind_a_pane(floor, roughness), job);
+      EXPECT_LE(relative_rmse(frames, "transmission"), kTolerance) << roughness;
+      EXPECT_LE(relative_rmse(frames, ""), kTolerance) << roughness;
+    }
+    job.frame.emissive_samples = job.frame.reflected_emissive_samples = 1;
+    job.frame.first_row = 9;
+    job.frame.rows = 5;
+  }
 }
 
 TEST_F(Frame, WithRowsOfFilteredReflectionsIsTheSame) {
@@ -277,10 +294,7 @@ TEST_F(Frame, WithRowsOfFilteredReflectionsIsTheSame) {
   job.frame.first_row = 70;
   job.frame.rows = 9;
   job.frame.denoise = true;
-  const Scene scene = test::floor_under_a_pane();
-  const World here(scene), there(scene, shared_device());
-  const Frames frames{render(scene, here, job), render(scene, there, job)};
-  EXPECT_LE(relative_rmse(frames, "glossy"), kTolerance);
+  EXPECT_LE(relative_rmse(render_both(test::floor_under_a_pane(), job), "glossy"), kTolerance);
 }
 
 TEST_F(Frame, WithRowsOfFilteredLightIsTheSame) {

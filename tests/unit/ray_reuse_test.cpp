@@ -80,7 +80,7 @@ class RayReuseTest : public testing::Test {
     ray.direction_ws = drawn.direction_ws;
     if (uniform() > 0.2f) ray.distance = 0.2f + 5.0f * uniform();
     ray.radiance = vec3(uniform(), uniform(), 3.0f * uniform());
-    if (uniform() < 0.2f) ray.emission = vec3(20.0f, 10.0f, 5.0f);
+    if (uniform() < 0.2f) ray.apart = vec3(20.0f, 10.0f, 5.0f);
     return ray;
   }
 

@@ -13,7 +13,7 @@ constexpr std::size_t kPixelsPerTask = 1024;
 
 FogRequest fog_request(const FrameRequest& request) {
   const FrameSettings& settings = request.settings;
-  const Band rows = traced_rows(settings);
+  const Band rows = traced_rows(request);
   FogRequest fog{request.world, request.sources.field, settings.fog};
   fog.camera = camera_record(request.camera, settings.width, settings.height);
   fog.width = settings.width;

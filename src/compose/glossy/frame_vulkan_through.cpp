@@ -63,6 +63,8 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   r.coats.address = room(sizeof(vec3), t.coats);
   r.coat_albedo.address = room(sizeof(vec3), t.coat_albedo);
   r.coat_lobes.address = room(sizeof(LobeGuide), t.coat_lobes);
+  r.coat_distances.address = room(sizeof(float), t.coat_distances);
+  r.distances.address = room(sizeof(float), t.distances);
   r.light.address = room(sizeof(vec3), t.light);
   r.albedo.address = room(sizeof(vec3), t.albedo);
   r.lobes.address = room(sizeof(LobeGuide), t.lobes);
@@ -126,6 +128,9 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
           : 0;
   add("denoise", [=, this](Recorder& to) {
     const SeenThroughRecord& r = memory_.through.record;
+    const SeenThroughArray seen{memory_.through.addresses.address()};
+    to.run(kernels_.seen_distances, SeenDistancesArguments{seen, view.width, view.height}, pixels);
+    to.barrier();
     DenoiseViewOnDevice behind = view;
     behind.positions_ws = r.positions_ws;
     behind.normals_ws = r.normals_ws;
@@ -137,7 +142,6 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
     }
     behind.lobes = r.coat_lobes;
     memory_.denoiser.record(to, behind, {r.coats}, blind_denoising(), r.filtered_coats);
-    const SeenThroughArray seen{memory_.through.addresses.address()};
     to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws}, pixels);
     to.barrier();
     DenoiseViewOnDevice blurred = view;

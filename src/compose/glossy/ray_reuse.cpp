@@ -11,9 +11,9 @@ namespace {
 /// Rays of the rows around a band.
 struct RaysAround {
   using CoatViewRef = const RaysAround&;
-  static CoatRay fetch_ray(CoatViewRef view, ivec2 pixel) {
+  static float fetch_distance(CoatViewRef view, ivec2 pixel) {
     const int place = (pixel.y - view.first_row) * view.picture_size.x + pixel.x;
-    return view.coat_rays[static_cast<std::size_t>(place)];
+    return seen_distance(view.coat_rays[static_cast<std::size_t>(place)]);
   }
   static ivec2 view_size(CoatViewRef view) { return view.picture_size; }
 

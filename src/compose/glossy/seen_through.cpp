@@ -17,6 +17,34 @@ bool is_any_positive(const std::vector<float>& values) {
   return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
 }
 
+/// Distances of the traced pixels to what their lobes see.
+struct SeenDistances {
+  using CoatViewRef = const SeenDistances&;
+  static float fetch_distance(CoatViewRef view, ivec2 pixel) {
+    return view.distances[static_cast<std::size_t>(pixel.y * view.picture_size.x + pixel.x)];
+  }
+  static ivec2 view_size(CoatViewRef view) { return view.picture_size; }
+
+#include "glossy/seen_distance.inl.h"
+
+  std::span<const float> distances;
+  ivec2 picture_size;  // [pixels]
+};
+
+/// Finds them as means over pixels.
+void find_inverse_distances(const DenoiseView& view, std::span<const float> distances,
+                            std::vector<float>& inverse) {
+  inverse.assign(distances.size(), 0.0f);
+  parallel_chunks(distances.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    SeenDistances seen{distances, {view.width, view.height}};
+    for (std::size_t i = begin; i < end; ++i) {
+      if (distances[i] < 0.0f) continue;
+      const auto width = static_cast<std::size_t>(view.width);
+      inverse[i] = seen.seen_inverse_distance(seen, ivec2(i % width, i / width), 0u, 1u);
+    }
+  });
+}
+
 /// Filters what lights up the first surfaces behind glass, and adds it to all light.
 void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
   DenoiseView behind = view;
@@ -31,6 +59,7 @@ void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& see
     assert(done);  // sizes are the view's
   }
   seen.filtered_coats.resize(seen.coats.size());
+  find_inverse_distances(view, seen.coat_distances, seen.coat_inverse_distances);
   behind.lobes = {seen.coat_to_viewer_ws, seen.coat_alphas, seen.coat_inverse_distances};
   [[maybe_unused]] const Expected<void> done =
       denoiser.filter(behind, {seen.coats, {}, {}}, blind_denoising(), seen.filtered_coats);
@@ -58,13 +87,13 @@ void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
   coat_albedo.assign(pixels, vec3(0.0f));
   coat_to_viewer_ws.resize(pixels);
   coat_alphas.assign(pixels, 0.0f);
-  coat_inverse_distances.resize(pixels);
+  coat_distances.assign(pixels, -1.0f);
   light.assign(pixels, vec3(0.0f));
   albedo.assign(pixels, vec3(0.0f));
   away_normals_ws.resize(pixels);
   to_viewer_ws.resize(pixels);
   alphas.assign(pixels, 0.0f);
-  inverse_distances.resize(pixels);
+  distances.assign(pixels, -1.0f);
 }
 
 void SeenThrough::clear() {
@@ -86,8 +115,9 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
       if (seen.depths[pixel] > 0.0f) {
         seen.coats[pixel] = band.transmitted.coats_behind[i] / seen.coat_albedo[pixel];
         seen.coat_albedo[pixel] /= tint;
-        seen.coat_inverse_distances[pixel] =
-            inverse_seen_distance(band.transmitted.coat_distances[i]);
+        if (seen.coat_alphas[pixel] > 0.0f) {
+          seen.coat_distances[pixel] = band.transmitted.coat_distances[i];
+        }
       }
       seen.albedo[pixel] = (band.fog.empty() ? 1.0f : band.fog[i].w) * tint;
       const SeenLobe lobe =
@@ -95,7 +125,7 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
       seen.away_normals_ws[pixel] = -surface.normal_ws;
       seen.to_viewer_ws[pixel] = lobe.to_viewer_ws;
       seen.alphas[pixel] = lobe.alpha;
-      seen.inverse_distances[pixel] = inverse_seen_distance(band.transmitted.distances[i]);
+      if (lobe.alpha > 0.0f) seen.distances[pixel] = band.transmitted.distances[i];
     }
   });
 }
@@ -108,6 +138,7 @@ void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& se
     seen.filtered = seen.light;
     return;
   }
+  find_inverse_distances(view, seen.distances, seen.inverse_distances);
   DenoiseView blurred = view;
   blurred.normals_ws = seen.away_normals_ws;
   blurred.lobes = {seen.to_viewer_ws, seen.alphas, seen.inverse_distances};

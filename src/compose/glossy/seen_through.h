@@ -39,16 +39,18 @@ struct SeenThrough {
   std::vector<glm::vec3> emitter_albedo;  ///< What comes through of filtered light.
   // Light that its coat reflects
   std::vector<glm::vec3> coats, coat_albedo, coat_to_viewer_ws;
-  std::vector<float> coat_alphas, coat_inverse_distances;
+  std::vector<float> coat_alphas;
+  std::vector<float> coat_distances;  ///< To what it sees [m]; below 0 where it has no lobe.
 
   // All light that comes through, without the tint of the pixel's own surface
   std::vector<glm::vec3> light;
   std::vector<glm::vec3> albedo;  ///< What comes to the camera of it.
   // The lobes that rough surfaces blur it with, as those of coats that face the other way
   std::vector<glm::vec3> away_normals_ws, to_viewer_ws;
-  std::vector<float> alphas;  ///< 0: what is seen is sharp.
-  std::vector<float> inverse_distances;
+  std::vector<float> alphas;     ///< 0: what is seen is sharp.
+  std::vector<float> distances;  ///< To what they show [m]; below 0 where there are none.
 
+  std::vector<float> inverse_distances, coat_inverse_distances;  ///< As of seen_inverse_distance.
   std::vector<glm::vec3> filtered_emitters, filtered_coats, filtered;
 
   /// Makes room for the rows' pixels, which see nothing through their surfaces yet.

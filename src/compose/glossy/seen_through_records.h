@@ -20,9 +20,11 @@ struct SeenThroughRecord {
   Vec3Array coats;
   Vec3Array coat_albedo;
   LobeGuideArray coat_lobes;
+  FloatArray coat_distances;
   Vec3Array light;
   Vec3Array albedo;
   LobeGuideArray lobes;
+  FloatArray distances;
   Vec3Array filtered_emitters;
   Vec3Array filtered_coats;
   Vec3Array filtered;
@@ -67,6 +69,13 @@ struct KeepThroughArguments {
   uint count;
   uint has_fog;
   uint padding;
+};
+
+/// Finds how far away what lobes see is, as means over pixels.
+struct SeenDistancesArguments {
+  SeenThroughArray seen;
+  uint width;  ///< Of the traced rows [pixels].
+  uint height;
 };
 
 /// Adds filtered light of the first surfaces behind glass to all light.

@@ -47,7 +47,7 @@ void main() {
   args.seen.at[0].normals_ws.at[pixel] = point.normal_ws;
   float alpha = highlight_alpha(surface.reflectance);
   if (alpha > 0.0f) {
-    // How far away what the coat sees is, is known once its ray has met it
+    // How far away what it sees is, is known once all rays have met something
     args.seen.at[0].coat_lobes.at[pixel] =
         lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha, 0.0f);
   }

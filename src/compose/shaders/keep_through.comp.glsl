@@ -26,13 +26,14 @@ void main() {
     vec3 coat_albedo = args.seen.at[0].coat_albedo.at[pixel];
     args.seen.at[0].coats.at[pixel] = ray.apart / coat_albedo;
     args.seen.at[0].coat_albedo.at[pixel] = coat_albedo / tint;
-    args.seen.at[0].coat_lobes.at[pixel].inverse_distance =
-        inverse_seen_distance(args.coat_distances.at[i]);
+    if (args.seen.at[0].coat_lobes.at[pixel].sharpness > 0.0f) {
+      args.seen.at[0].coat_distances.at[pixel] = args.coat_distances.at[i];
+    }
   }
   args.seen.at[0].albedo.at[pixel] = (args.has_fog != 0u ? args.fog.at[i].w : 1.0f) * tint;
   vec3 normal_ws = args.points.at[i].normal_ws;
   SeenLobe lobe = seen_lobe(surface.transmission, normal_ws, surface.to_viewer_ws);
   if (lobe.alpha <= 0.0f) return;
-  args.seen.at[0].lobes.at[pixel] = lobe_guide(-normal_ws, lobe.to_viewer_ws, lobe.alpha,
-                                               inverse_seen_distance(ray.distance));
+  args.seen.at[0].distances.at[pixel] = ray.distance;
+  args.seen.at[0].lobes.at[pixel] = lobe_guide(-normal_ws, lobe.to_viewer_ws, lobe.alpha, 0.0f);
 }

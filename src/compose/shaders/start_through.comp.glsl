@@ -20,6 +20,8 @@ void main() {
   args.seen.at[0].coats.at[pixel] = vec3(0.0f);
   args.seen.at[0].coat_albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].coat_lobes.at[pixel].sharpness = 0.0f;
+  args.seen.at[0].coat_distances.at[pixel] = -1.0f;
+  args.seen.at[0].distances.at[pixel] = -1.0f;
   args.seen.at[0].light.at[pixel] = vec3(0.0f);
   args.seen.at[0].albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].lobes.at[pixel].sharpness = 0.0f;

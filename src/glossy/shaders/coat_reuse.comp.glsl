@@ -24,6 +24,9 @@ CoatLobe fetch_lobe(CoatReuseArguments view, ivec2 pixel) {
 CoatRay fetch_ray(CoatReuseArguments view, ivec2 pixel) {
   return view.coat_rays.at[index_of(view, pixel)];
 }
+float fetch_distance(CoatReuseArguments view, ivec2 pixel) {
+  return seen_distance(fetch_ray(view, pixel));
+}
 ivec2 view_size(CoatReuseArguments view) {
   return ivec2(view.width, view.height);
 }

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// What glass shows, once its noise is filtered.
+#include <gtest/gtest.h>
+
+#include "core/image/metrics.h"
+#include "lambent/renderer.h"
+#include "support/field_scenes.h"
+#include "support/floor_behind_a_pane.h"
+
+namespace lambent {
+namespace {
+
+constexpr float kClear = 0.0f, kFrosted = 0.4f;  // roughness
+
+/// A floor behind a pane, lit by a field, and what the pane shows.
+struct Pane {
+  Pane(const Material& floor, float roughness)
+      : stage(test::floor_behind_a_pane(floor, roughness)),
+        field(test::make_field(stage, few_probes(), 2)) {}
+  static FieldSettings few_probes() {
+    FieldSettings settings;
+    settings.probe_count = glm::ivec3(4);
+    settings.rays_per_probe = 64;
+    return settings;
+  }
+  /// Through the middle of pixels, whatever the seed.
+  static FrameSettings settings(bool filtered) {
+    FrameSettings settings = quality_settings(Quality::interactive);
+    settings.width = settings.height = 96;
+    settings.denoise = filtered;
+    settings.reflected_emissive_samples = 2;
+    settings.samples = 1;
+    settings.temporal_antialiasing = false;
+    settings.averaged_frames = 1;
+    return settings;
+  }
+  LayeredImage picture(const FrameSettings& settings) const {
+    Renderer renderer(stage.world, {.field = &field});
+    return renderer.render(stage.scene.cameras.at(0), settings).value().image;
+  }
+  test::Stage stage;
+  IrradianceField field;
+};
+
+Metrics difference(const LayeredImage& image, const LayeredImage& other, int block = 1) {
+  return compare_images(*image.find("transmission"), *other.find("transmission"),
+                        {.block = block, .perceptual = false})
+      .value();
+}
+
+/// The mean of pictures of many seeds.
+LayeredImage mean_picture(const Pane& pane, FrameSettings settings, int pictures) {
+  LayeredImage mean = pane.picture(settings);
+  Image& sum = mean.require("transmission", 3);
+  for (int i = 1; i < pictures; ++i) {
+    settings.seed = static_cast<std::uint32_t>(100 + i);
+    const LayeredImage next = pane.picture(settings);
+    for (std::size_t k = 0; k < sum.pixels.size(); ++k) {
+      sum.pixels[k] += next.find("transmission")->pixels[k];
+    }
+  }
+  for (float& value : sum.pixels) value /= static_cast<float>(pictures);
+  return mean;
+}
+
+/// Expects less than a share of the noise, and all of the light.
+void expect_less_noise(const Pane& pane, double share) {
+  const LayeredImage truth = mean_picture(pane, Pane::settings(false), 64);
+  const LayeredImage raw = pane.picture(Pane::settings(false));
+  const LayeredImage filtered = pane.picture(Pane::settings(true));
+  EXPECT_LT(difference(filtered, truth).relative_rmse,
+            share * difference(raw, truth).relative_rmse);
+  const LayeredImage mean = mean_picture(pane, Pane::settings(true), 16);
+  EXPECT_NEAR(difference(mean, truth).mean_ratio, 1.0, 0.01);
+}
+
+TEST(SeenThrough, ClearGlassShowsMatteFloorsWithLessNoise) {
+  expect_less_noise(Pane(test::matte_floor(), kClear), 0.5);
+}
+
+TEST(SeenThrough, ClearGlassShowsCoatsWithLessNoise) {
+  expect_less_noise(Pane(test::metal_floor(), kClear), 0.6);
+}
+
+TEST(SeenThrough, FrostedGlassShowsLessNoise) {
+  expect_less_noise(Pane(test::matte_floor(), kFrosted), 0.4);
+}
+
+TEST(SeenThrough, PicturesAreTheSumOfTheirLayers) {
+  const LayeredImage image = Pane(test::metal_floor(), kFrosted).picture(Pane::settings(true));
+  const std::vector<float>& all = image.find("")->pixels;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    float sum = 0.0f;
+    for (const char* part : {"direct", "indirect", "glossy", "transmission", "emission"}) {
+      sum += image.find(part)->pixels[i];
+    }
+    EXPECT_NEAR(all[i], sum, 1e-4f * (1.0f + sum));
+  }
+}
+
+TEST(SeenThrough, APartOfAPictureIsThatOfTheWhole) {
+  const Pane pane(test::metal_floor(), kFrosted);
+  FrameSettings part = Pane::settings(true);
+  part.width = 24;
+  part.height = 200;
+  const LayeredImage whole = pane.picture(part);
+  part.first_row = 90;
+  part.rows = 7;
+  const LayeredImage rows = pane.picture(part);
+  const std::vector<float>& expected = whole.find("transmission")->pixels;
+  const std::vector<float>& found = rows.find("transmission")->pixels;
+  const std::size_t first = static_cast<std::size_t>(3 * part.first_row * part.width);
+  for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], expected[first + i]) << i;
+}
+
+}  // namespace
+}  // namespace lambent
