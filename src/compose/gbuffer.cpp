@@ -35,6 +35,10 @@ void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings
     for (int x = 0; x < width; ++x) {
       const CameraRay ray = camera_ray(record, sample_position(settings, x, row, sample, jitter));
       rays[x] = {ray.origin_ws, 0.0f, ray.direction_ws};
+      rays[x].mask = sample_mask(
+          static_cast<uint>(row * width + x),
+          sample_number(static_cast<uint>(sample), static_cast<uint>(settings.samples), jitter),
+          settings.seed);
     }
     tracer_of(world).closest_hits(rays, hits);
     prefetch_surfaces(world.scene(), hits);

@@ -5,6 +5,7 @@
 
 #include "glossy/glossy_math.h"
 #include "raytracing/shaded_hit.h"
+#include "scene/coverage.h"
 #include "shared/brdf.h"
 #include "shared/demodulate.h"
 #include "shared/random.h"
@@ -26,11 +27,17 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   return fract(shift + plastic_sequence(index));
 }
 
+/// Which of a pixel's samples one of a frame is, `jitter` as of subpixel_position(): those of
+/// sequences that are anti-aliased over time go on from frame to frame.
+LAMBENT_FN uint sample_number(uint index, uint samples, uint jitter) {
+  return jitter == 0u ? index : (jitter - 1u) * samples + index;
+}
+
 /// The same of a frame of a sequence that is anti-aliased over time, whose places go on from frame
 /// to frame: `jitter` is 1 + the frames before it. 0: as above.
 LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed, uint jitter) {
   if (jitter == 0u) return subpixel_position(index, samples, seed);
-  return jitter_position((jitter - 1u) * samples + index);
+  return jitter_position(sample_number(index, samples, jitter));
 }
 
 /// Share of a pixel's indirect irradiance that counts. Lookups of the field know nothing of the

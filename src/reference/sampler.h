@@ -5,28 +5,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "shared/owen.h"
 #include "shared/random.h"
 
 namespace lambent::reference {
-
-inline std::uint32_t reverse_bits(std::uint32_t v) {
-  v = ((v >> 1) & 0x55555555u) | ((v & 0x55555555u) << 1);
-  v = ((v >> 2) & 0x33333333u) | ((v & 0x33333333u) << 2);
-  v = ((v >> 4) & 0x0F0F0F0Fu) | ((v & 0x0F0F0F0Fu) << 4);
-  return __builtin_bswap32(v);
-}
-
-/// Owen's nested uniform scrambling of a bit-reversed value: each bit is flipped or not by a hash
-/// of those below it. The hash is the improved Laine-Karras permutation of Vegdahl, "Building a
-/// Better LK Hash", 2021.
-inline std::uint32_t scramble_reversed(std::uint32_t v, std::uint32_t seed) {
-  v ^= v * 0x3D20ADEAu;
-  v += seed;
-  v *= (seed >> 16) | 1u;
-  v ^= v * 0x05526C56u;
-  v ^= v * 0x53A22864u;
-  return v;
-}
 
 /// Second dimension of Sobol's sequence, as bits after the binary point, for a point's index.
 inline std::uint32_t sobol_second_dimension(std::uint32_t index) {
@@ -45,16 +27,16 @@ class SobolSampler {
   /// `pixel_seed` must differ between pixels, and between sets of samples that are to be
   /// independent.
   SobolSampler(std::uint32_t pixel_seed, std::uint32_t sample_index)
-      : seed_(pixel_seed), reversed_index_(reverse_bits(sample_index)) {}
+      : seed_(pixel_seed), reversed_index_(bitfieldReverse(sample_index)) {}
 
   glm::vec2 next2() {
     const uvec3 hash = hash_pcg3d(uvec3(seed_, dimension_++, 0u));
     // Shuffle the order of the points, so that pairs do not march in step
-    const std::uint32_t index = reverse_bits(scramble_reversed(reversed_index_, hash.x));
+    const std::uint32_t index = bitfieldReverse(scramble_reversed(reversed_index_, hash.x));
     // The first dimension is the index reversed: scrambling wants it reversed again
-    const std::uint32_t x = reverse_bits(scramble_reversed(index, hash.y));
+    const std::uint32_t x = bitfieldReverse(scramble_reversed(index, hash.y));
     const std::uint32_t y =
-        reverse_bits(scramble_reversed(reverse_bits(sobol_second_dimension(index)), hash.z));
+        bitfieldReverse(scramble_reversed(bitfieldReverse(sobol_second_dimension(index)), hash.z));
     return {uniform_from_bits(x), uniform_from_bits(y)};
   }
 

@@ -169,12 +169,14 @@ LAMBENT_FN float coverage_at(SceneRef scene, MeshRef mesh, MaterialRef material,
   return alpha;
 }
 
-/// Whether a triangle stops the ray that meets it there.
+/// Whether a triangle stops the ray of this mask that meets it there.
 LAMBENT_FN bool stops_ray_at(SceneRef scene, uint instance, uint triangle, vec2 barycentrics,
-                             float distance) {
+                             float distance, uint ray_mask) {
   MeshRef mesh = fetch_mesh(scene, fetch_instance(scene, instance).mesh);
   MaterialRef material = fetch_material(scene, mesh.material);
   float alpha = coverage_at(scene, mesh, material, triangle_point(mesh, triangle, barycentrics));
-  return stops_ray(uint(material.alpha_mode), material.alpha_cutoff, alpha, barycentrics, distance,
-                   triangle);
+  float uniform_number = carries_sample(ray_mask)
+                             ? uniform_of_sample(ray_mask, instance, triangle)
+                             : uniform_of_hit(barycentrics, distance, triangle);
+  return stops_ray(uint(material.alpha_mode), material.alpha_cutoff, alpha, uniform_number);
 }

@@ -47,6 +47,7 @@ using uint = std::uint32_t;
 inline int clamp(int x, int low, int high) {
   return x < low ? low : (x > high ? high : x);
 }
+using glm::bitfieldReverse;
 using glm::clamp;
 using glm::cross;
 using glm::dot;

@@ -4,6 +4,7 @@
 #define LAMBENT_TESTS_TWIN_COVERAGE_H
 
 #include "raytracing/vulkan/scene_records.h"
+#include "scene/coverage.h"
 
 LAMBENT_BEGIN
 
@@ -14,6 +15,11 @@ struct CoverageArguments {
   uint count;
   uint padding;
 };
+
+/// Every other ray carries a pixel's sample.
+LAMBENT_FN uint mask_of_ray(uint ray) {
+  return ray % 2u == 0u ? 0xFFFFFFFFu : sample_mask(ray / 16u, ray / 2u, 3u);
+}
 
 LAMBENT_END
 #endif

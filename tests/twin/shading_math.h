@@ -53,6 +53,7 @@ struct ShadingDecisions {
   uint stops_mask;
   uint stops_blend;
   uint uniform_bits;
+  uint sample_bits;
 };
 
 struct ShadingMath {
@@ -206,11 +207,11 @@ LAMBENT_FN void evaluate_textures(LAMBENT_INOUT(RandomStream) random,
   float alpha = next_uniform(random);
   result.numbers.stopping = stopping_probability(kAlphaBlend, 0.5f, alpha) +
                             stopping_probability(kAlphaMask, 0.5f, alpha);
-  result.decisions.stops_mask =
-      stops_ray(kAlphaMask, 0.5f, alpha, barycentrics, distance, 7u) ? 1u : 0u;
-  result.decisions.stops_blend =
-      stops_ray(kAlphaBlend, 0.5f, alpha, barycentrics, distance, 7u) ? 1u : 0u;
+  result.decisions.stops_mask = stops_ray(kAlphaMask, 0.5f, alpha, distance) ? 1u : 0u;
+  result.decisions.stops_blend = stops_ray(kAlphaBlend, 0.5f, alpha, distance) ? 1u : 0u;
   result.decisions.uniform_bits = floatBitsToUint(uniform_of_hit(barycentrics, distance, 7u));
+  result.decisions.sample_bits =
+      floatBitsToUint(uniform_of_sample(sample_mask(floatBitsToUint(alpha), 5u, 3u), 2u, 7u));
 }
 
 LAMBENT_FN ShadingMath evaluate_shading_math(uint i) {

@@ -10,6 +10,7 @@
 #include "raytracing/camera_rays.h"
 #include "raytracing/surface.h"
 #include "raytracing/world_access.h"
+#include "scene/coverage.h"
 #include "scene/light_tree/light_tree.h"
 #include "scenes/builtin.h"
 #include "support/many_lights.h"
@@ -318,6 +319,7 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
     rays.push_back(camera_ray(camera, frame.width, frame.height,
                               static_cast<float>(i % frame.width) + 0.5f,
                               static_cast<float>(i / frame.width) + 0.5f));
+    rays.back().mask = sample_mask(static_cast<std::uint32_t>(i), 0, frame.seed);
   }
   const auto count = static_cast<std::uint32_t>(rays.size());
   const test::UploadedHits hits =

@@ -18,6 +18,7 @@ void main() {
   vec2 offset = subpixel_position(args.index, args.samples, args.seed, args.jitter);
   CameraRay ray = camera_ray(args.camera, corner + offset);
   args.rays.at[i] = RayRecord(ray.origin_ws, 0.0f, ray.direction_ws,
-                              uintBitsToFloat(kMissedDistanceBits), kRayMeetsAll);
+                              uintBitsToFloat(kMissedDistanceBits),
+                              sample_mask(pixel, sample_number(args.index, args.samples, args.jitter), args.seed));
   args.cones.at[i] = camera_cone(args.camera, ray.direction_ws, args.samples, args.jitter);
 }

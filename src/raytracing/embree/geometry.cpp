@@ -43,7 +43,8 @@ void filter_see_through(const RTCFilterFunctionNArguments* args) {
     const std::uint32_t instance =
         slots.instance_of[Slots::slot_of(hit.geomID, hit.instID[0], baked)];
     const float distance = RTCRayN_tfar(args->ray, args->N, lane);
-    bool stops = stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance);
+    bool stops = stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance,
+                              RTCRayN_mask(args->ray, args->N, lane));
     const Instance& placed = scene.instances[instance];
     if (stops && lets_light_through(scene.materials[scene.meshes[placed.mesh].material])) {
       const vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);

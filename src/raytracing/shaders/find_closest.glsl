@@ -9,10 +9,10 @@
 layout(location = 0) rayPayloadEXT HitRecord hit;
 
 /// A mask of 0: the ray is not traced, and has missed. On its way, until there is a hit, front_face
-/// tells whether the ray crosses glass.
+/// holds the ray's mask.
 HitRecord find_closest(uvec2 structure, RayRecord ray, uint flags, uint mask) {
   hit = HitRecord(uintBitsToFloat(kMissedDistanceBits), 0u, 0u, vec2(0.0f),
-                  crosses_glass(ray.mask) ? 1u : 0u);
+                  ray.mask);
   if (mask != 0u && ray.t_min <= ray.t_max) {
     traceRayEXT(accelerationStructureEXT(structure), flags, mask, 0, 0, 0, ray.origin_ws, ray.t_min,
                 ray.direction_ws, min(ray.t_max, kFarthestOfDevices), 0);

@@ -15,7 +15,7 @@ hitAttributeEXT vec2 barycentrics;
 void main() {
   uint instance = uint(gl_InstanceCustomIndexEXT);
   uint triangle = uint(gl_PrimitiveID);
-  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT)) {
+  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT, kRayMeetsAll)) {
     ignoreIntersectionEXT;
   }
   if (!lets_light_through(material_of(args.scene, instance))) return;

@@ -16,7 +16,7 @@ hitAttributeEXT vec2 barycentrics;
 void main() {
   uint instance = uint(gl_InstanceCustomIndexEXT);
   uint triangle = uint(gl_PrimitiveID);
-  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT)) {
+  if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT, kRayMeetsAll)) {
     ignoreIntersectionEXT;
   }
   MaterialRecord material = material_of(args.scene, instance);

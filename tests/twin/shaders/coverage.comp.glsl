@@ -14,7 +14,7 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   HitRecord hit = args.hits.at[i];
-  bool stops =
-      stops_ray_at(args.scene, hit.instance, hit.triangle, hit.barycentrics, hit.distance);
+  bool stops = stops_ray_at(args.scene, hit.instance, hit.triangle, hit.barycentrics, hit.distance,
+                            mask_of_ray(i));
   args.stops.at[i] = stops ? 1u : 0u;
 }
