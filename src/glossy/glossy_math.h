@@ -20,7 +20,7 @@ LAMBENT_BEGIN
 /// The ray that a pixel's coat sends out, and the light that it brings.
 struct CoatRay {
   vec3 direction_ws;  ///< Unit.
-  float distance;     ///< To what it met first [m]; infinite: it left the scene.
+  float distance;     ///< As of distance_met [m]; infinite: it left the scene.
   vec3 radiance;      ///< But for `apart` [W/(m^2 sr)].
   float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
                       ///< into the surface and brings nothing.

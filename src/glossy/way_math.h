@@ -34,6 +34,14 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
   return share;
 }
 
+/// CoatRay::distance once its way has met what is next, so far from there [m]: the distance to what
+/// a ray met first, and of a way through surfaces that to the first one which lets no light through.
+LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
+  if (bounce == 1u) return further;
+  bool crossed_all = path.pdf == kFoundByNobodyElse && path.brings == kBringsOther;
+  return crossed_all ? so_far + further : so_far;
+}
+
 /// The distance to what a coat behind glass sees, which lies behind further glass: so far to that,
 /// infinite where nothing was met yet, and so far from there [m].
 LAMBENT_FN float farther_seen(float so_far, float further) {

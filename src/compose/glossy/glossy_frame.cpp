@@ -157,7 +157,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       const std::size_t i = pixels[k];
       CoatPath& path = paths_[i];
       met_.to_viewer_ws[i] = -rays[k].direction;
-      if (bounce == 1) rays_[i].distance = hits[k].distance;
+      rays_[i].distance = distance_met(path, bounce, rays_[i].distance, hits[k].distance);
       if (path.brings == kBringsCoatBehind) {
         coat_distances_[i] = farther_seen(coat_distances_[i], hits[k].distance);
       }

@@ -19,7 +19,7 @@ namespace lambent {
 /// Light that comes through the surfaces of pixels.
 struct TransmittedLight {
   std::vector<glm::vec3> light;  ///< But for what is kept apart.
-  std::vector<float> distances;  ///< To what rays met first behind the surfaces [m].
+  std::vector<float> distances;  ///< As of distance_met [m].
   /// Kept apart: what coats of the first surfaces behind glass reflect, and the distances to what
   /// their rays met [m].
   std::vector<glm::vec3> coats_behind;

@@ -20,12 +20,12 @@ void main() {
                                  args.hits.at[k].distance);
   args.queries.at[2u * k] = base;
   args.queries.at[2u * k + 1u] = base;
-  if (args.bounce == 1u) args.coat_rays.at[i].distance = args.hits.at[k].distance;
+  CoatRay ray = args.coat_rays.at[i];
+  ray.distance = distance_met(path, args.bounce, ray.distance, args.hits.at[k].distance);
   if (path.brings == kBringsCoatBehind) {
     args.coat_distances.at[i] =
         farther_seen(args.coat_distances.at[i], args.hits.at[k].distance);
   }
-  CoatRay ray = args.coat_rays.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u) {
     bring_light(path, surface.emission, ray);
     args.coat_rays.at[i] = ray;
