@@ -26,7 +26,9 @@ constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
 // The path tracer's sums of its eight layers and their squares in doubles, and its own layers.
 constexpr std::uint64_t kReferenceBytes = 18 * 3 * sizeof(double) + 11 * kLayerBytes + 4;
 // What is kept of a pixel's sample to filter its light, and what the filter itself takes.
-constexpr std::uint64_t kFilterBytes = 17 * kLayerBytes + 7 * sizeof(float) + 124;
+// Whether a scene has glass, whose light is kept besides, is not known here.
+constexpr std::uint64_t kGlassBytes = 14 * kLayerBytes + 9 * sizeof(float);
+constexpr std::uint64_t kFilterBytes = 17 * kLayerBytes + 7 * sizeof(float) + 124 + kGlassBytes;
 // Light of the frame before and of this one, where it is averaged over frames, and its motion.
 constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)) + 20;
 // A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,
@@ -90,7 +92,8 @@ std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size
   const auto rows = static_cast<std::uint64_t>(rows_of_a_band(options, size));
   std::uint64_t band = rows * width * bytes_a_pixel(options);
   if (is_filtered(options)) {
-    band += 2 * static_cast<std::uint64_t>(denoise_reach({})) * width * kFilterBytes;
+    // Above and below the band, twice as far where rough glass shows what was filtered before
+    band += 2 * 2 * static_cast<std::uint64_t>(denoise_reach({})) * width * kFilterBytes;
   }
   return kFixedBytes + band + (keeps_all_rows(options, size) ? pixels_of(size) * kLayerBytes : 0);
 }

@@ -36,7 +36,7 @@ struct FrameSettings {
   /// Samples of emissive triangles and of many lights for direct light, >= 1; a shadow ray each.
   int emissive_samples = 4;
   /// The same at each surface that a ray of a reflection or through glass meets, >= 1: no filter
-  /// takes the noise from what mirrors, clearcoats and glass show.
+  /// takes the noise from what mirrors and clearcoats show.
   int reflected_emissive_samples = 4;
   /// Rays a sample sends out to gather its indirect light (final gathering), >= 0; 0 looks the
   /// field up instead. Finds light and shade finer than the probes' spacing, at the price of noise

@@ -7,8 +7,9 @@
 
 LAMBENT_BEGIN
 
-/// Which instances a ray meets: those whose mask (instance_mask) shares a bit with the ray's.
-const uint kRayMeetsAll = 0xFFFFFFFFu;  ///< Cameras, shadows.
+/// Which instances a ray meets: those whose mask (instance_mask) shares a bit with the ray's. Rays
+/// of cameras have masks of their own, see sample_mask() of scene/coverage.h.
+const uint kRayMeetsAll = 0xFFFFFFFFu;  ///< Shadows, reflections.
 const uint kRayGathers = 1u << 1;       ///< Meets what casts GI.
 const uint kRayOfProbe = 1u << 2;       ///< The same less what probes ignore.
 const uint kRayOfMotion = 1u << 3;      ///< Meets what motion is told of: AlphaMode::blend is not.

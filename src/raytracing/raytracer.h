@@ -71,9 +71,10 @@ struct GeometryEdits {
 
 /// Finds what rays meet. Queries are const, single-threaded and safe to call from many threads at
 /// once. Triangles of AlphaMode::mask let rays through where coverage is below the cutoff; those of
-/// AlphaMode::blend let a ray through with probability 1 - coverage, decided by a hash of the hit.
-/// What lets light through (lets_light_through) stops rays, but for those that cross glass
-/// (crosses_glass): these pass with a probability that is decided by a hash of the ray.
+/// AlphaMode::blend let a ray through with probability 1 - coverage, decided by a hash of the hit,
+/// or by the pixel whose sample the ray is (scene/coverage.h). What lets light through
+/// (lets_light_through) stops rays, but for those that cross glass (crosses_glass): these pass with
+/// a probability that is decided by a hash of the ray.
 class RayTracer {
  public:
   virtual ~RayTracer() = default;
