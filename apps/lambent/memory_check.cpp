@@ -92,7 +92,7 @@ std::uint64_t picture_bytes(const RenderOptions& options, const glm::ivec2& size
   const auto rows = static_cast<std::uint64_t>(rows_of_a_band(options, size));
   std::uint64_t band = rows * width * bytes_a_pixel(options);
   if (is_filtered(options)) {
-    // Above and below the band, twice as far where rough glass shows what was filtered before
+    // Above and below the band; twice as far where rough glass shows what was filtered before
     band += 2 * 2 * static_cast<std::uint64_t>(denoise_reach({})) * width * kFilterBytes;
   }
   return kFixedBytes + band + (keeps_all_rows(options, size) ? pixels_of(size) * kLayerBytes : 0);

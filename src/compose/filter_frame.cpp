@@ -135,10 +135,10 @@ Band traced_rows(const FrameRequest& request) {
   const FrameSettings& settings = request.settings;
   const Band rows = rendered_rows(settings);
   if (!settings.denoise) return rows;
-  const int of_filter = kReuse + std::max({denoise_reach({}), denoise_reach(emitter_denoising()),
-                                           denoise_reach(blind_denoising())});
-  // Rough glass shows filtered light, and is filtered itself
-  const int reach = filters_through(request) ? 2 * of_filter : of_filter;
+  int reach = std::max(
+      {denoise_reach({}), denoise_reach(emitter_denoising()), denoise_reach(blind_denoising())});
+  if (filters_through(request)) reach += kReuse;  // for distances of lobes
+  if (shows_rough_glass(request)) reach *= 2;     // it shows filtered light, and is filtered itself
   const int first = std::max(0, rows.first_row - reach);
   const int end = std::min(settings.height, rows.first_row + rows.rows + reach);
   return {first, end - first};

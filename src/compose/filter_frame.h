@@ -40,7 +40,7 @@ struct FilteredPixels {
   std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_coats,
       filtered_highlights;
 
-  SeenThrough through;
+  SeenThrough through;  ///< Of scenes with glass.
 
   Denoiser denoiser;
 };
@@ -56,7 +56,7 @@ struct BandToFilter {
   std::span<const glm::vec4> fog = {};  ///< As of fog_along, a pixel each; empty: there is none.
 };
 
-/// How many these are.
+/// How many pixels the traced rows have.
 std::size_t traced_pixels(const FrameRequest& request);
 
 /// Keeps a band's sample.

@@ -104,7 +104,7 @@ struct FilteredBuffers {
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
 };
 
-/// What is seen through surfaces and filtered, of the traced rows: 260 bytes a pixel.
+/// What is seen through surfaces and filtered, of the traced rows: 216 bytes a pixel.
 struct SeenThroughBuffers {
   SeenThroughRecord record;
   vulkan::Buffer addresses;  ///< That record.
@@ -233,12 +233,13 @@ class FramePassesVulkan final : public FramePasses {
   void follow_ways(std::uint32_t ways, std::uint32_t bounce, std::uint32_t first_index,
                    std::uint32_t salt);
   void reuse_coat_rays(const Band& around);
-  /// Samples of emitters at what ways meet behind glass; 0 where their light is not kept apart.
-  std::uint32_t way_emitter_draws() const;
+  /// Samples of emitters at what rays through glass meet; 0 where nothing is drawn at random.
+  std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);
   void start_through();
   void keep_behind(Recorder& to, std::uint32_t ways, int from);
   void keep_through();
+  void denoise_coats(const DenoiseViewOnDevice& view);
   void denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown, float share);
   void upload_before();
   void begin_motion(std::size_t pixels);

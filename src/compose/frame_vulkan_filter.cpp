@@ -94,6 +94,20 @@ void FramePassesVulkan::keep_pixels() {
   if (filters_through(*request_)) keep_through();
 }
 
+/// Filters what coats reflect by rays, and highlights of emitters.
+void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
+  add("denoise", [=, this](Recorder& to) {
+    const FilteredPixelsRecord& r = memory_.filtered.record;
+    DenoiseViewOnDevice of_lobes = view;
+    of_lobes.lobes = r.coat_lobes;
+    memory_.denoiser.record(to, of_lobes, {r.coats}, blind_denoising(), r.filtered_coats);
+    if (emitter_draws() == 0) return;
+    of_lobes.lobes = r.highlight_lobes;
+    memory_.denoiser.record(to, of_lobes, {r.highlights}, emitter_denoising(),
+                            r.filtered_highlights);
+  });
+}
+
 void FramePassesVulkan::denoise(float share) {
   const FrameSettings& settings = request_->settings;
   const bool lit = emitter_draws() > 0, gathered = gathers(*request_), coats = filters_coats();
@@ -107,6 +121,8 @@ void FramePassesVulkan::denoise(float share) {
                                  r.geometric_normals_ws,
                                  r.depths,
                                  {}};
+  DenoiseViewOnDevice by_shading = view;
+  by_shading.normals_ws = r.normals_ws;
   const auto variance = [](bool measured, FloatArray array) {
     return measured ? array : FloatArray{};
   };
@@ -121,26 +137,13 @@ void FramePassesVulkan::denoise(float share) {
   }
   if (lit) {
     add("denoise", [=, this, &r](Recorder& to) {
-      DenoiseViewOnDevice by_shading = view;
-      by_shading.normals_ws = r.normals_ws;
       memory_.denoiser.record(
           to, by_shading,
           {r.emitters, {}, variance(emitter_draws() > 1, r.emitter_variance), r.emitter_levels},
           emitter_denoising(), r.filtered_emitters);
     });
   }
-  if (coats) {
-    add("denoise", [=, this, &r](Recorder& to) {
-      DenoiseViewOnDevice of_lobes = view;
-      of_lobes.normals_ws = r.normals_ws;
-      of_lobes.lobes = r.coat_lobes;
-      memory_.denoiser.record(to, of_lobes, {r.coats}, blind_denoising(), r.filtered_coats);
-      if (!lit) return;
-      of_lobes.lobes = r.highlight_lobes;
-      memory_.denoiser.record(to, of_lobes, {r.highlights}, emitter_denoising(),
-                              r.filtered_highlights);
-    });
-  }
+  if (coats) denoise_coats(by_shading);
   add("denoise", [=, this](Recorder& to) {
     const AddFilteredArguments arguments = {{memory_.filtered.addresses.address()},
                                             {memory_.layers.address()},
@@ -152,11 +155,7 @@ void FramePassesVulkan::denoise(float share) {
                                             coats ? 1u : 0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
-  if (through) {
-    DenoiseViewOnDevice by_shading = view;
-    by_shading.normals_ws = r.normals_ws;
-    denoise_through(by_shading, shown, share);
-  }
+  if (through) denoise_through(by_shading, shown, share);
   run_steps();
 }
 

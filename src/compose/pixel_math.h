@@ -27,8 +27,8 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   return fract(shift + plastic_sequence(index));
 }
 
-/// Which of a pixel's samples one of a frame is, `jitter` as of subpixel_position(): those of
-/// sequences that are anti-aliased over time go on from frame to frame.
+/// The number of a frame's sample among all of its pixel. Those of sequences that are anti-aliased
+/// over time go on from frame to frame; `jitter` as of subpixel_position() below.
 LAMBENT_FN uint sample_number(uint index, uint samples, uint jitter) {
   return jitter == 0u ? index : (jitter - 1u) * samples + index;
 }
@@ -87,6 +87,12 @@ LAMBENT_FN float highlight_alpha(Reflectance surface) {
   if (!has_clearcoat(surface.layers)) return surface.alpha;
   if (surface.layers.clearcoat_normal.z < kSameNormalCosine) return 0.0f;
   return min(surface.alpha, surface.layers.clearcoat_alpha);
+}
+
+/// That of a surface behind glass, of whose coat rays bring a share; 0 where they bring none, so
+/// that nothing tells how far away lies what its highlights show.
+LAMBENT_FN float alpha_behind(Reflectance surface, float coat_share) {
+  return coat_share > 0.0f ? highlight_alpha(surface) : 0.0f;
 }
 
 /// The field's light at a pixel once another source has taken the place of a part of it.

@@ -11,8 +11,8 @@
 LAMBENT_BEGIN
 
 // Candidates of emitters at what gathering rays meet; see candidates_per_sample. With four, gathers
-// take 1.2 to 1.4 times as long; they have .3 % less noise in cornell, 2 % less in a street under 40
-// lamps, and 17 % less in an office whose ceiling is of light panels.
+// take 1.2 to 1.4 times as long; they have .3 % less noise in cornell, 2 % less in a street under
+// 40 lamps, and 17 % less in an office whose ceiling is of light panels.
 const uint kGatherCandidates = 2u;
 
 /// Direction of a ray, of density cosine over pi about the frame's normal.

@@ -8,6 +8,7 @@
 #ifndef LAMBENT_GLOSSY_GLOSSY_MATH_H
 #define LAMBENT_GLOSSY_GLOSSY_MATH_H
 
+#include "glossy/coat_path.h"
 #include "raytracing/coat_share.h"
 #include "raytracing/ray_cone.h"
 #include "raytracing/ray_records.h"
@@ -17,39 +18,6 @@
 
 LAMBENT_BEGIN
 
-/// The ray that a pixel's coat sends out, and the light that it brings.
-struct CoatRay {
-  vec3 direction_ws;  ///< Unit.
-  float distance;     ///< As of distance_met [m]; infinite: it left the scene.
-  vec3 radiance;      ///< But for `apart` [W/(m^2 sr)].
-  float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
-                      ///< into the surface and brings nothing.
-  vec3 apart;         ///< Light that is kept apart, see CoatPath::brings [W/(m^2 sr)].
-};
-LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
-
-// CoatPath::brings, and what of it is kept apart in CoatRay::apart
-const uint kBringsOther = 0u;  ///< Light of another coat, or of none: nothing.
-/// Light of the pixel's own coat, no other one having reflected it: what emissive surfaces send,
-/// which the pixel's direct light samples, too.
-const uint kBringsOwnCoat = 1u;
-/// The way has come to the first surface behind glass that lets no light through: nothing yet.
-const uint kBringsBehind = 2u;
-/// Light of that surface's coat: all. The way has met nothing but glass since, ...
-const uint kBringsCoatBehind = 3u;
-/// ... or something else.
-const uint kBringsMoreBehind = 4u;
-
-/// A ray's way through the scene.
-struct CoatPath {
-  vec3 throughput;  ///< Share of the light that the ray meets next which the pixel's ray brings.
-  float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
-                    ///< 0: the way has ended.
-  float alpha;      ///< GGX width of the widest lobe on the way.
-  uint brings;      ///< kBringsOther, ...
-};
-LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
-
 /// Pixels to each side of one whose rays it takes, along a row; and rows of rays.
 const int kReuse = 2;
 
@@ -58,14 +26,11 @@ const int kReuse = 2;
 // surface, so that neighbours' rays do not help.
 const float kEveryPixelRoughness = 0.5f;
 
-/// A ray goes on from coats that it meets up to this often; the field's light ends it.
-const uint kMaxCoatBounces = 4u;
-
 /// Surfaces that a ray meets in all, with those that it crosses.
 const uint kMaxWays = 12u;
 
-/// CoatPath::pdf of ways whose lights nobody else looks for: those that begin through a surface.
-const float kFoundByNobodyElse = 1e30f;
+/// A ray goes on from coats that it meets up to this often; the field's light ends it ...
+const uint kMaxCoatBounces = 4u;
 
 /// ... where the light that is met next would count by at least this share in the pixel's ray.
 const float kMinThroughput = 0.1f;
@@ -95,21 +60,6 @@ const float kLeastReflected = 1e-20f;
 /// Neighbours count for nothing this far from a pixel's plane [pixels' widths at its depth]: the
 /// plane of a sphere of few pixels falls off as much over the pixels in reach.
 const float kPlaneTolerance = 4.0f;
-
-/// Distances to what rays met count as this long at least [m], so that one over them is a number.
-const float kLeastSeenDistance = 1e-4f;
-
-/// The distance to what a pixel's ray met [m]; below 0 where there is no ray.
-LAMBENT_FN float seen_distance(CoatRay ray) {
-  return ray.pdf > 0.0f ? ray.distance : -1.0f;
-}
-
-/// One over the distance to what a ray met [1/m]; 0 where it met nothing.
-LAMBENT_FN float inverse_seen_distance(float distance) {
-  return floatBitsToUint(distance) == kMissedDistanceBits
-             ? 0.0f
-             : 1.0f / max(distance, kLeastSeenDistance);
-}
 
 // Keep the random numbers of rays and of lights at what they meet apart from those of other passes.
 const uint kCoatSalt = 0x434F4154u;
@@ -292,7 +242,7 @@ LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
 
 /// Weighted sums over rays.
 struct CoatSums {
-  vec3 light;        ///< Reflected, but for CoatRay::emission,
+  vec3 light;        ///< Reflected, but for what emissive surfaces send,
   vec3 emission;     ///< and that.
   float weight;      ///< Of the rays around, and
   float schlick;     ///< of these each times Schlick's (1 - v_dot_h)^5 of its ray,

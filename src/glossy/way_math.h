@@ -35,17 +35,17 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
 }
 
 /// CoatRay::distance once its way has met what is next, so far from there [m]: the distance to what
-/// a ray met first, and of a way through surfaces that to the first one which lets no light through.
+/// a ray met first, and of a way through surfaces that to the first which lets no light through.
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
   bool crossed_all = path.pdf == kFoundByNobodyElse && path.brings == kBringsOther;
   return crossed_all ? so_far + further : so_far;
 }
 
-/// The distance to what a coat behind glass sees, which lies behind further glass: so far to that,
-/// infinite where nothing was met yet, and so far from there [m].
+/// The distance to what a coat behind glass sees [m], which may lie behind further glass: the
+/// distance so far, below 0 where the coat's ray has met nothing yet, and what is to be added.
 LAMBENT_FN float farther_seen(float so_far, float further) {
-  return floatBitsToUint(so_far) == kMissedDistanceBits ? further : so_far + further;
+  return max(so_far, 0.0f) + further;
 }
 
 /// Adds light that a way met, but for what emissive surfaces send, to what its pixel's ray brings.
@@ -79,7 +79,7 @@ LAMBENT_FN vec3 filtered_tint(Transmission through) {
 /// from the camera.
 struct SeenLobe {
   vec3 to_viewer_ws;  ///< The viewer whose lobe such a coat would have; unit.
-  float alpha;        ///< GGX width; 0: what is behind is seen sharp.
+  float alpha;        ///< GGX width of its lobe; 0: what is behind is seen sharp.
 };
 
 LAMBENT_FN SeenLobe seen_lobe(Transmission through, vec3 normal_ws, vec3 to_viewer_ws) {
@@ -90,6 +90,11 @@ LAMBENT_FN SeenLobe seen_lobe(Transmission through, vec3 normal_ws, vec3 to_view
   if (onwards == vec3(0.0f)) return lobe;  // all is reflected inwards
   lobe.to_viewer_ws = reflect(-onwards, normal_ws);
   lobe.alpha = through.alpha;
+  if (through.kind != kCrossesPane) {
+    // A facet that is turned turns light that it reflects by twice as much, light that it refracts
+    // by |1 - eta|; and so does the surface where light leaves again, by its own eta
+    lobe.alpha *= 0.5f * length(vec2(1.0f - through.eta, 1.0f - 1.0f / through.eta));
+  }
   return lobe;
 }
 

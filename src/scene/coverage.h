@@ -27,27 +27,28 @@ LAMBENT_FN float uniform_of_hit(vec2 barycentrics, float distance, uint triangle
   return uniform_from_bits(mixed.x);
 }
 
-// The lowest bits of a ray's mask (raytracing/ray_records.h) tell what it meets. Where they are
-// just the first, all, those above carry a number of the pixel whose sample the ray is, and which
-// sample.
-const uint kMeetingMaskBits = 0xFu;
+// The mask of a camera's ray that carries which sample of which pixel it is:
+//   bits 0 to 3    1, which tells such masks from all others (raytracing/ray_records.h) and, as all
+//                  instances have the lowest bit, that it meets all of them
+//   bits 4 to 11   the sample, modulo 256
+//   bits 12 to 31  a hash of the pixel
+const uint kKindMaskBits = 0xFu, kSampleMaskKind = 1u;
 const uint kSampleMaskShift = 4u, kSampleMaskBits = 0xFFu;
 const uint kPixelMaskShift = 12u;
 
-/// The mask of a ray from the camera that meets all.
 LAMBENT_FN uint sample_mask(uint pixel, uint sample_index, uint seed) {
   uint number = hash_pcg3d(uvec3(pixel, sample_index / (kSampleMaskBits + 1u), seed)).x;
-  return 1u | ((sample_index & kSampleMaskBits) << kSampleMaskShift) |
+  return kSampleMaskKind | ((sample_index & kSampleMaskBits) << kSampleMaskShift) |
          ((number >> kPixelMaskShift) << kPixelMaskShift);
 }
 
 LAMBENT_FN bool carries_sample(uint ray_mask) {
-  return (ray_mask & kMeetingMaskBits) == 1u;
+  return (ray_mask & kKindMaskBits) == kSampleMaskKind;
 }
 
-/// A random number in [0, 1) that belongs to a pixel's sample at a triangle. Those of a pixel's
-/// first 2^k samples lie in as many equal parts: a quarter of four rays is let through where a
-/// quarter is to be. The radical inverse of the sample, scrambled.
+/// A random number in [0, 1) that belongs to a pixel's sample at a triangle: the sample's radical
+/// inverse, scrambled. Those of a pixel's first 2^k samples lie in as many equal parts, so that of
+/// four rays one is stopped where the probability of that is a quarter.
 LAMBENT_FN float uniform_of_sample(uint ray_mask, uint instance, uint triangle) {
   uint seed = hash_pcg(hash_pcg3d(uvec3(ray_mask >> kPixelMaskShift, instance, triangle)).x);
   uint index = (ray_mask >> kSampleMaskShift) & kSampleMaskBits;

@@ -9,13 +9,14 @@
 namespace lambent::test {
 
 /// A floor under a lamp, and a wall that keeps half of it in the shade. All that the camera sees is
-/// a pane of this roughness in front of them.
-inline Scene floor_behind_a_pane(const Material& floor, float roughness) {
+/// glass of this roughness in front of them: a pane, or a slab of 20 cm.
+inline Scene floor_behind_a_pane(const Material& floor, float roughness, bool slab = false) {
   Scene scene;
   Material glass;
   glass.metallic = 0.0f;
   glass.roughness = roughness;
   glass.transmission = 1.0f;
+  glass.bounds_volume = slab;
   scene.materials = {floor, glass};
   const int lamp = scenes::add_lambert(scene, "lamp", glm::vec3(0.0f), glm::vec3(8.0f));
   scenes::MeshBuilder builder;
@@ -28,6 +29,7 @@ inline Scene floor_behind_a_pane(const Material& floor, float roughness) {
   add_parallelogram("floor", 0, {0.0f, 0.0f, -1.0f}, 3.0f * x, -3.0f * z);
   add_parallelogram("wall", 0, {0.3f, 0.3f, -0.2f}, 0.4f * z, 0.3f * y);
   add_parallelogram("pane", 1, {0.0f, 1.0f, 1.2f}, 3.0f * x, 3.0f * y);
+  if (slab) add_parallelogram("back", 1, {0.0f, 1.0f, 1.0f}, -3.0f * x, 3.0f * y);
   add_parallelogram("lamp", lamp, {-0.6f, 1.6f, -0.5f}, 0.4f * x, 0.3f * z);
   scenes::add_camera(scene, "floor", {0.0f, 0.8f, 1.6f}, {0.0f, 0.0f, -0.2f}, 0.6f, 1.0f);
   return scene;

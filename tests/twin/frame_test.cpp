@@ -277,9 +277,11 @@ TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
   job.frame.denoise = true;
   for (const float roughness : {0.0f, 0.4f}) {
     for (const Material& floor : {test::matte_floor(), test::metal_floor()}) {
-      const Frames frames = render_both(test::floor_behind_a_pane(floor, roughness), job);
-      EXPECT_LE(relative_rmse(frames, "transmission"), kTolerance) << roughness;
-      EXPECT_LE(relative_rmse(frames, ""), kTolerance) << roughness;
+      for (const bool slab : {false, true}) {
+        const Frames frames = render_both(test::floor_behind_a_pane(floor, roughness, slab), job);
+        EXPECT_LE(relative_rmse(frames, "transmission"), kTolerance) << roughness << slab;
+        EXPECT_LE(relative_rmse(frames, ""), kTolerance) << roughness << slab;
+      }
     }
     job.frame.emissive_samples = job.frame.reflected_emissive_samples = 1;
     job.frame.first_row = 9;

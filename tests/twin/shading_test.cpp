@@ -314,11 +314,9 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   shade_direct(world, gbuffer, frame, band, 0, false, host);
 
   std::vector<Ray> rays;
-  rays.reserve(static_cast<std::size_t>(frame.width * frame.height));
   for (int i = 0; i < frame.width * frame.height; ++i) {
-    rays.push_back(camera_ray(camera, frame.width, frame.height,
-                              static_cast<float>(i % frame.width) + 0.5f,
-                              static_cast<float>(i / frame.width) + 0.5f));
+    const glm::vec2 at = glm::vec2(i % frame.width, i / frame.width) + 0.5f;
+    rays.push_back(camera_ray(camera, frame.width, frame.height, at.x, at.y));
     rays.back().mask = sample_mask(static_cast<std::uint32_t>(i), 0, frame.seed);
   }
   const auto count = static_cast<std::uint32_t>(rays.size());
@@ -327,8 +325,8 @@ void expect_same_pixels(const vulkan::Device& device, const TwinWorld& twin, con
   const auto room = [&](std::size_t bytes) {
     return vulkan::Buffer(device, count * bytes, vulkan::Memory::device, "pixels");
   };
-  const vulkan::Buffer points = room(sizeof(LitPointRecord));
-  const vulkan::Buffer surfaces = room(sizeof(PixelSurfaceRecord));
+  const vulkan::Buffer points = room(sizeof(LitPointRecord)),
+                       surfaces = room(sizeof(PixelSurfaceRecord));
   const vulkan::Buffer diffuse = room(sizeof(glm::vec3)), specular = room(sizeof(glm::vec3));
   const DevicePixels pixels = {{points.address()}, {surfaces.address()}};
   std::vector<RayCone> widths;

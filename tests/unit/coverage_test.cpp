@@ -9,6 +9,7 @@
 
 #include "lambent/renderer.h"
 #include "lambent/world.h"
+#include "raytracing/ray_records.h"
 #include "scenes/mesh_builder.h"
 #include "scenes/parts.h"
 
@@ -54,10 +55,12 @@ TEST(Coverage, PanesBehindOneAnotherDecideEachForItself) {
 TEST(Coverage, OnlyRaysOfSamplesCarryOne) {
   EXPECT_TRUE(carries_sample(sample_mask(0, 0, 0)));
   EXPECT_TRUE(carries_sample(sample_mask(0xFFFFFFFFu, 0xFFFFFFFFu, 1)));
-  for (const std::uint32_t mask : {0xFFFFFFFFu, 2u, 4u, 8u, 0u}) EXPECT_FALSE(carries_sample(mask));
+  for (const std::uint32_t mask : {kRayMeetsAll, kRayGathers, kRayOfProbe, kRayOfMotion, 0u}) {
+    EXPECT_FALSE(carries_sample(mask));
+  }
 }
 
-// A pane that lets three quarters of all rays through shows the same at every pixel of four samples.
+// A pane that stops a quarter of all rays shows the same at every pixel of four samples.
 TEST(Coverage, PanesOfAQuarterHaveNoGrainInFourSamples) {
   Scene scene;
   Material pane;

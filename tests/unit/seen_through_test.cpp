@@ -14,8 +14,8 @@ constexpr float kClear = 0.0f, kFrosted = 0.4f;  // roughness
 
 /// A floor behind a pane, lit by a field, and what the pane shows.
 struct Pane {
-  Pane(const Material& floor, float roughness)
-      : stage(test::floor_behind_a_pane(floor, roughness)),
+  Pane(const Material& floor, float roughness, bool slab = false)
+      : stage(test::floor_behind_a_pane(floor, roughness, slab)),
         field(test::make_field(stage, few_probes(), 2)) {}
   static FieldSettings few_probes() {
     FieldSettings settings;
@@ -84,6 +84,27 @@ TEST(SeenThrough, ClearGlassShowsCoatsWithLessNoise) {
 
 TEST(SeenThrough, FrostedGlassShowsLessNoise) {
   expect_less_noise(Pane(test::matte_floor(), kFrosted), 0.4);
+}
+
+TEST(SeenThrough, FrostedSlabsShowLessNoise) {
+  expect_less_noise(Pane(test::matte_floor(), kFrosted, true), 0.7);
+}
+
+TEST(SeenThrough, IsThereWithoutAFieldAndWithFog) {
+  Scene scene = test::floor_behind_a_pane(test::metal_floor(), kFrosted);
+  scene.fog.resize(1);
+  const World world(scene);
+  FrameSettings settings = Pane::settings(true);
+  settings.samples = 2;
+  Renderer renderer(world);
+  const Image filtered =
+      *renderer.render(scene.cameras.at(0), settings).value().image.find("transmission");
+  settings.denoise = false;
+  const Image raw =
+      *renderer.render(scene.cameras.at(0), settings).value().image.find("transmission");
+  const double ratio =
+      compare_images(filtered, raw, {.block = 8, .perceptual = false}).value().mean_ratio;
+  EXPECT_NEAR(ratio, 1.0, 0.1);
 }
 
 TEST(SeenThrough, PicturesAreTheSumOfTheirLayers) {

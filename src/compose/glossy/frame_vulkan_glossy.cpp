@@ -175,7 +175,9 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
   reserve<PixelSurfaceRecord>(ways, "surfaces of ways", m.way_surfaces);
   reserve<vec3>(ways, "diffuse light of ways", m.way_diffuse);
   reserve<vec3>(ways, "specular light of ways", m.way_specular);
-  const std::size_t drawn = way_emitter_draws() > 0 ? ways : 0;
+  const bool keeps_behind = keeps_behind_;
+  const bool apart = keeps_behind && draws_behind_glass() > 0;
+  const std::size_t drawn = apart ? ways : 0;
   reserve<vec3>(drawn, "drawn light of ways", m.way_drawn);
   reserve<float>(drawn, "squares of drawn light of ways", m.way_drawn_squares);
   reserve<vec3>(drawn, "drawn specular light of ways", m.way_drawn_specular);
@@ -213,14 +215,13 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
     lighting.emissive_samples = request_->settings.reflected_emissive_samples;
     lighting.salt = salt;
     lighting.seed = way_seed_;
-    const bool apart = way_emitter_draws() > 0;
     m.gather_shading.reflected_light(to, stage(), met, ways, lighting,
                                      {{m.way_diffuse.address()},
                                       {m.way_specular.address()},
                                       {apart ? m.way_drawn.address() : 0},
                                       {apart ? m.way_drawn_squares.address() : 0},
                                       {apart ? m.way_drawn_specular.address() : 0}});
-    if (keeps_behind_) {
+    if (keeps_behind) {
       to.barrier();
       keep_behind(to, ways, from);
     }

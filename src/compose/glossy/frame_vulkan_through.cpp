@@ -40,8 +40,8 @@ void FramePassesVulkan::transmission() {
   keeps_behind_ = false;
 }
 
-std::uint32_t FramePassesVulkan::way_emitter_draws() const {
-  if (!keeps_behind_ || !world_.scene().has_light_tree()) return 0;
+std::uint32_t FramePassesVulkan::draws_behind_glass() const {
+  if (!world_.scene().has_light_tree()) return 0;
   return static_cast<std::uint32_t>(request_->settings.reflected_emissive_samples);
 }
 
@@ -70,7 +70,9 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   r.lobes.address = room(sizeof(LobeGuide), t.lobes);
   r.filtered_emitters.address = room(sizeof(vec3), t.filtered_emitters);
   r.filtered_coats.address = room(sizeof(vec3), t.filtered_coats);
-  r.filtered.address = room(sizeof(vec3), t.filtered);
+  // Clear glass is not filtered further
+  r.filtered.address =
+      shows_rough_glass(*request_) ? room(sizeof(vec3), t.filtered) : r.light.address;
   reserve<SeenThroughRecord>(1, "where what is seen through surfaces is", t.addresses);
   vulkan::write(device_, std::span<const SeenThroughRecord>(&r, 1), t.addresses);
 }
@@ -100,7 +102,7 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, int from) 
                                          vec3(request_->camera.world_from_view[3]),
                                          first_traced_pixel(),
                                          ways,
-                                         way_emitter_draws()};
+                                         draws_behind_glass()};
   to.run(kernels_.keep_behind, arguments, ways);
 }
 
@@ -122,10 +124,8 @@ void FramePassesVulkan::keep_through() {
 void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown,
                                         float share) {
   const std::uint32_t pixels = view.width * view.height;
-  const std::uint32_t draws =
-      world_.scene().has_light_tree()
-          ? static_cast<std::uint32_t>(request_->settings.reflected_emissive_samples)
-          : 0;
+  const std::uint32_t draws = draws_behind_glass();
+  const bool blurs = shows_rough_glass(*request_);
   add("denoise", [=, this](Recorder& to) {
     const SeenThroughRecord& r = memory_.through.record;
     const SeenThroughArray seen{memory_.through.addresses.address()};
@@ -144,9 +144,11 @@ void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const S
     memory_.denoiser.record(to, behind, {r.coats}, blind_denoising(), r.filtered_coats);
     to.run(kernels_.add_behind, AddBehindArguments{seen, pixels, draws}, pixels);
     to.barrier();
-    DenoiseViewOnDevice blurred = view;
-    blurred.lobes = r.lobes;
-    memory_.denoiser.record(to, blurred, {r.light}, blind_denoising(), r.filtered);
+    if (blurs) {
+      DenoiseViewOnDevice blurred = view;
+      blurred.lobes = r.lobes;
+      memory_.denoiser.record(to, blurred, {r.light}, blind_denoising(), r.filtered);
+    }
     const ShowThroughArguments shows = {seen,
                                         {memory_.layers.address()},
                                         static_cast<uint>(shown.first),

@@ -59,10 +59,10 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
-  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, 0u});
+  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kBringsOther});
   next_.resize(pixels);
   cones_.resize(pixels);
-  coat_distances_.assign(pixels, infinity());
+  coat_distances_.assign(pixels, -1.0f);
 }
 
 /// Draws the rays of pixels whose surfaces let light through.
@@ -71,11 +71,12 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
   std::uint64_t sent = 0;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Surface& surface = seen.surfaces[i];
+    rays_[i].distance = -1.0f;
     if (seen.hit[i] == 0 || !lets_light_through(surface.transmission)) continue;
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_[i];
-    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, 0u};
+    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kBringsOther};
     const vec2 u = next_uniform2(random);
     const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
                                        seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
@@ -268,7 +269,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
       seen.positions_ws[pixel] = surface.position_ws;
       seen.normals_ws[pixel] = surface.normal_ws;
       seen.coat_to_viewer_ws[pixel] = met_.to_viewer_ws[i];
-      seen.coat_alphas[pixel] = highlight_alpha(surface.reflectance);
+      seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i]);
       seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
                                                    dot(surface.normal_ws, met_.to_viewer_ws[i]));
       if (!has_emitters) continue;

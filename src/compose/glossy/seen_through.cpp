@@ -7,6 +7,7 @@
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 #include "glossy/way_math.h"
+#include "scene/transmission.h"
 
 namespace lambent {
 namespace {
@@ -32,13 +33,13 @@ struct SeenDistances {
 };
 
 /// Finds them as means over pixels.
-void find_inverse_distances(const DenoiseView& view, std::span<const float> distances,
-                            std::vector<float>& inverse) {
+void find_inverse_distances(const DenoiseView& view, std::span<const float> alphas,
+                            std::span<const float> distances, std::vector<float>& inverse) {
   inverse.assign(distances.size(), 0.0f);
   parallel_chunks(distances.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     SeenDistances seen{distances, {view.width, view.height}};
     for (std::size_t i = begin; i < end; ++i) {
-      if (distances[i] < 0.0f) continue;
+      if (alphas[i] <= 0.0f) continue;
       const auto width = static_cast<std::size_t>(view.width);
       inverse[i] = seen.seen_inverse_distance(seen, ivec2(i % width, i / width), 0u, 1u);
     }
@@ -59,7 +60,7 @@ void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& see
     assert(done);  // sizes are the view's
   }
   seen.filtered_coats.resize(seen.coats.size());
-  find_inverse_distances(view, seen.coat_distances, seen.coat_inverse_distances);
+  find_inverse_distances(view, seen.coat_alphas, seen.coat_distances, seen.coat_inverse_distances);
   behind.lobes = {seen.coat_to_viewer_ws, seen.coat_alphas, seen.coat_inverse_distances};
   [[maybe_unused]] const Expected<void> done =
       denoiser.filter(behind, {seen.coats, {}, {}}, blind_denoising(), seen.filtered_coats);
@@ -80,7 +81,7 @@ void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
   positions_ws.resize(pixels);
   normals_ws.resize(pixels);
   emitters.assign(pixels, vec3(0.0f));
-  emitter_variance.resize(has_variance ? pixels : 0);
+  emitter_variance.assign(has_variance ? pixels : 0, 0.0f);
   emitter_levels.assign(pixels, 0.0f);
   emitter_albedo.assign(pixels, vec3(0.0f));
   coats.assign(pixels, vec3(0.0f));
@@ -99,6 +100,14 @@ void SeenThrough::start(std::size_t pixels, const FrameSettings& settings) {
 void SeenThrough::clear() {
   depths.clear();
   light.clear();
+}
+
+bool shows_rough_glass(const FrameRequest& request) {
+  if (!filters_through(request)) return false;
+  const std::vector<Material>& materials = request.world.scene().materials;
+  return std::any_of(materials.begin(), materials.end(), [](const Material& material) {
+    return lets_light_through(material) && material.roughness * material.roughness > kStraightAlpha;
+  });
 }
 
 void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
@@ -138,7 +147,7 @@ void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& se
     seen.filtered = seen.light;
     return;
   }
-  find_inverse_distances(view, seen.distances, seen.inverse_distances);
+  find_inverse_distances(view, seen.alphas, seen.distances, seen.inverse_distances);
   DenoiseView blurred = view;
   blurred.normals_ws = seen.away_normals_ws;
   blurred.lobes = {seen.to_viewer_ws, seen.alphas, seen.inverse_distances};

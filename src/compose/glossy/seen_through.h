@@ -55,13 +55,13 @@ struct SeenThrough {
 
   /// Makes room for the rows' pixels, which see nothing through their surfaces yet.
   void start(std::size_t pixels, const FrameSettings& settings);
-  /// Ends all of it, where scenes let no light through.
+  /// Has nothing filtered or shown, in scenes that let no light through.
   void clear();
 };
 
 /// Where light of the first surfaces behind glass is kept apart that is to be filtered.
 struct KeptBehind {
-  SeenThrough* seen = nullptr;  ///< Null: it is not.
+  SeenThrough* seen = nullptr;  ///< Null: nothing is kept apart.
   std::size_t first = 0;        ///< Of the band's pixels, there.
 };
 
@@ -69,6 +69,9 @@ struct KeptBehind {
 inline bool filters_through(const FrameRequest& request) {
   return request.settings.denoise && tracer_of(request.world).has_glass();
 }
+
+/// Whether glass may be rough, so that what it shows is filtered once more.
+bool shows_rough_glass(const FrameRequest& request);
 
 /// What a band's pixels see through their surfaces.
 struct BandSeenThrough {
@@ -81,10 +84,10 @@ struct BandSeenThrough {
 /// Keeps a band's light; that of emitters stands in `seen` already.
 void keep_through(const BandSeenThrough& band, SeenThrough& seen);
 
-/// Filters it, into `seen.filtered`. `view`: what the pixels show.
+/// Filters what was kept, into `seen.filtered`. `view`: what the pixels show.
 void filter_through(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen);
 
-/// Adds it to the layers of the rows that are shown, with this weight.
+/// Adds filtered light to the layers of the rows that are shown, with this weight.
 void show_through(const SeenThrough& seen, const ShownPixels& shown, float share, Layers& layers);
 
 }  // namespace lambent

@@ -17,8 +17,9 @@ void main() {
   vec2 corner = vec2(float(pixel % args.width), float(pixel / args.width));
   vec2 offset = subpixel_position(args.index, args.samples, args.seed, args.jitter);
   CameraRay ray = camera_ray(args.camera, corner + offset);
-  args.rays.at[i] = RayRecord(ray.origin_ws, 0.0f, ray.direction_ws,
-                              uintBitsToFloat(kMissedDistanceBits),
-                              sample_mask(pixel, sample_number(args.index, args.samples, args.jitter), args.seed));
+  uint number = sample_number(args.index, args.samples, args.jitter);
+  args.rays.at[i] =
+      RayRecord(ray.origin_ws, 0.0f, ray.direction_ws, uintBitsToFloat(kMissedDistanceBits),
+                sample_mask(pixel, number, args.seed));
   args.cones.at[i] = camera_cone(args.camera, ray.direction_ws, args.samples, args.jitter);
 }

@@ -45,7 +45,7 @@ void main() {
   args.seen.at[0].depths.at[pixel] = distance(point.position_ws, args.camera_ws);
   args.seen.at[0].positions_ws.at[pixel] = point.position_ws;
   args.seen.at[0].normals_ws.at[pixel] = point.normal_ws;
-  float alpha = highlight_alpha(surface.reflectance);
+  float alpha = alpha_behind(surface.reflectance, surface.coat_share);
   if (alpha > 0.0f) {
     // How far away what it sees is, is known once all rays have met something
     args.seen.at[0].coat_lobes.at[pixel] =

@@ -31,11 +31,11 @@ void main() {
   ivec2 pixel = ivec2(i % args.width, i / args.width);
   FloatArray distances = args.seen.at[0].distances;
   FloatArray of_coats = args.seen.at[0].coat_distances;
-  if (distances.at[i] >= 0.0f) {
+  if (args.seen.at[0].lobes.at[i].sharpness > 0.0f) {
     args.seen.at[0].lobes.at[i].inverse_distance =
         seen_inverse_distance(SeenDistances(distances, size), pixel, 0u, 1u);
   }
-  if (of_coats.at[i] >= 0.0f) {
+  if (args.seen.at[0].coat_lobes.at[i].sharpness > 0.0f) {
     args.seen.at[0].coat_lobes.at[i].inverse_distance =
         seen_inverse_distance(SeenDistances(of_coats, size), pixel, 0u, 1u);
   }

@@ -15,6 +15,7 @@ void main() {
   uint pixel = args.first + i;
   args.seen.at[0].depths.at[pixel] = 0.0f;
   args.seen.at[0].emitters.at[pixel] = vec3(0.0f);
+  args.seen.at[0].emitter_variance.at[pixel] = 0.0f;
   args.seen.at[0].emitter_levels.at[pixel] = 0.0f;
   args.seen.at[0].emitter_albedo.at[pixel] = vec3(0.0f);
   args.seen.at[0].coats.at[pixel] = vec3(0.0f);

@@ -13,13 +13,14 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f));
-  args.coat_distances.at[i] = infinity();
+  args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), -1.0f, vec3(0.0f), 0.0f, vec3(0.0f));
+  args.coat_distances.at[i] = -1.0f;
   PixelSurfaceRecord surface = args.surfaces.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u || !lets_light_through(surface.transmission)) return;
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path = CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kBringsOther);
+  CoatPath path =
+      CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kBringsOther);
   vec2 u = next_uniform2(random);
   NextRay next = go_on_through(surface.transmission, surface.reflectance, point.normal_ws,
                                surface.to_viewer_ws, vec3(u, next_uniform(random)), path);
