@@ -17,10 +17,9 @@ constexpr int kAveragedFrames = 10;
 const std::map<std::string, Quality> kQualities = {
     {"draft", Quality::draft}, {"interactive", Quality::interactive}, {"high", Quality::high}};
 
-/// What is left of noise in single pictures would flicker in a sequence of them.
 Quality chosen_quality(const RenderOptions& options) {
   if (!options.quality.empty()) return quality_from_name(options.quality);
-  return options.frames > 0 ? Quality::draft : Quality::high;
+  return options.frames > 0 ? Quality::interactive : Quality::high;
 }
 
 }  // namespace
@@ -37,7 +36,7 @@ void add_quality_options(CLI::App& command, RenderOptions& o) {
   command
       .add_option("--quality", o.quality,
                   "draft: light between probes as it is looked up; interactive: one ray a pixel; "
-                  "high: some 64 (high; with --frames draft)")
+                  "high: some 64 (high; with --frames interactive)")
       ->check(one_of({"draft", "interactive", "high"}))
       ->type_name("Q");
   command
