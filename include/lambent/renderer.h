@@ -47,13 +47,14 @@ struct FrameSettings {
   /// light alone, which shows no image. Two halve the cost of one where most coats are rough.
   /// Needs a field.
   int glossy_rows = 2;
-  /// Whether gathered light, what coats reflect by rays and direct light of emissive surfaces are
-  /// filtered (lambent/denoise.h). Light of directional, point and spot lights has no noise and
-  /// stays as it is. Rows of a picture then need 63 more on each side, which are traced, too, and
-  /// each pixel 360 bytes.
+  /// Whether gathered light, what coats reflect by rays, what glass shows and direct light of
+  /// emissive surfaces are filtered (lambent/denoise.h). Light of directional, point and spot
+  /// lights has no noise and stays as it is. Rows of a picture then need 63 more on each side,
+  /// which are traced, too, and each pixel 360 bytes; where there is glass 65 rows, where it is
+  /// rough 130, and 560 bytes.
   bool denoise = false;
   /// Pictures of the renderer over which what is filtered is averaged first, 1 to 1000; 1: none.
-  /// Reflections are left out: what a surface shows does not move as it does.
+  /// Reflections and what glass shows are left out: they do not move as their surfaces do.
   /// More leave less noise in sequences, at 100 bytes a pixel. Each picture then has rays of its
   /// own. Surfaces are followed by their motion; what was not seen before starts anew, and so does
   /// all light once the world's revision differs. For whole pictures of one sample a pixel, with

@@ -21,6 +21,7 @@
 #include "fog/fog_records.h"
 #include "gather/gather_math.h"
 #include "gather/gather_records.h"
+#include "glossy/glossy_records.h"
 #include "raytracing/vulkan/device_world.h"
 #include "raytracing/vulkan/hit_shading.h"
 #include "rsm/vulkan/direct_vulkan.h"
@@ -161,6 +162,15 @@ struct FrameMemory {
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
   // Of the whole picture
   vulkan::Buffer layers, picture_motion;
+
+  /// One of the two lists of ways. They share their length: one is written once the other is read.
+  WayList way_list(int which) const {
+    return {{way_rays[which].address()},
+            {way_cones[which].address()},
+            {way_paths[which].address()},
+            {way_pixels[which].address()},
+            {way_length.address()}};
+  }
 };
 
 class FramePassesVulkan final : public FramePasses {

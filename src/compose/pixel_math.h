@@ -27,14 +27,15 @@ LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   return fract(shift + plastic_sequence(index));
 }
 
-/// The number of a frame's sample among all of its pixel. Those of sequences that are anti-aliased
-/// over time go on from frame to frame; `jitter` as of subpixel_position() below.
+/// The number of a sample among all that its pixel has had. In sequences that are anti-aliased over
+/// time, numbers go on from frame to frame: `jitter` is 1 + the frames before. 0: each frame counts
+/// from 0.
 LAMBENT_FN uint sample_number(uint index, uint samples, uint jitter) {
   return jitter == 0u ? index : (jitter - 1u) * samples + index;
 }
 
-/// The same of a frame of a sequence that is anti-aliased over time, whose places go on from frame
-/// to frame: `jitter` is 1 + the frames before it. 0: as above.
+/// Where in its pixel a frame's sample lies, as subpixel_position() above. In sequences that are
+/// anti-aliased over time, places go on from frame to frame; `jitter` as of sample_number().
 LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed, uint jitter) {
   if (jitter == 0u) return subpixel_position(index, samples, seed);
   return jitter_position(sample_number(index, samples, jitter));
@@ -47,7 +48,7 @@ LAMBENT_FN float indirect_share(float gi_share, uint looked_up) {
   return gi_share > 0.0f ? 1.0f : 0.0f;
 }
 
-/// Direct light of emitters as it is filtered.
+/// Direct light of emitters as it is filtered [W/(m^2 sr)].
 struct FilteredEmitter {
   vec3 light;     ///< Without albedo, over the level.
   vec3 albedo;    ///< What comes of filtered light to the viewer: albedo times level.
@@ -72,7 +73,8 @@ LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float c
   return coat_share * max(albedo, vec3(kLeastFilteredAlbedo));
 }
 
-/// That of the coat of a surface that a way met behind glass.
+/// The albedo without which light of a coat behind glass is filtered: with the share of it that the
+/// way brings to the pixel.
 LAMBENT_FN vec3 coat_albedo_behind(CoatPath path, Reflectance surface, float n_dot_v) {
   return max(path.throughput, vec3(kLeastFilteredAlbedo)) *
          filtered_coat_albedo(surface, n_dot_v, 1.0f);
@@ -89,8 +91,8 @@ LAMBENT_FN float highlight_alpha(Reflectance surface) {
   return min(surface.alpha, surface.layers.clearcoat_alpha);
 }
 
-/// That of a surface behind glass, of whose coat rays bring a share; 0 where they bring none, so
-/// that nothing tells how far away lies what its highlights show.
+/// GGX width of the lobe over which light of a coat behind glass is filtered. 0, which is not at
+/// all, where no ray of the coat tells how far away the things are that it shows.
 LAMBENT_FN float alpha_behind(Reflectance surface, float coat_share) {
   return coat_share > 0.0f ? highlight_alpha(surface) : 0.0f;
 }

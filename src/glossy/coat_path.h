@@ -15,22 +15,23 @@ struct CoatRay {
   float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
                       ///< into the surface and brings nothing. Of rays through surfaces 0, and
                       ///< their distance is below 0 where there is none.
-  vec3 apart;         ///< Light that is kept apart, see CoatPath::brings [W/(m^2 sr)].
+  vec3 apart;         ///< Light that is kept apart, see CoatPath::stage [W/(m^2 sr)].
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
-// CoatPath::brings: where a way has come to, and which of its light CoatRay::apart keeps apart.
+// CoatPath::stage: where a way has come to, and which light that it meets CoatRay::apart keeps
+// apart.
 /// It left the pixel's surface, or a coat that it met. Nothing is kept apart.
-const uint kBringsOther = 0u;
+const uint kStageOther = 0u;
 /// It left the pixel's coat, and no other one has reflected it. What emissive surfaces send is kept
 /// apart, for the pixel's direct light samples that, too.
-const uint kBringsOwnCoat = 1u;
+const uint kStageOwnCoat = 1u;
 /// It came through glass to the first surface that lets no light through. Nothing is kept apart.
-const uint kBringsBehind = 2u;
+const uint kStageBehindGlass = 2u;
 /// It left the coat of that surface, and met nothing but glass since. All light is kept apart.
-const uint kBringsCoatBehind = 3u;
-/// It left the coat of that surface, and met another one. All light is kept apart.
-const uint kBringsMoreBehind = 4u;
+const uint kStageCoatBehindGlass = 3u;
+/// It left the coat of that surface, and met something else than glass. All light is kept apart.
+const uint kStageBeyondCoat = 4u;
 
 /// A ray's way through the scene.
 struct CoatPath {
@@ -38,7 +39,7 @@ struct CoatPath {
   float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
                     ///< 0: the way has ended.
   float alpha;      ///< GGX width of the widest lobe on the way.
-  uint brings;      ///< kBringsOther, ...
+  uint stage;       ///< kStageOther, ...
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 

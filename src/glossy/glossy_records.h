@@ -10,20 +10,25 @@
 
 LAMBENT_BEGIN
 
+/// A list of ways that have not ended: what their next rays are, and whose they are.
+struct WayList {
+  RayArray rays;
+  RayConeArray cones;
+  CoatPathArray paths;
+  UintArray pixels;  ///< Of the rows around a band.
+  UintArray count;   ///< One number: how many ways there are.
+};
+
 /// Draws the pixels' rays.
 struct CoatRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  RayArray rays;  ///< A list, as are:
-  RayConeArray cones;
-  CoatPathArray paths;
-  UintArray pixels;  ///< Of the ways.
-  UintArray ways;    ///< How many these are: one number.
-  uint count;        ///< Pixels.
-  uint first_row;    ///< In the picture.
-  uint width;        ///< Of the picture [pixels].
-  uint rows;         ///< Every so manieth has rays.
+  WayList ways;    ///< Which rays are appended to.
+  uint count;      ///< Pixels.
+  uint first_row;  ///< In the picture.
+  uint width;      ///< Of the picture [pixels].
+  uint rows;       ///< Every so manieth has rays.
   uint sample_index;
   uint seed;
 };
@@ -33,11 +38,7 @@ struct ThroughRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  RayArray rays;  ///< A list, as are:
-  RayConeArray cones;
-  CoatPathArray paths;
-  UintArray pixels;           ///< Of the ways.
-  UintArray ways;             ///< How many these are: one number.
+  WayList ways;               ///< Which rays are appended to.
   FloatArray coat_distances;  ///< As in struct TransmittedLight, a pixel each.
   uint count;                 ///< Pixels.
   uint first_index;           ///< Of the first one among those of the picture.
@@ -72,11 +73,7 @@ struct CoatLightArguments {
   Vec3Array field;  ///< Answers, two a way.
   CoatPathArray paths;
   UintArray pixels;
-  RayArray next_rays;
-  RayConeArray next_cones;
-  CoatPathArray next_paths;
-  UintArray next_pixels;
-  UintArray next_ways;
+  WayList next;  ///< Ways that go on are appended here.
   CoatRayArray coat_rays;
   uint count;
   uint first_index;

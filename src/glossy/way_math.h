@@ -38,7 +38,7 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
 /// a ray met first, and of a way through surfaces that to the first which lets no light through.
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
-  bool crossed_all = path.pdf == kFoundByNobodyElse && path.brings == kBringsOther;
+  bool crossed_all = path.pdf == kFoundByNobodyElse && path.stage == kStageOther;
   return crossed_all ? so_far + further : so_far;
 }
 
@@ -50,7 +50,7 @@ LAMBENT_FN float farther_seen(float so_far, float further) {
 
 /// Adds light that a way met, but for what emissive surfaces send, to what its pixel's ray brings.
 LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
-  if (path.brings >= kBringsCoatBehind) {
+  if (path.stage >= kStageCoatBehindGlass) {
     ray.apart += path.throughput * light;
   } else {
     ray.radiance += path.throughput * light;
@@ -63,7 +63,7 @@ LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ra
 /// what is kept apart themselves.
 LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
                              LAMBENT_INOUT(CoatRay) ray) {
-  if (path.brings == kBringsOwnCoat) {
+  if (path.stage == kStageOwnCoat) {
     ray.apart += path.throughput * emission;
   } else {
     bring_light(path, found_emitter_weight(path.pdf, emitter_samples) * emission, ray);
@@ -113,8 +113,8 @@ LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 norm
   path.throughput *= coat_share * drawn.weight;
   path.pdf = drawn.pdf;
   path.alpha = coat.alpha;
-  if (path.brings < kBringsBehind) path.brings = kBringsOther;
-  if (path.brings == kBringsBehind) path.brings = kBringsCoatBehind;
+  if (path.stage < kStageBehindGlass) path.stage = kStageOther;
+  if (path.stage == kStageBehindGlass) path.stage = kStageCoatBehindGlass;
   next.direction_ws = drawn.direction_ws;
   return next;
 }

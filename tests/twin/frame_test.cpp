@@ -103,6 +103,17 @@ class Frame : public test::OnDevice {
     return job;
   }
 
+  /// Few rows in the middle of a picture that is higher than what their filter reads.
+  static Job filtered_rows(const char* scene) {
+    Job job = small(scene);
+    job.frame.width = 20;
+    job.frame.height = 150;
+    job.frame.first_row = 70;
+    job.frame.rows = 9;
+    job.frame.denoise = true;
+    return job;
+  }
+
   static void expect_alike(const Frames& frames) {
     for (const Layer& layer : frames.cpu.layers) {
       EXPECT_LE(relative_rmse(frames, layer.name), kTolerance) << "layer " << layer.name;
@@ -290,23 +301,13 @@ TEST_F(Frame, WithFilteredLightBehindGlassIsTheSame) {
 }
 
 TEST_F(Frame, WithRowsOfFilteredReflectionsIsTheSame) {
-  Job job = small("");
-  job.frame.width = 20;
-  job.frame.height = 150;
-  job.frame.first_row = 70;
-  job.frame.rows = 9;
-  job.frame.denoise = true;
+  Job job = filtered_rows("");
   EXPECT_LE(relative_rmse(render_both(test::floor_under_a_pane(), job), "glossy"), kTolerance);
 }
 
 TEST_F(Frame, WithRowsOfFilteredLightIsTheSame) {
-  Job job = small("cornell");
-  job.frame.width = 20;
-  job.frame.height = 150;
-  job.frame.first_row = 70;
-  job.frame.rows = 9;
+  Job job = filtered_rows("cornell");
   job.frame.gather_rays = 1;
-  job.frame.denoise = true;
   expect_alike(render_both(job));
 }
 

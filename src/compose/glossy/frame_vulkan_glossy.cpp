@@ -6,7 +6,6 @@
 #include "compose/frame_vulkan.h"
 #include "compose/glossy/glossy_frame.h"
 #include "field/correction/correction_use.h"
-#include "glossy/glossy_records.h"
 #include "raytracing/camera_rays.h"
 
 namespace lambent {
@@ -136,11 +135,7 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
     const CoatRaysArguments drawn = {{m.coat_points.address()},
                                      {m.coat_surfaces.address()},
                                      {m.coat_rays.address()},
-                                     {m.way_rays[0].address()},
-                                     {m.way_cones[0].address()},
-                                     {m.way_paths[0].address()},
-                                     {m.way_pixels[0].address()},
-                                     {m.way_length.address()},
+                                     m.way_list(0),
                                      pixels,
                                      static_cast<uint>(first_row),
                                      width,
@@ -234,7 +229,6 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
     if (!has_field) to.fill(m.way_answers, 0u);
     to.fill(m.way_length, 0u);
     to.barrier();
-    const int next = 1 - from;
     const CoatLightArguments lit = {{m.way_points.address()},
                                     {m.way_surfaces.address()},
                                     {m.way_diffuse.address()},
@@ -242,11 +236,7 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
                                     {m.way_answers.address()},
                                     {m.way_paths[from].address()},
                                     {m.way_pixels[from].address()},
-                                    {m.way_rays[next].address()},
-                                    {m.way_cones[next].address()},
-                                    {m.way_paths[next].address()},
-                                    {m.way_pixels[next].address()},
-                                    {m.way_length.address()},
+                                    m.way_list(1 - from),
                                     {m.coat_rays.address()},
                                     ways,
                                     first_index,

@@ -2,7 +2,6 @@
 // What pixels see through their surfaces, on a device; see glossy_frame.cpp and seen_through.cpp.
 #include "compose/frame_vulkan.h"
 #include "compose/glossy/seen_through.h"
-#include "glossy/glossy_records.h"
 
 namespace lambent {
 
@@ -17,19 +16,10 @@ void FramePassesVulkan::transmission() {
     FrameMemory& m = memory_;
     to.fill(m.way_length, 0u);
     to.barrier();
-    const ThroughRaysArguments drawn = {{m.points.address()},
-                                        {m.surfaces.address()},
-                                        {m.coat_rays.address()},
-                                        {m.way_rays[0].address()},
-                                        {m.way_cones[0].address()},
-                                        {m.way_paths[0].address()},
-                                        {m.way_pixels[0].address()},
-                                        {m.way_length.address()},
-                                        {m.coat_distances.address()},
-                                        pixels_,
-                                        first_pixel_,
-                                        coat_salt(salt, 0u),
-                                        request_->settings.seed};
+    const ThroughRaysArguments drawn = {
+        {m.points.address()}, {m.surfaces.address()},       {m.coat_rays.address()},
+        m.way_list(0),        {m.coat_distances.address()}, pixels_,
+        first_pixel_,         coat_salt(salt, 0u),          request_->settings.seed};
     to.run(kernels_.through_rays, drawn, pixels_);
   });
   keeps_behind_ = filters_through(*request_);

@@ -59,7 +59,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
-  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kBringsOther});
+  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther});
   next_.resize(pixels);
   cones_.resize(pixels);
   coat_distances_.assign(pixels, -1.0f);
@@ -76,7 +76,7 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
     CoatPath& path = paths_[i];
-    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kBringsOther};
+    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther};
     const vec2 u = next_uniform2(random);
     const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
                                        seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
@@ -119,7 +119,7 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         }
         rays_[first + i].direction_ws = drawn.direction_ws;
         rays_[first + i].pdf = drawn.pdf;
-        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kBringsOwnCoat};
+        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat};
         next_[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
         cones_[first + i] =
             reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
@@ -159,7 +159,7 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       CoatPath& path = paths_[i];
       met_.to_viewer_ws[i] = -rays[k].direction;
       rays_[i].distance = distance_met(path, bounce, rays_[i].distance, hits[k].distance);
-      if (path.brings == kBringsCoatBehind) {
+      if (path.stage == kStageCoatBehindGlass) {
         coat_distances_[i] = farther_seen(coat_distances_[i], hits[k].distance);
       }
       if (hits[k].missed()) {
@@ -169,8 +169,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
       }
       cones_[i].width = width_at(cones_[i], hits[k].distance);
       const Surface surface = seen_surface_at(scene, rays[k], hits[k], cones_[i].width);
-      if (path.brings == kBringsCoatBehind && !lets_light_through(surface.transmission)) {
-        path.brings = kBringsMoreBehind;
+      if (path.stage == kStageCoatBehindGlass && !lets_light_through(surface.transmission)) {
+        path.stage = kStageBeyondCoat;
       }
       path.throughput *= left_of_light(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
@@ -258,11 +258,11 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       CoatPath& path = paths_[i];
-      if (path.brings != kBringsOther || lets_light_through(surface.transmission)) {
+      if (path.stage != kStageOther || lets_light_through(surface.transmission)) {
         if (has_emitters) direct_.diffuse[i] += direct_.emitters[i] + direct_.emitter_specular[i];
         continue;
       }
-      path.brings = kBringsBehind;
+      path.stage = kStageBehindGlass;
       SeenThrough& seen = *kept.seen;
       const std::size_t pixel = kept.first + i;
       seen.depths[pixel] = distance(surface.position_ws, settings.camera.position_ws);

@@ -32,7 +32,7 @@ struct SeenDistances {
   ivec2 picture_size;  // [pixels]
 };
 
-/// Finds them as means over pixels.
+/// One over the distance to what each pixel's lobe sees [1/m], as means over pixels.
 void find_inverse_distances(const DenoiseView& view, std::span<const float> alphas,
                             std::span<const float> distances, std::vector<float>& inverse) {
   inverse.assign(distances.size(), 0.0f);

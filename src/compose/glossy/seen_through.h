@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixels see through their surfaces, and how it is filtered: light of emitters on the first
-// surface behind, as far as that is the same; and all light, as far as rough glass blurs it anyway.
+// What pixels see through their surfaces, and how it is filtered: on the first surface behind that
+// lets no light through, and again where rough glass blurs what is behind it.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,12 @@
 
 namespace lambent {
 
-/// Light that comes through the surfaces of pixels.
+/// Light that comes through the surfaces of a band's pixels.
 struct TransmittedLight {
-  std::vector<glm::vec3> light;  ///< But for what is kept apart.
+  std::vector<glm::vec3> light;  ///< Without what is kept apart to be filtered [W/(m^2 sr)].
   std::vector<float> distances;  ///< As of distance_met [m].
-  /// Kept apart: what coats of the first surfaces behind glass reflect, and the distances to what
-  /// their rays met [m].
+  /// What coats of the first surfaces behind glass reflect of emitters and by rays [W/(m^2 sr)],
+  /// and the distances to what these rays met [m]. They are kept apart where light is filtered.
   std::vector<glm::vec3> coats_behind;
   std::vector<float> coat_distances;
 
@@ -59,10 +59,10 @@ struct SeenThrough {
   void clear();
 };
 
-/// Where light of the first surfaces behind glass is kept apart that is to be filtered.
+/// Where a band keeps light of the first surfaces behind glass, so that it can be filtered.
 struct KeptBehind {
-  SeenThrough* seen = nullptr;  ///< Null: nothing is kept apart.
-  std::size_t first = 0;        ///< Of the band's pixels, there.
+  SeenThrough* seen = nullptr;  ///< Null: that light is part of all that comes through.
+  std::size_t first = 0;        ///< The band's first pixel among the traced ones.
 };
 
 /// Whether light that comes through surfaces is filtered.

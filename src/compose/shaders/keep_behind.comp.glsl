@@ -34,11 +34,11 @@ void main() {
   PixelSurfaceRecord surface = args.surfaces.at[k];
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   CoatPath path = args.paths.at[k];
-  if (path.brings != kBringsOther || lets_light_through(surface.transmission)) {
+  if (path.stage != kStageOther || lets_light_through(surface.transmission)) {
     if (args.draws > 0u) args.diffuse.at[k] += args.drawn.at[k] + args.drawn_specular.at[k];
     return;
   }
-  args.paths.at[k].brings = kBringsBehind;
+  args.paths.at[k].stage = kStageBehindGlass;
   LitPointRecord point = args.points.at[k];
   uint i = args.pixels.at[k];
   uint pixel = args.first + i;

@@ -22,7 +22,7 @@ void main() {
   args.queries.at[2u * k + 1u] = base;
   CoatRay ray = args.coat_rays.at[i];
   ray.distance = distance_met(path, args.bounce, ray.distance, args.hits.at[k].distance);
-  if (path.brings == kBringsCoatBehind) {
+  if (path.stage == kStageCoatBehindGlass) {
     args.coat_distances.at[i] =
         farther_seen(args.coat_distances.at[i], args.hits.at[k].distance);
   }
@@ -31,8 +31,8 @@ void main() {
     args.coat_rays.at[i] = ray;
     return;
   }
-  if (path.brings == kBringsCoatBehind && !lets_light_through(surface.transmission)) {
-    path.brings = kBringsMoreBehind;
+  if (path.stage == kStageCoatBehindGlass && !lets_light_through(surface.transmission)) {
+    path.stage = kStageBeyondCoat;
   }
   path.throughput *= left_of_light(surface.transmission, args.hits.at[k].distance);
   meet_emitter(path, surface.emission, args.emitter_samples, ray);

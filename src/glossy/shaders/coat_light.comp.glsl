@@ -2,8 +2,7 @@
 // Adds the light that the hits of coats' rays reflect, and lets ways go on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/glossy_records.h"
-#include "shared/rays.h"
+#include "glossy/shaders/append_way.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -32,12 +31,5 @@ void main() {
   NextRay next = go_on(surface.transmission, surface.reflectance, surface.coat_share,
                        point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
                        args.bounce, random, path);
-  if (path.pdf <= 0.0f) return;
-  uint at = atomicAdd(args.next_ways.at[0], 1u);
-  args.next_paths.at[at] = path;
-  args.next_cones.at[at] = reflected_cone(surface.cone, path.pdf);
-  args.next_pixels.at[at] = i;
-  args.next_rays.at[at] =
-      RayRecord(offset_ray_origin(point.position_ws, next.side * point.geometric_normal_ws), 0.0f,
-                next.direction_ws, infinity(), kRayMeetsAll);
+  if (path.pdf > 0.0f) append_way(args.next, i, path, surface.cone, point, next);
 }

@@ -2,8 +2,7 @@
 // Draws the rays that pixels' coats send out.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/glossy_records.h"
-#include "shared/rays.h"
+#include "glossy/shaders/append_way.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -30,10 +29,6 @@ void main() {
   }
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
-  uint at = atomicAdd(args.ways.at[0], 1u);
-  args.paths.at[at] = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kBringsOwnCoat);
-  args.cones.at[at] = reflected_cone(surface.cone, drawn.pdf);
-  args.pixels.at[at] = i;
-  args.rays.at[at] = RayRecord(offset_ray_origin(point.position_ws, point.geometric_normal_ws),
-                               0.0f, drawn.direction_ws, infinity(), kRayMeetsAll);
+  CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat);
+  append_way(args.ways, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

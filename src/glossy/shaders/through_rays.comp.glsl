@@ -2,8 +2,7 @@
 // Draws the rays that pixels send through their surfaces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/glossy_records.h"
-#include "shared/rays.h"
+#include "glossy/shaders/append_way.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -20,16 +19,9 @@ void main() {
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   CoatPath path =
-      CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kBringsOther);
+      CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther);
   vec2 u = next_uniform2(random);
   NextRay next = go_on_through(surface.transmission, surface.reflectance, point.normal_ws,
                                surface.to_viewer_ws, vec3(u, next_uniform(random)), path);
-  if (path.pdf <= 0.0f) return;
-  uint at = atomicAdd(args.ways.at[0], 1u);
-  args.paths.at[at] = path;
-  args.cones.at[at] = reflected_cone(surface.cone, path.pdf);
-  args.pixels.at[at] = i;
-  args.rays.at[at] =
-      RayRecord(offset_ray_origin(point.position_ws, next.side * point.geometric_normal_ws), 0.0f,
-                next.direction_ws, infinity(), kRayMeetsAll);
+  if (path.pdf > 0.0f) append_way(args.ways, i, path, surface.cone, point, next);
 }
