@@ -59,8 +59,9 @@ FieldProgress update_field(const World& world, int updates, const UpdateRequest&
                            IrradianceField& field, const ProgressFn& progress,
                            nlohmann::ordered_json& stats);
 
-/// Likewise, at least so often, until an update changes the field by less than 1 %, at most 24
-/// times: what small bright patches leave of noise in it shows in mirrors and on walls.
+/// Likewise, at least so often, until the standard error of its light is below 2.5 %, at most 80
+/// times: what small bright patches leave of noise in it shows in mirrors and on walls. Updates
+/// after the least ones trace half the rays, from the noisiest probes.
 FieldProgress calm_field(const World& world, int least, const UpdateRequest& request,
                          IrradianceField& field, const ProgressFn& progress,
                          nlohmann::ordered_json& stats);

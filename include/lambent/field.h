@@ -247,6 +247,10 @@ class IrradianceField {
   const FieldSettings& settings() const;
   /// The number of updates since the start or the last reset.
   int updates() const;
+  /// Estimated standard error of the light of the probes near surfaces, over that light, root mean
+  /// square: what random rays leave of noise. As eyes see it: noise in light darker than the mean
+  /// counts less, by the square root. Infinite before the second update, which tells first.
+  double standard_error() const;
   /// Bytes of the store, for all probes.
   std::size_t store_bytes() const;
   /// Bytes of the last update's surfels, kept to solve for the light again.

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 #include "field/field_access.h"
 #include "field/field_state.h"
+#include "field/schedule/schedule.h"
 
 namespace lambent {
 Expected<void> check_settings(const FieldSettings& s) {
@@ -95,6 +97,17 @@ const FieldSettings& IrradianceField::settings() const {
 }
 int IrradianceField::updates() const {
   return state_->updates;
+}
+double IrradianceField::standard_error() const {
+  double squares = 0.0;
+  std::size_t known = 0;
+  for (const ProbeStatus& status : state_->statuses) {
+    if (status.variance_samples == 0 || status.samples <= 0.0f || !is_live(status)) continue;
+    squares += static_cast<double>(status.variance) / static_cast<double>(status.samples);
+    ++known;
+  }
+  if (known == 0) return std::numeric_limits<double>::infinity();
+  return std::sqrt(squares / static_cast<double>(known));
 }
 std::size_t IrradianceField::store_bytes() const {
   return state_->data.store.bytes();

@@ -4,9 +4,14 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "field/field_access.h"
+#include "field/field_state.h"
 #include "field/probes/probe_store.h"
+#include "field/probes/tile_light.h"
+#include "field/schedule/schedule.h"
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
 
@@ -102,6 +107,44 @@ TEST(IrradianceField, TellsWhatAnUpdateDid) {
   EXPECT_LT(field.update(stage.world).change, 0.5);
   EXPECT_GT(field.surfel_bytes(), 0u);
   EXPECT_LE(field.store_bytes(), 1168u * 125u);
+}
+
+/// The relative root mean square difference of the light of two fields' probes, seen as
+/// IrradianceField::standard_error() sees it.
+double difference(const IrradianceField& a, const IrradianceField& b) {
+  const auto texels = static_cast<std::size_t>(a.settings().irradiance_texels) *
+                      static_cast<std::size_t>(a.settings().irradiance_texels);
+  const WorkingIrradiance& light = FieldAccess::state_of(a).data.light;
+  const WorkingIrradiance& other = FieldAccess::state_of(b).data.light;
+  const float mean = mean_luminance(light);
+  double squares = 0.0;
+  int probes = 0;
+  for (std::size_t first = 0; first < light.size(); first += texels) {
+    if (!is_live(statuses_of(a)[first / texels])) continue;
+    const LightChange change = light_change(TileLight(light).subspan(first, texels),
+                                            TileLight(other).subspan(first, texels));
+    squares +=
+        static_cast<double>(estimate_relative_square(change, static_cast<int>(texels), 1.0f, mean));
+    ++probes;
+  }
+  return std::sqrt(squares / probes);
+}
+
+TEST(IrradianceField, KnowsItsStandardError) {
+  for (const char* scene : {"cornell", "two-rooms"}) {
+    const Stage stage(scene);
+    IrradianceField field = make_field(stage, small_field(1), 0);
+    EXPECT_EQ(field.standard_error(), std::numeric_limits<double>::infinity());
+    for (int i = 0; i < 12; ++i) field.update(stage.world);
+    const double few = field.standard_error();
+    // Of two fields, one has twice the variance
+    const IrradianceField other = make_field(stage, small_field(2), 12);
+    const double found = difference(field, other) / std::sqrt(2.0);
+    EXPECT_GT(few, 0.7 * found) << scene;
+    EXPECT_LT(few, 1.4 * found) << scene;
+    for (int i = 0; i < 36; ++i) field.update(stage.world);
+    EXPECT_NEAR(field.standard_error() / few, 0.5, 0.1) << scene;
+  }
 }
 
 TEST(IrradianceField, StaysDarkWithoutLightAndWithoutScene) {

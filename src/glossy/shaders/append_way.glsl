@@ -3,7 +3,8 @@
 #include "glossy/glossy_records.h"
 #include "shared/rays.h"
 
-/// Has the way of pixel `i` go on along a ray from the surface at `from`. `cone`: before that surface.
+/// Has the way of pixel `i` go on along a ray from the surface at `from`, which it met with this
+/// cone.
 void append_way(WayList ways, uint i, CoatPath path, RayCone cone, LitPointRecord from,
                 NextRay next) {
   uint at = atomicAdd(ways.count.at[0], 1u);
