@@ -97,12 +97,12 @@ Expected<void> render_by_stream(const ConnectOptions& options,
       // Unlit surfaces show their colours at the exposure of all others
       frame->unlit_radiance = 0.0f;
       if (const auto done = renderer->render(from, *frame, picture); !done) return done;
-      stops = automatic_stops(*picture.image.find(""));
+      stops = automatic_stops(picture.image);
       frame->unlit_radiance = radiance_of_colors(ToneMap::aces, *stops);
     }
     if (const auto done = renderer->render(from, *frame, picture); !done) return done;
     const Image& linear = *picture.image.find("");
-    if (!stops) stops = automatic_stops(linear);
+    if (!stops) stops = automatic_stops(picture.image);
     const std::string path = name_of_frame(options, written.size());
     const auto done = write_png(path, display_image(linear, ToneMap::aces, *stops));
     if (!done) return done;

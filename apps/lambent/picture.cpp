@@ -47,8 +47,11 @@ Expected<void> picture(const Options& options) {
   if (!layer) return tl::unexpected(layer.error());
 
   begin_step("encoding the picture");
-  const float stops =
-      *asked_stops ? **asked_stops : static_cast<float>(std::log2(display_exposure(**layer)));
+  const bool whole = *layer == file->find("");
+  const float stops = *asked_stops
+                          ? **asked_stops
+                          : static_cast<float>(std::log2(whole ? display_exposure(*file)
+                                                               : display_exposure(**layer)));
   const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops);
   if (const Expected<void> fine = make_folders(options.output); !fine) return fine;
   const bool png = has_ending(options.output, ".png");

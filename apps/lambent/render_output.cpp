@@ -5,7 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/image/exposure.h"
 #include "core/image/tone_map.h"
 #include "lambent/command_files.h"
 #include "lambent/output.h"
@@ -86,8 +85,8 @@ bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size) {
          !*parse_exposure(options.exposure);
 }
 
-float automatic_stops(const Image& picture) {
-  return static_cast<float>(std::log2(display_exposure(picture)));
+float automatic_stops(const LayeredImage& frame) {
+  return static_cast<float>(std::log2(display_exposure(frame)));
 }
 
 PictureFile::PictureFile(const RenderOptions& options, std::string path, const glm::ivec2& size,
@@ -108,6 +107,7 @@ Expected<void> PictureFile::write(const LayeredImage& rows) {
       kept_ = Image(size_.x, 0, picture.channels);
       kept_.pixels.reserve(pixels_of(size_) * static_cast<std::size_t>(picture.channels));
     }
+    luminances_.add(picture, rows.find("albedo"));
     kept_.height += picture.height;
     kept_.pixels.insert(kept_.pixels.end(), picture.pixels.begin(), picture.pixels.end());
     return {};
@@ -159,7 +159,7 @@ Expected<void> PictureFile::show(const Image& rows) {
 Expected<void> PictureFile::finish() {
   if (exr_) return exr_->finish();
   if (!kept_.empty()) {
-    stops_ = automatic_stops(kept_);
+    stops_ = static_cast<float>(std::log2(luminances_.exposure()));
     if (const auto shown = show(kept_); !shown) return shown;
   }
   return png_ ? png_->finish() : jpeg_->finish();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/image/codecs/row_writers.h"
+#include "core/image/exposure.h"
 #include "lambent/error.h"
 #include "lambent/image.h"
 #include "lambent/render_options.h"
@@ -32,7 +33,7 @@ int rows_of_a_band(const RenderOptions& options, const glm::ivec2& size);
 bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size);
 
 /// The stops that --exposure auto stands for.
-float automatic_stops(const Image& picture);
+float automatic_stops(const LayeredImage& frame);
 
 /// A picture's file, written from the top, some rows at a time or all at once.
 class PictureFile {
@@ -61,7 +62,8 @@ class PictureFile {
   std::optional<ExrWriter> exr_;
   std::optional<PngWriter> png_;
   std::optional<JpegWriter> jpeg_;
-  Image kept_;  // rows that wait for the stops
+  Image kept_;                     // rows that wait for the stops
+  LuminanceHistogram luminances_;  // of these
 };
 
 }  // namespace lambent::cli

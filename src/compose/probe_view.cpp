@@ -195,7 +195,7 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
   }
   const float brightness = settings.aspect == ProbeAspect::irradiance
                                ? 1.0f
-                               : static_cast<float>(1.0 / display_exposure(picture));
+                               : static_cast<float>(1.0 / display_exposure(frame));
   const auto width = static_cast<std::size_t>(frame.width);
   constexpr float kShare = 1.0f / (kSamplesAcross * kSamplesAcross);
 

@@ -53,6 +53,25 @@ TEST(Exposure, IsOneForBlackPictures) {
   EXPECT_EQ(display_exposure(Image()), 1.0);
 }
 
+// Lit alike, surfaces are shown in their order, half as far apart as they are.
+TEST(Exposure, ShowsWhatIsWhiteAsLighterThanWhatIsGrey) {
+  const auto shown = [](float albedo) {
+    LayeredImage frame;
+    frame.require("", 3) = grey(3.0f * albedo);
+    frame.require("albedo", 3) = grey(albedo);
+    return 3.0 * albedo * display_exposure(frame);
+  };
+  EXPECT_NEAR(std::log2(shown(0.8f) / 0.18), 0.5 * std::log2(0.8 / 0.18), 0.07);
+  // What is dark, or of no albedo that is known, is brought to mid-grey
+  EXPECT_NEAR(std::log2(shown(0.05f) / 0.18), 0.0, 0.07);
+  LayeredImage sky;
+  sky.require("", 3) = grey(2.0f);
+  sky.require("albedo", 3) = grey(0.0f);
+  EXPECT_EQ(display_exposure(sky), display_exposure(grey(2.0f)));
+  sky.layers.pop_back();
+  EXPECT_EQ(display_exposure(sky), display_exposure(grey(2.0f)));
+}
+
 TEST(Exposure, IsTheSameByBands) {
   Image image(4, 8, 3);
   for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = 0.1f * (i % 37);

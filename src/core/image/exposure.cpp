@@ -13,17 +13,30 @@ constexpr double kMidGrey = 0.18;
 // Pixels count as at most so much darker or brighter than the median [stops]: the range that a
 // display shows around mid-grey.
 constexpr double kDarker = 5.0, kBrighter = 3.0;
+// How much of the way an exposure goes from that of a camera, which shows snow and coal as grey, to
+// that of a meter in the scene's light, which shows them as light and dark as they are. All of it
+// would leave white walls no room for highlights.
+constexpr double kAlbedoShare = 0.5;
+
+/// The stops by which a surface of this albedo counts as darker than it is.
+double albedo_stops(const float* albedo) {
+  const auto level = static_cast<double>(luminance(vec3(albedo[0], albedo[1], albedo[2])));
+  return level > kMidGrey ? kAlbedoShare * std::log2(level / kMidGrey) : 0.0;
+}
 
 }  // namespace
 
-void LuminanceHistogram::add(const Image& linear) {
+void LuminanceHistogram::add(const Image& linear, const Image* albedo) {
   const bool grey = linear.channels < 3;
+  if (albedo != nullptr && albedo->channels < 3) albedo = nullptr;
   for (int y = 0; y < linear.height; ++y) {
     for (int x = 0; x < linear.width; ++x) {
       const float* in = linear.at(x, y);
       const float value = luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
       if (!(value > 0.0f) || !std::isfinite(value)) continue;
-      const double bin = (std::log2(static_cast<double>(value)) - kMinStop) * kBinsPerStop;
+      double stops = std::log2(static_cast<double>(value));
+      if (albedo != nullptr) stops -= albedo_stops(albedo->at(x, y));
+      const double bin = (stops - kMinStop) * kBinsPerStop;
       ++counts_[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))];
     }
   }
@@ -50,6 +63,12 @@ double LuminanceHistogram::exposure() const {
 double display_exposure(const Image& linear) {
   LuminanceHistogram histogram;
   histogram.add(linear);
+  return histogram.exposure();
+}
+
+double display_exposure(const LayeredImage& frame) {
+  LuminanceHistogram histogram;
+  histogram.add(*frame.find(""), frame.find("albedo"));
   return histogram.exposure();
 }
 

@@ -15,13 +15,15 @@ namespace lambent {
 class LuminanceHistogram {
  public:
   /// Counts the pixels of an image of linear radiance; black ones, and what is no number, do not
-  /// count.
-  void add(const Image& linear);
+  /// count. `albedo` is that of the surfaces in its pixels, 0 where there is none; null: not known.
+  void add(const Image& linear, const Image* albedo = nullptr);
 
-  /// The factor that brings what is typical of the picture to mid-grey; 1 where all is black.
-  /// The log-average luminance, as of Reinhard et al., "Photographic Tone Reproduction for Digital
-  /// Images", 2002, Eq. 1 and 2, but each pixel counts as no further from the median than some
-  /// stops: a lamp in the picture, or a black corner, does not decide what the rest looks like.
+  /// The factor that brings what is typical of the picture to mid-grey; 1 where all is black. Of
+  /// surfaces lighter than mid-grey it is half way between what they send and what a mid-grey card
+  /// in their place would, by stops: a white room is to look white. The log-average luminance, as
+  /// of Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, Eq. 1 and 2,
+  /// but each pixel counts as no further from the median than some stops: a lamp in the picture, or
+  /// a black corner, does not decide what the rest looks like.
   double exposure() const;
 
  private:
@@ -33,5 +35,7 @@ class LuminanceHistogram {
 
 /// The exposure of a whole picture.
 double display_exposure(const Image& linear);
+/// That of a frame's, with the albedo where it has such a layer.
+double display_exposure(const LayeredImage& frame);
 
 }  // namespace lambent
