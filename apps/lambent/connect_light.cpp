@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "compose/unlit.h"
+#include "core/image/exposure.h"
 #include "core/image/tone_map.h"
 #include "lambent/connect.h"
 #include "lambent/console.h"
 #include "lambent/interrupts.h"
 #include "lambent/parse.h"
 #include "lambent/quality.h"
-#include "lambent/render_output.h"
 #include "lambent/renderer.h"
 #include "lambent/step.h"
 #include "lambent/words.h"
@@ -97,12 +97,12 @@ Expected<void> render_by_stream(const ConnectOptions& options,
       // Unlit surfaces show their colours at the exposure of all others
       frame->unlit_radiance = 0.0f;
       if (const auto done = renderer->render(from, *frame, picture); !done) return done;
-      stops = automatic_stops(picture.image);
+      stops = display_stops(picture.image);
       frame->unlit_radiance = radiance_of_colors(ToneMap::aces, *stops);
     }
     if (const auto done = renderer->render(from, *frame, picture); !done) return done;
     const Image& linear = *picture.image.find("");
-    if (!stops) stops = automatic_stops(picture.image);
+    if (!stops) stops = display_stops(picture.image);
     const std::string path = name_of_frame(options, written.size());
     const auto done = write_png(path, display_image(linear, ToneMap::aces, *stops));
     if (!done) return done;

@@ -10,6 +10,7 @@
 
 #include "compose/probe_view.h"
 #include "compose/unlit.h"
+#include "core/image/exposure.h"
 #include "core/image/metrics.h"
 #include "core/image/tone_map.h"
 #include "core/memory.h"
@@ -226,7 +227,7 @@ Expected<void> FrameRenderer::expose_unlit(const Camera& camera, const std::stri
       preview.temporal_antialiasing = false;
       if (const auto done = render(camera, preview, {}); !done) return done;
     }
-    stops = automatic_stops(frame_.image);
+    stops = display_stops(frame_.image);
   }
   unlit_radiance_ = radiance_of_colors(*tone_map_from_name(options_.tone_map), *stops);
   return {};
@@ -253,7 +254,7 @@ Expected<void> FrameRenderer::paint_to_file(const Camera& camera, const std::str
     preview.width = size.x;
     preview.height = size.y;
     if (const auto done = render(camera, preview, {}); !done) return done;
-    stops = automatic_stops(frame_.image);
+    stops = display_stops(frame_.image);
   }
   settings.rows = rows_of_a_band(options_, size_);
   for (; settings.first_row < size_.y; settings.first_row += settings.rows) {

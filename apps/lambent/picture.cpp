@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // lambent picture: a layer of an EXR as a display shows it.
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <memory>
 #include <string>
 
@@ -47,11 +46,10 @@ Expected<void> picture(const Options& options) {
   if (!layer) return tl::unexpected(layer.error());
 
   begin_step("encoding the picture");
-  const bool whole = *layer == file->find("");
-  const float stops = *asked_stops
-                          ? **asked_stops
-                          : static_cast<float>(std::log2(whole ? display_exposure(*file)
-                                                               : display_exposure(**layer)));
+  const auto suits = [&] {
+    return *layer == file->find("") ? display_stops(*file) : display_stops(**layer);
+  };
+  const float stops = *asked_stops ? **asked_stops : suits();
   const Image shown = display_image(**layer, *tone_map_from_name(options.tone_map), stops);
   if (const Expected<void> fine = make_folders(options.output); !fine) return fine;
   const bool png = has_ending(options.output, ".png");

@@ -2,7 +2,6 @@
 #include "lambent/render_output.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/image/tone_map.h"
@@ -85,10 +84,6 @@ bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size) {
          !*parse_exposure(options.exposure);
 }
 
-float automatic_stops(const LayeredImage& frame) {
-  return static_cast<float>(std::log2(display_exposure(frame)));
-}
-
 PictureFile::PictureFile(const RenderOptions& options, std::string path, const glm::ivec2& size,
                          std::optional<float>& stops)
     : options_(options), path_(std::move(path)), size_(size), stops_(stops) {
@@ -159,7 +154,7 @@ Expected<void> PictureFile::show(const Image& rows) {
 Expected<void> PictureFile::finish() {
   if (exr_) return exr_->finish();
   if (!kept_.empty()) {
-    stops_ = static_cast<float>(std::log2(luminances_.exposure()));
+    stops_ = luminances_.stops();
     if (const auto shown = show(kept_); !shown) return shown;
   }
   return png_ ? png_->finish() : jpeg_->finish();

@@ -32,9 +32,6 @@ int rows_of_a_band(const RenderOptions& options, const glm::ivec2& size);
 /// Whether all rows of such a picture are kept until its exposure is known.
 bool keeps_all_rows(const RenderOptions& options, const glm::ivec2& size);
 
-/// The stops that --exposure auto stands for.
-float automatic_stops(const LayeredImage& frame);
-
 /// A picture's file, written from the top, some rows at a time or all at once.
 class PictureFile {
  public:

@@ -250,6 +250,7 @@ class IrradianceField {
   /// Estimated standard error of the light of the probes near surfaces, over that light, root mean
   /// square: what random rays leave of noise. As eyes see it: noise in light darker than the mean
   /// counts less, by the square root. Infinite before the second update, which tells first.
+  /// Reads the state of every probe.
   double standard_error() const;
   /// Bytes of the store, for all probes.
   std::size_t store_bytes() const;

@@ -193,9 +193,8 @@ void draw_probes(const World& world, const IrradianceField& field, const Camera&
   for (int volume = 0; volume < store_of(field).volumes(); ++volume) {
     finders.emplace_back(store_of(field), volume, settings.radius);
   }
-  const float brightness = settings.aspect == ProbeAspect::irradiance
-                               ? 1.0f
-                               : static_cast<float>(1.0 / display_exposure(frame));
+  const float brightness =
+      settings.aspect == ProbeAspect::irradiance ? 1.0f : std::exp2(-display_stops(frame));
   const auto width = static_cast<std::size_t>(frame.width);
   constexpr float kShare = 1.0f / (kSamplesAcross * kSamplesAcross);
 

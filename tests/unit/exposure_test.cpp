@@ -9,6 +9,12 @@
 namespace lambent {
 namespace {
 
+/// The factor that display_stops() stands for.
+template <class Picture>
+double display_exposure(const Picture& picture) {
+  return std::exp2(static_cast<double>(display_stops(picture)));
+}
+
 Image grey(float value, int size = 16) {
   Image image(size, size, 3);
   for (float& channel : image.pixels) channel = value;
@@ -53,7 +59,7 @@ TEST(Exposure, IsOneForBlackPictures) {
   EXPECT_EQ(display_exposure(Image()), 1.0);
 }
 
-// Lit alike, surfaces are shown in their order, half as far apart as they are.
+// Lit alike, a white surface is shown lighter than a mid-grey one, by half as many stops as it is.
 TEST(Exposure, ShowsWhatIsWhiteAsLighterThanWhatIsGrey) {
   const auto shown = [](float albedo) {
     LayeredImage frame;
@@ -81,7 +87,7 @@ TEST(Exposure, IsTheSameByBands) {
     std::copy_n(image.at(0, y), 12, row.at(0, 0));
     histogram.add(row);
   }
-  EXPECT_EQ(histogram.exposure(), display_exposure(image));
+  EXPECT_EQ(histogram.stops(), display_stops(image));
 }
 
 }  // namespace

@@ -13,9 +13,10 @@ constexpr double kMidGrey = 0.18;
 // Pixels count as at most so much darker or brighter than the median [stops]: the range that a
 // display shows around mid-grey.
 constexpr double kDarker = 5.0, kBrighter = 3.0;
-// How much of the way an exposure goes from that of a camera, which shows snow and coal as grey, to
-// that of a meter in the scene's light, which shows them as light and dark as they are. All of it
-// would leave white walls no room for highlights.
+// How much of the way an exposure goes from that of a camera, which shows snow as grey, to that of
+// a meter held into the scene's light, which shows snow as white as it is. All of the way would
+// leave white walls no room for highlights. Dark surfaces stay as a camera shows them: a street at
+// night is dark enough.
 constexpr double kAlbedoShare = 0.5;
 
 /// The stops by which a surface of this albedo counts as darker than it is.
@@ -42,10 +43,10 @@ void LuminanceHistogram::add(const Image& linear, const Image* albedo) {
   }
 }
 
-double LuminanceHistogram::exposure() const {
+float LuminanceHistogram::stops() const {
   std::uint64_t total = 0;
   for (const std::uint64_t count : counts_) total += count;
-  if (total == 0) return 1.0;
+  if (total == 0) return 0.0f;
   const auto stop_of = [](std::size_t bin) {
     return kMinStop + (static_cast<double>(bin) + 0.5) / kBinsPerStop;
   };
@@ -57,19 +58,19 @@ double LuminanceHistogram::exposure() const {
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     sum += static_cast<double>(counts_[bin]) * std::clamp(stop_of(bin), low, high);
   }
-  return kMidGrey / std::exp2(sum / static_cast<double>(total));
+  return static_cast<float>(std::log2(kMidGrey) - sum / static_cast<double>(total));
 }
 
-double display_exposure(const Image& linear) {
+float display_stops(const Image& linear) {
   LuminanceHistogram histogram;
   histogram.add(linear);
-  return histogram.exposure();
+  return histogram.stops();
 }
 
-double display_exposure(const LayeredImage& frame) {
+float display_stops(const LayeredImage& frame) {
   LuminanceHistogram histogram;
   histogram.add(*frame.find(""), frame.find("albedo"));
-  return histogram.exposure();
+  return histogram.stops();
 }
 
 }  // namespace lambent

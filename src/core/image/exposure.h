@@ -18,13 +18,13 @@ class LuminanceHistogram {
   /// count. `albedo` is that of the surfaces in its pixels, 0 where there is none; null: not known.
   void add(const Image& linear, const Image* albedo = nullptr);
 
-  /// The factor that brings what is typical of the picture to mid-grey; 1 where all is black. Of
+  /// The stops that bring what is typical of the picture to mid-grey; 0 where all is black. Of
   /// surfaces lighter than mid-grey it is half way between what they send and what a mid-grey card
   /// in their place would, by stops: a white room is to look white. The log-average luminance, as
   /// of Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, Eq. 1 and 2,
   /// but each pixel counts as no further from the median than some stops: a lamp in the picture, or
   /// a black corner, does not decide what the rest looks like.
-  double exposure() const;
+  float stops() const;
 
  private:
   static constexpr int kBinsPerStop = 8;
@@ -33,9 +33,9 @@ class LuminanceHistogram {
   std::array<std::uint64_t, kBins> counts_{};
 };
 
-/// The exposure of a whole picture.
-double display_exposure(const Image& linear);
-/// That of a frame's, with the albedo where it has such a layer.
-double display_exposure(const LayeredImage& frame);
+/// The exposure of an image of linear radiance [stops].
+float display_stops(const Image& linear);
+/// The exposure of a frame's picture [stops], by its albedo where it has such a layer.
+float display_stops(const LayeredImage& frame);
 
 }  // namespace lambent

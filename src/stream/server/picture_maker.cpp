@@ -2,7 +2,6 @@
 #include "stream/server/picture_maker.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "compose/unlit.h"
 #include "core/image/exposure.h"
@@ -52,7 +51,7 @@ Expected<void> PictureMaker::expose_unlit(FrameSettings& frame) {
     if (!stops) {
       frame.unlit_radiance = 0.0f;
       if (const auto done = renderer_.render(camera_, frame, frame_); !done) return done;
-      stops = static_cast<float>(std::log2(display_exposure(frame_.image)));
+      stops = display_stops(frame_.image);
     }
     unlit_radiance_ = radiance_of_colors(settings_.tone_map, *stops);
   }
@@ -74,7 +73,7 @@ Image PictureMaker::shown() {
   if (settings_.exposure_stops) {
     stops_ = settings_.exposure_stops;
   } else {
-    const auto suits = static_cast<float>(std::log2(display_exposure(frame_.image)));
+    const auto suits = display_stops(frame_.image);
     stops_ = stops_ ? *stops_ + kExposureStep * (suits - *stops_) : suits;
   }
   return display_image(linear, settings_.tone_map, *stops_);
