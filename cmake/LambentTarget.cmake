@@ -28,10 +28,10 @@ endfunction()
 
 # Sources of the library whose loops should become vector instructions and whose square roots need not set errno, each
 # compiled with the OPTIONS given after that word, too. They read no precompiled header: it is made without these flags,
-# and compilers refuse it.
+# and compilers refuse it. Sanitizers have no use for vectors.
 function(lambent_vector_sources)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "OPTIONS")
   set_source_files_properties(${arg_UNPARSED_ARGUMENTS} TARGET_DIRECTORY lambent PROPERTIES
     SKIP_PRECOMPILE_HEADERS ON
-    COMPILE_OPTIONS "-O3;-fno-math-errno;-fno-trapping-math;${arg_OPTIONS}")
+    COMPILE_OPTIONS "$<$<NOT:$<BOOL:${LAMBENT_SANITIZE}>>:-O3>;-fno-math-errno;-fno-trapping-math;${arg_OPTIONS}")
 endfunction()
