@@ -36,6 +36,7 @@
 #include "shaders/coat_reuse_comp.h"
 #include "shaders/compose_comp.h"
 #include "shaders/fog_pixels_comp.h"
+#include "shaders/fork_ways_comp.h"
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
 #include "shaders/keep_behind_comp.h"
@@ -80,6 +81,7 @@ struct FrameKernels {
   vulkan::Kernel coat_reuse{device, shaders::coat_reuse_comp(), "coat reuse"};
   vulkan::Kernel show_clearcoats{device, shaders::show_clearcoats_comp(), "show clearcoats"};
   vulkan::Kernel clearcoat_light{device, shaders::clearcoat_light_comp(), "clearcoat light"};
+  vulkan::Kernel fork_ways{device, shaders::fork_ways_comp(), "forks of ways"};
   vulkan::Kernel through_rays{device, shaders::through_rays_comp(), "rays through surfaces"};
   vulkan::Kernel start_through{device, shaders::start_through_comp(), "start of what is seen"};
   vulkan::Kernel keep_behind{device, shaders::keep_behind_comp(), "keep light behind glass"};
@@ -117,6 +119,19 @@ struct SeenThroughBuffers {
 };
 
 /// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
+/// Memory of a list of ways.
+struct WayBuffers {
+  vulkan::Buffer rays, cones, paths, pixels, count;
+
+  WayList list() const {
+    return {{rays.address()},
+            {cones.address()},
+            {paths.address()},
+            {pixels.address()},
+            {count.address()}};
+  }
+};
+
 struct FrameMemory {
   explicit FrameMemory(const vulkan::Device& device)
       : pixel_shading(device),
@@ -153,7 +168,8 @@ struct FrameMemory {
   // Of the rows around a band whose coats rays light: pixels, rays, and lists of ways; those of one
   // bounce and of the next take turns
   vulkan::Buffer coats, coat_inverse_distances, coat_points, coat_surfaces, coat_rays;
-  vulkan::Buffer way_rays[2], way_cones[2], way_paths[2], way_pixels[2], way_length;
+  WayBuffers ways[2];
+  WayBuffers forks;  // branches to be followed later
   vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
   vulkan::Buffer way_queries, way_answers;
   vulkan::Buffer way_drawn, way_drawn_squares, way_drawn_specular, coat_distances;
@@ -162,15 +178,6 @@ struct FrameMemory {
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
   // Of the whole picture
   vulkan::Buffer layers, picture_motion;
-
-  /// One of the two lists of ways. They share their length: one is written once the other is read.
-  WayList way_list(int which) const {
-    return {{way_rays[which].address()},
-            {way_cones[which].address()},
-            {way_paths[which].address()},
-            {way_pixels[which].address()},
-            {way_length.address()}};
-  }
 };
 
 class FramePassesVulkan final : public FramePasses {
@@ -238,8 +245,9 @@ class FramePassesVulkan final : public FramePasses {
   /// Looks up the field's light of coats for the band's pixels, which lie at these addresses.
   void look_up_coats(std::uint64_t points, std::uint64_t surfaces);
   void reserve_ways(std::size_t pixels);
-  std::uint32_t count_ways();
-  bool follow_all(std::uint32_t first_index, std::uint32_t salt);
+  void reserve_list(std::size_t ways, WayBuffers& list);
+  std::uint32_t count_ways(const WayBuffers& list);
+  bool follow_all(std::uint32_t first_bounce, std::uint32_t first_index, std::uint32_t salt);
   void follow_ways(std::uint32_t ways, std::uint32_t bounce, std::uint32_t first_index,
                    std::uint32_t salt);
   void reuse_coat_rays(const Band& around);
@@ -247,7 +255,9 @@ class FramePassesVulkan final : public FramePasses {
   std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);
   void start_through();
-  void keep_behind(Recorder& to, std::uint32_t ways, int from);
+  void keep_behind(Recorder& to, std::uint32_t ways, const WayBuffers& from);
+  void fork_ways(const WayBuffers& ways, std::uint32_t count, std::uint32_t bounce,
+                 std::uint32_t first_index, std::uint32_t salt);
   void keep_through();
   void denoise_coats(const DenoiseViewOnDevice& view);
   void denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown, float share);
@@ -283,6 +293,7 @@ class FramePassesVulkan final : public FramePasses {
   uint rays_bring_ = 0;         // to the band's sample, see ComposeArguments
   const char* way_pass_ = "";   // whose rays are being followed
   std::uint32_t way_seed_ = 0;  // of their random numbers
+  bool forks_ways_ = false;     // into the list of branches
   bool keeps_behind_ = false;   // light of the first surfaces behind glass is kept apart
 };
 

@@ -33,6 +33,16 @@ const uint kStageCoatBehindGlass = 3u;
 /// It left the coat of that surface, and met something else than glass. All light is kept apart.
 const uint kStageBeyondCoat = 4u;
 
+// CoatPath::fork: whether a way is followed both through glass that it meets and back from there.
+/// No: chance decides.
+const uint kForksNowhere = 0u;
+/// It will be, at the first sharp surface where light does both.
+const uint kForksNext = 1u;
+/// It is what goes on through the surface that it has met just now.
+const uint kForkCrosses = 2u;
+/// It is what was reflected there. These ways are followed once all others have ended.
+const uint kForkReflected = 3u;
+
 /// A ray's way through the scene.
 struct CoatPath {
   vec3 throughput;  ///< Share of the light that the ray meets next which the pixel's ray brings.
@@ -40,6 +50,7 @@ struct CoatPath {
                     ///< 0: the way has ended.
   float alpha;      ///< GGX width of the widest lobe on the way.
   uint stage;       ///< kStageOther, ...
+  uint fork;        ///< kForksNowhere, ...
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 

@@ -83,6 +83,21 @@ struct CoatLightArguments {
   uint padding;
 };
 
+/// Keeps the branches that are reflected where ways fork.
+struct ForkWaysArguments {
+  LitPointArray points;  ///< Lists:
+  PixelSurfaceArray surfaces;
+  CoatPathArray paths;
+  UintArray pixels;
+  WayList reflected;  ///< Branches are appended here.
+  uint count;
+  uint first_index;
+  uint salt;
+  uint seed;
+  uint bounce;
+  uint padding;
+};
+
 /// Makes clearcoats coats.
 struct ShowClearcoatsArguments {
   LitPointArray points;

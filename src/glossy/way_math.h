@@ -38,15 +38,30 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
 /// a ray met first, and of a way through surfaces that to the first which lets no light through.
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
+  if (path.fork == kForkReflected) return so_far;
   bool crossed_all = path.pdf == kFoundByNobodyElse && path.stage == kStageOther;
   return crossed_all ? so_far + further : so_far;
 }
 
 /// The distance to what a coat behind glass sees [m], which may lie behind further glass: the
-/// distance so far, below 0 where the coat's ray has met nothing yet, and what is to be added.
-LAMBENT_FN float farther_seen(float so_far, float further) {
-  return max(so_far, 0.0f) + further;
+/// distance so far, below 0 where the coat's ray has met nothing yet, and what is to be added on
+/// the way of such a ray.
+LAMBENT_FN float farther_seen(CoatPath path, float so_far, float further) {
+  bool adds = path.stage == kStageCoatBehindGlass && path.fork != kForkReflected;
+  return adds ? max(so_far, 0.0f) + further : so_far;
 }
+
+/// Whether a way has come to the first surface behind glass that lets no light through, whose light
+/// is kept apart to be filtered.
+LAMBENT_FN bool comes_behind_glass(CoatPath path, Transmission through) {
+  return path.stage == kStageOther && path.fork != kForkReflected && !lets_light_through(through);
+}
+
+/// Branches count their bounces from here: none is on the first one, which finds distances.
+const uint kFirstBounceOfForks = 2u;
+
+// In place of the number by which chance decides for inner reflection where it is below its share.
+const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
 /// Adds light that a way met, but for what emissive surfaces send, to what its pixel's ray brings.
 LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
@@ -130,18 +145,39 @@ LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 no
   return next;
 }
 
+/// Probability with which a way that meets a surface on its so manieth bounce goes on through it.
+/// From the inside of a volume it always does: inner reflection is part of that.
+LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
+                                 float n_dot_v, uint bounce) {
+  if (bounce >= kMaxWays || !lets_light_through(through)) return 0.0f;
+  return crossing_probability(passing_share(through, coat, n_dot_v),
+                              coat_share * specular_albedo(coat, n_dot_v));
+}
+
+/// Whether a way is to be followed both through the surface that it met and back from there.
+LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, float coat_share,
+                      float n_dot_v, uint bounce) {
+  if (path.fork != kForksNext || through.alpha > kStraightAlpha) return false;
+  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce);
+  if (through.kind == kLeavesVolume) crossing *= 1.0f - inner_reflection(n_dot_v, through.eta);
+  return crossing > 0.0f && crossing < 1.0f;
+}
+
 /// Has a way go on from what it met on its so manieth bounce: through the surface, or from its
-/// coat. Chance decides where it could do either.
+/// coat. Where it could do either, chance decides if the way does not fork.
 LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_share, vec3 normal_ws,
                          vec3 geometric_normal_ws, vec3 to_viewer_ws, uint bounce,
                          RandomStream random, LAMBENT_INOUT(CoatPath) path) {
   vec2 u = next_uniform2(random);
-  float crossing = 0.0f;
-  if (bounce < kMaxWays && lets_light_through(through)) {
-    float n_dot_v = dot(normal_ws, to_viewer_ws);
-    crossing = crossing_probability(passing_share(through, coat, n_dot_v),
-                                    coat_share * specular_albedo(coat, n_dot_v));
+  float n_dot_v = dot(normal_ws, to_viewer_ws);
+  if (path.fork == kForkCrosses) {
+    path.fork = kForksNowhere;
+    if (through.kind == kLeavesVolume) {
+      path.throughput *= 1.0f - inner_reflection(n_dot_v, through.eta);
+    }
+    return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, kNeverReflected), path);
   }
+  float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce);
   // Nothing further is drawn where nothing lets light through
   if (crossing > 0.0f && (crossing >= 1.0f || next_uniform(random) < crossing)) {
     path.throughput /= crossing;
@@ -150,6 +186,24 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_shar
   }
   if (crossing > 0.0f) path.throughput /= 1.0f - crossing;
   return go_on_from_coat(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u, path);
+}
+
+/// Where a way forks, has the branch that is reflected go on, and the way know that it is the
+/// other.
+LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, float coat_share,
+                                   vec3 normal_ws, vec3 geometric_normal_ws, vec3 to_viewer_ws,
+                                   RandomStream random, LAMBENT_INOUT(CoatPath) path,
+                                   LAMBENT_INOUT(CoatPath) branch) {
+  vec2 u = next_uniform2(random);
+  branch = path;
+  branch.fork = kForkReflected;
+  path.fork = kForkCrosses;
+  if (through.kind != kLeavesVolume) {
+    return go_on_from_coat(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u,
+                           branch);
+  }
+  branch.throughput *= inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);
+  return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, kAlwaysReflected), branch);
 }
 
 LAMBENT_END

@@ -90,6 +90,22 @@ TEST(SeenThrough, FrostedSlabsShowLessNoise) {
   expect_less_noise(Pane(test::matte_floor(), kFrosted, true), 0.7);
 }
 
+// Light is reflected within a clear slab, too. Where chance decided between that and what lies
+// behind, one pixel in twenty-five would be black.
+TEST(SeenThrough, ClearSlabsHaveNoGrainOfReflectionsWithin) {
+  Material floor = test::matte_floor();
+  floor.emission = glm::vec3(1.0f);  // without noise of its own, where no lamp lights it
+  floor.base_color = glm::vec4(0.0f, 0.0f, 0.0f, 1.0f);
+  const Pane pane(floor, kClear, true);
+  const Image seen = *pane.picture(Pane::settings(false)).find("transmission");
+  const Image truth = *mean_picture(pane, Pane::settings(false), 32).find("transmission");
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < seen.pixels.size(); ++i) {
+    differ += std::abs(seen.pixels[i] - truth.pixels[i]) > 0.05f ? 1 : 0;
+  }
+  EXPECT_EQ(differ, 0u);
+}
+
 TEST(SeenThrough, IsThereWithoutAFieldAndWithFog) {
   Scene scene = test::floor_behind_a_pane(test::metal_floor(), kFrosted);
   scene.fog.resize(1);

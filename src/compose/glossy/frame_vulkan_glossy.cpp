@@ -11,6 +11,11 @@
 namespace lambent {
 namespace {
 
+/// Which of the two lists has the ways that come to a bounce.
+std::size_t list_of(std::uint32_t bounce) {
+  return (bounce + 1) % 2;
+}
+
 bool has_coats(const Scene& scene) {
   return std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const Material& material) { return !material.lambert; });
@@ -74,8 +79,8 @@ void FramePassesVulkan::see_around_band(const Band& around) {
       const std::uint32_t first_pixel =
           static_cast<std::uint32_t>(around.first_row) * width + first;
       const CameraRaysArguments arguments = {
-          {m.way_rays[0].address() + first * sizeof(RayRecord)},
-          {m.way_cones[0].address() + first * sizeof(RayCone)},
+          {m.ways[0].rays.address() + first * sizeof(RayRecord)},
+          {m.ways[0].cones.address() + first * sizeof(RayCone)},
           camera_record(request_->camera, settings.width, settings.height),
           width,
           first_pixel,
@@ -105,22 +110,24 @@ void FramePassesVulkan::reserve_ways(std::size_t pixels) {
   reserve<LitPointRecord>(pixels, "points around the band", m.coat_points);
   reserve<PixelSurfaceRecord>(pixels, "surfaces around the band", m.coat_surfaces);
   reserve<CoatRay>(pixels, "coats' rays", m.coat_rays);
-  for (int i = 0; i < 2; ++i) {
-    reserve<RayRecord>(pixels, "rays of ways", m.way_rays[i]);
-    reserve<RayCone>(pixels, "cones of ways", m.way_cones[i]);
-    reserve<CoatPath>(pixels, "ways", m.way_paths[i]);
-    reserve<uint>(pixels, "pixels of ways", m.way_pixels[i]);
-  }
-  reserve<uint>(1, "number of ways", m.way_length);
+  for (WayBuffers& list : m.ways) reserve_list(pixels, list);
   reserve<HitRecord>(pixels, "hits of ways", m.way_hits);
 }
 
-/// The ways that go on; has all that was recorded run.
-std::uint32_t FramePassesVulkan::count_ways() {
+void FramePassesVulkan::reserve_list(std::size_t ways, WayBuffers& list) {
+  reserve<RayRecord>(ways, "rays of ways", list.rays);
+  reserve<RayCone>(ways, "cones of ways", list.cones);
+  reserve<CoatPath>(ways, "ways", list.paths);
+  reserve<uint>(ways, "pixels of ways", list.pixels);
+  reserve<uint>(1, "number of ways", list.count);
+}
+
+/// The ways of a list; has all that was recorded run.
+std::uint32_t FramePassesVulkan::count_ways(const WayBuffers& list) {
   run_steps();
-  uint length = 0;
-  vulkan::read(device_, memory_.way_length, std::span(&length, 1));
-  return length;
+  uint count = 0;
+  vulkan::read(device_, list.count, std::span(&count, 1));
+  return count;
 }
 
 bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
@@ -130,12 +137,12 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
   add("glossy", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
-    to.fill(m.way_length, 0u);
+    to.fill(m.ways[0].count, 0u);
     to.barrier();
     const CoatRaysArguments drawn = {{m.coat_points.address()},
                                      {m.coat_surfaces.address()},
                                      {m.coat_rays.address()},
-                                     m.way_list(0),
+                                     m.ways[0].list(),
                                      pixels,
                                      static_cast<uint>(first_row),
                                      width,
@@ -146,18 +153,21 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
   });
   way_pass_ = "glossy";
   way_seed_ = seed;
-  if (!follow_all(first_index, sample_)) return false;
+  if (!follow_all(1, first_index, sample_)) return false;
   reuse_coat_rays(around);
   return true;
 }
 
-/// Follows all ways until they have ended; returns whether there were any.
-bool FramePassesVulkan::follow_all(std::uint32_t first_index, std::uint32_t salt) {
-  std::uint32_t ways = count_ways();
-  const bool any = ways > 0;
-  for (std::uint32_t bounce = 1; ways > 0 && bounce <= kMaxWays; ++bounce) {
+/// Follows all ways until they have ended, from the bounce on that they come to next; returns
+/// whether there were any.
+bool FramePassesVulkan::follow_all(std::uint32_t first_bounce, std::uint32_t first_index,
+                                   std::uint32_t salt) {
+  bool any = false;
+  for (std::uint32_t bounce = first_bounce; bounce <= kMaxWays; ++bounce) {
+    const std::uint32_t ways = count_ways(memory_.ways[list_of(bounce)]);
+    if (ways == 0) break;
     follow_ways(ways, bounce, first_index, salt);
-    ways = count_ways();
+    any = true;
   }
   return any;
 }
@@ -179,12 +189,12 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
   reserve<QueryRecord>(2 * std::size_t{ways}, "queries of ways", m.way_queries);
   reserve<vec3>(2 * std::size_t{ways}, "answers of ways", m.way_answers);
   frame_->rays += ways;
-  const int from = static_cast<int>((bounce + 1) % 2);
+  WayBuffers &from = m.ways[list_of(bounce)], &next = m.ways[list_of(bounce + 1)];
   const uint salt = coat_salt(salt_of_pass, bounce);
   const bool has_field = request_->sources.field != nullptr;
-  add(way_pass_, [=, this, &m](Recorder& to) {
+  add(way_pass_, [=, this, &m, &from](Recorder& to) {
     const DeviceSeenHits hits = {
-        {m.way_rays[from].address()}, {m.way_hits.address()}, {m.way_cones[from].address()}, ways};
+        {from.rays.address()}, {m.way_hits.address()}, {from.cones.address()}, ways};
     const DevicePixels met = {{m.way_points.address()}, {m.way_surfaces.address()}};
     world_.tracer().closest_hits(to, {hits.rays, ways}, hits.hits);
     to.barrier();
@@ -193,8 +203,8 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
         hits.hits,
         met.points,
         met.surfaces,
-        {m.way_paths[from].address()},
-        {m.way_pixels[from].address()},
+        {from.paths.address()},
+        {from.pixels.address()},
         {m.way_queries.address()},
         {m.coat_rays.address()},
         {m.coat_distances.address()},
@@ -225,18 +235,19 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
     look_up(way_pass_, *request_->sources.field, m.way_queries, 2 * ways, CorrectionUse::smooth,
             m.way_answers);
   }
-  add(way_pass_, [=, this, &m](Recorder& to) {
+  if (forks_ways_) fork_ways(from, ways, bounce, first_index, salt);
+  add(way_pass_, [=, this, &m, &from, &next](Recorder& to) {
     if (!has_field) to.fill(m.way_answers, 0u);
-    to.fill(m.way_length, 0u);
+    to.fill(next.count, 0u);
     to.barrier();
     const CoatLightArguments lit = {{m.way_points.address()},
                                     {m.way_surfaces.address()},
                                     {m.way_diffuse.address()},
                                     {m.way_specular.address()},
                                     {m.way_answers.address()},
-                                    {m.way_paths[from].address()},
-                                    {m.way_pixels[from].address()},
-                                    m.way_list(1 - from),
+                                    {from.paths.address()},
+                                    {from.pixels.address()},
+                                    next.list(),
                                     {m.coat_rays.address()},
                                     ways,
                                     first_index,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixels see through their surfaces, on a device; see glossy_frame.cpp and seen_through.cpp.
+// What pixels see through their surfaces, on a device; see through_frame.cpp and seen_through.cpp.
 #include "compose/frame_vulkan.h"
 #include "compose/glossy/seen_through.h"
 
@@ -12,13 +12,15 @@ void FramePassesVulkan::transmission() {
   reserve_ways(pixels_);
   reserve<float>(pixels_, "distances of coats behind glass", memory_.coat_distances);
   const uint salt = sample_ ^ kThroughSalt;
+  reserve_list(pixels_, memory_.forks);
   add("transmission", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
-    to.fill(m.way_length, 0u);
+    to.fill(m.ways[0].count, 0u);
+    to.fill(m.forks.count, 0u);
     to.barrier();
     const ThroughRaysArguments drawn = {
         {m.points.address()}, {m.surfaces.address()},       {m.coat_rays.address()},
-        m.way_list(0),        {m.coat_distances.address()}, pixels_,
+        m.ways[0].list(),     {m.coat_distances.address()}, pixels_,
         first_pixel_,         coat_salt(salt, 0u),          request_->settings.seed};
     to.run(kernels_.through_rays, drawn, pixels_);
   });
@@ -26,8 +28,34 @@ void FramePassesVulkan::transmission() {
   if (keeps_behind_) start_through();
   way_pass_ = "transmission";
   way_seed_ = request_->settings.seed;
-  if (follow_all(first_pixel_, salt)) rays_bring_ |= kHasTransmission;
+  forks_ways_ = true;
+  if (follow_all(1, first_pixel_, salt)) rays_bring_ |= kHasTransmission;
+  forks_ways_ = false;
+  run_steps();
+  std::swap(memory_.forks, memory_.ways[1]);
+  static_assert(kFirstBounceOfForks == 2);  // whose ways lie in that list
+  follow_all(kFirstBounceOfForks, first_pixel_, salt);
   keeps_behind_ = false;
+}
+
+/// Keeps the branches that are reflected where ways of a list fork.
+void FramePassesVulkan::fork_ways(const WayBuffers& ways, std::uint32_t count, std::uint32_t bounce,
+                                  std::uint32_t first_index, std::uint32_t salt) {
+  add(way_pass_, [=, this, &ways](Recorder& to) {
+    const FrameMemory& m = memory_;
+    const ForkWaysArguments arguments = {{m.way_points.address()},
+                                         {m.way_surfaces.address()},
+                                         {ways.paths.address()},
+                                         {ways.pixels.address()},
+                                         m.forks.list(),
+                                         count,
+                                         first_index,
+                                         salt,
+                                         way_seed_,
+                                         bounce,
+                                         0u};
+    to.run(kernels_.fork_ways, arguments, count);
+  });
 }
 
 std::uint32_t FramePassesVulkan::draws_behind_glass() const {
@@ -76,13 +104,13 @@ void FramePassesVulkan::start_through() {
 }
 
 /// Keeps apart what lights up the first surfaces behind glass, of ways in the list `from`.
-void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, int from) {
+void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, const WayBuffers& from) {
   FrameMemory& m = memory_;
   const KeepBehindArguments arguments = {{world_.scene().address()},
                                          {m.way_points.address()},
                                          {m.way_surfaces.address()},
-                                         {m.way_paths[from].address()},
-                                         {m.way_pixels[from].address()},
+                                         {from.paths.address()},
+                                         {from.pixels.address()},
                                          {m.way_diffuse.address()},
                                          {m.way_drawn.address()},
                                          {m.way_drawn_specular.address()},

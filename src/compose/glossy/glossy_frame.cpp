@@ -5,38 +5,19 @@
 #include <atomic>
 #include <cassert>
 
-#include "compose/pixel_math.h"
+#include "compose/glossy/way_rays.h"
 #include "core/parallel.h"
-#include "raytracing/camera_rays.h"
 #include "raytracing/world_access.h"
 #include "scene/environment_sampling.h"
-#include "shared/rays.h"
 
 namespace lambent {
 namespace {
 
 constexpr std::size_t kPixelsPerTask = 1024;
 
-/// The ray that leaves a surface.
-Ray ray_from(const Surface& surface, const NextRay& next) {
-  Ray ray;
-  ray.origin = offset_ray_origin(surface.position_ws, next.side * surface.geometric_normal_ws);
-  ray.direction = next.direction_ws;
-  return ray;
-}
-
 /// Asks the field for light from around `direction_ws` where a ray met a surface.
 FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws) {
   return {met.position_ws, direction_ws, -ray.direction, distance(met.position_ws, ray.origin)};
-}
-
-/// The cone of a pixel's ray where it ends.
-RayCone pixel_cone(const GlossySettings& settings, const Surface& surface,
-                   const vec3& to_viewer_ws) {
-  RayCone cone = camera_cone(settings.camera, -to_viewer_ws,
-                             static_cast<uint>(settings.frame.samples), settings.jitter);
-  cone.width = width_at(cone, length(surface.position_ws - settings.camera.position_ws));
-  return cone;
 }
 
 }  // namespace
@@ -59,32 +40,8 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
-  paths_.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther});
-  next_.resize(pixels);
-  cones_.resize(pixels);
+  ways_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
-}
-
-/// Draws the rays of pixels whose surfaces let light through.
-std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer& seen) {
-  const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
-  std::uint64_t sent = 0;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const Surface& surface = seen.surfaces[i];
-    rays_[i].distance = -1.0f;
-    if (seen.hit[i] == 0 || !lets_light_through(surface.transmission)) continue;
-    RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
-                                             coat_salt(salt_, 0u), ~settings.frame.seed);
-    CoatPath& path = paths_[i];
-    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther};
-    const vec2 u = next_uniform2(random);
-    const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
-                                       seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
-    next_[i] = ray_from(surface, next);
-    cones_[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
-    sent += path.pdf > 0.0f ? 1 : 0;
-  }
-  return sent;
 }
 
 /// Draws the pixels' rays.
@@ -119,9 +76,10 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         }
         rays_[first + i].direction_ws = drawn.direction_ws;
         rays_[first + i].pdf = drawn.pdf;
-        paths_[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat};
-        next_[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
-        cones_[first + i] =
+        ways_.paths[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
+                                  kForksNowhere};
+        ways_.next[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
+        ways_.cones[first + i] =
             reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
         ++count;
       }
@@ -146,8 +104,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
     std::vector<std::size_t> pixels;
     for (std::size_t i = begin; i < end; ++i) {
       met_.hit[i] = 0;
-      if (paths_[i].pdf <= 0.0f) continue;
-      rays.push_back(next_[i]);
+      if (ways_.paths[i].pdf <= 0.0f) continue;
+      rays.push_back(ways_.next[i]);
       pixels.push_back(i);
     }
     std::vector<Hit> hits(rays.size());
@@ -156,19 +114,19 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
     traced += rays.size();
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const std::size_t i = pixels[k];
-      CoatPath& path = paths_[i];
+      CoatPath& path = ways_.paths[i];
       met_.to_viewer_ws[i] = -rays[k].direction;
       rays_[i].distance = distance_met(path, bounce, rays_[i].distance, hits[k].distance);
       if (path.stage == kStageCoatBehindGlass) {
-        coat_distances_[i] = farther_seen(coat_distances_[i], hits[k].distance);
+        coat_distances_[i] = farther_seen(path, coat_distances_[i], hits[k].distance);
       }
       if (hits[k].missed()) {
         bring_light(path, sky_radiance(scene.environment, rays[k].direction), rays_[i]);
         path.pdf = 0.0f;
         continue;
       }
-      cones_[i].width = width_at(cones_[i], hits[k].distance);
-      const Surface surface = seen_surface_at(scene, rays[k], hits[k], cones_[i].width);
+      ways_.cones[i].width = width_at(ways_.cones[i], hits[k].distance);
+      const Surface surface = seen_surface_at(scene, rays[k], hits[k], ways_.cones[i].width);
       if (path.stage == kStageCoatBehindGlass && !lets_light_through(surface.transmission)) {
         path.stage = kStageBeyondCoat;
       }
@@ -192,7 +150,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   queries_.clear();
   asked_.clear();
   const auto ask = [&](std::size_t i, const vec3& direction_ws) {
-    queries_.push_back(query_of(next_[i], met_.surfaces[i], direction_ws));
+    queries_.push_back(query_of(ways_.next[i], met_.surfaces[i], direction_ws));
     asked_.push_back(i);
   };
   const auto asks_for_base = [&](const Surface& surface) {
@@ -222,7 +180,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
                                                          surface.gi_share * answers_[k])
                                     : coats_light(surface.reflectance, n_dot_v, surface.gi_share,
                                                   met_.coat_shares[i], answers_[k]);
-    bring_light(paths_[i], light, rays_[i]);
+    bring_light(ways_.paths[i], light, rays_[i]);
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   std::atomic<std::uint64_t> going_on = 0;
@@ -231,7 +189,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
-      CoatPath& path = paths_[i];
+      CoatPath& path = ways_.paths[i];
       bring_light(path, direct_.diffuse[i] + direct_.specular[i], rays_[i]);
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
@@ -239,8 +197,8 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
           go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i], bounce, random, path);
       if (path.pdf <= 0.0f) continue;
-      next_[i] = ray_from(surface, next);
-      cones_[i] = reflected_cone(cones_[i], path.pdf);
+      ways_.next[i] = ray_from(surface, next);
+      ways_.cones[i] = reflected_cone(ways_.cones[i], path.pdf);
       ++going;
     }
     going_on += going;
@@ -248,81 +206,28 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   return going_on;
 }
 
-/// Keeps apart what lights up the first surfaces behind glass that let no light through: light of
-/// emitters, and all light of their coats. Elsewhere that of emitters is part of other direct
-/// light.
-void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept) {
-  const bool has_emitters = !direct_.emitters.empty();
-  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (met_.hit[i] == 0) continue;
-      const Surface& surface = met_.surfaces[i];
-      CoatPath& path = paths_[i];
-      if (path.stage != kStageOther || lets_light_through(surface.transmission)) {
-        if (has_emitters) direct_.diffuse[i] += direct_.emitters[i] + direct_.emitter_specular[i];
-        continue;
-      }
-      path.stage = kStageBehindGlass;
-      SeenThrough& seen = *kept.seen;
-      const std::size_t pixel = kept.first + i;
-      seen.depths[pixel] = distance(surface.position_ws, settings.camera.position_ws);
-      seen.positions_ws[pixel] = surface.position_ws;
-      seen.normals_ws[pixel] = surface.normal_ws;
-      seen.coat_to_viewer_ws[pixel] = met_.to_viewer_ws[i];
-      seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i]);
-      seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
-                                                   dot(surface.normal_ws, met_.to_viewer_ws[i]));
-      if (!has_emitters) continue;
-      rays_[i].apart += path.throughput * direct_.emitter_specular[i];
-      const FilteredEmitter emitter =
-          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
-      seen.emitters[pixel] = emitter.light;
-      seen.emitter_levels[pixel] = emitter.level;
-      seen.emitter_albedo[pixel] = path.throughput * emitter.albedo;
-      if (direct_.emitter_variance.empty()) continue;
-      seen.emitter_variance[pixel] =
-          emitter.inverse * emitter.inverse * direct_.emitter_variance[i];
-    }
-  });
-}
-
-/// Follows rays until all their ways have ended; returns the rays traced.
+/// Follows rays, `going` of which there are, from the bounce on that they come to next until all
+/// their ways have ended; returns the rays traced.
 std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going,
-                                 const KeptBehind& kept) {
+                                 std::uint32_t first_bounce, const KeptBehind& kept) {
   FrameSettings lighting = settings.frame;
   lighting.denoise = kept.seen != nullptr;
   lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
-  for (std::uint32_t bounce = 1; going > 0 && bounce <= kMaxWays; ++bounce) {
+  for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxWays; ++bounce) {
     traced += follow_rays(settings, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
     if (kept.seen != nullptr) keep_behind(settings, kept);
+    if (!forks_.paths.empty()) fork_ways(settings, bounce);
     going = light_hits(settings, bounce);
-  }
-  return traced;
-}
-
-std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyRows& band,
-                                   const KeptBehind& kept, TransmittedLight& light) {
-  start(settings, band.first_row, band.pixels.size(), kThroughSalt);
-  const std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), kept);
-  light.light.resize(rays_.size());
-  light.distances.resize(rays_.size());
-  light.coats_behind.resize(rays_.size());
-  light.coat_distances.resize(rays_.size());
-  for (std::size_t i = 0; i < rays_.size(); ++i) {
-    light.light[i] = rays_[i].radiance;
-    light.distances[i] = rays_[i].distance;
-    light.coats_behind[i] = rays_[i].apart;
-    light.coat_distances[i] = coat_distances_[i];
   }
   return traced;
 }
 
 std::uint64_t Glossy::reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                               const GlossyRows& band, CoatLight& light) {
-  const std::uint64_t traced = follow_all(settings, send_rays(settings, around), {});
+  const std::uint64_t traced = follow_all(settings, send_rays(settings, around), 1, {});
   reuse_.reflect(settings, around, band, rays_, light);
   return traced;
 }
@@ -361,17 +266,6 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
       drawing,       camera_record(request.camera, settings.width, settings.height),
       sample,        request.jitter()};
   return traced + memory.coats.reflect(glossy, around, own, light);
-}
-
-std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
-                                const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
-                                TransmittedLight& light) {
-  const FrameSettings& settings = request.settings;
-  const GlossySettings through{
-      request.world, request.sources.field,
-      settings,      camera_record(request.camera, settings.width, settings.height),
-      sample,        request.jitter()};
-  return memory.coats.look_through(through, {pixels, band.first_row}, kept, light);
 }
 
 void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,

@@ -27,6 +27,20 @@ inline int glossy_halo(int rows) {
 /// Share of each pixel's coat that rays light, 0 to 1: GBuffer::coat_shares.
 void find_coat_shares(GBuffer& pixels);
 
+/// Ways of the rays of pixels, an entry a pixel.
+struct Ways {
+  std::vector<CoatPath> paths;
+  std::vector<Ray> next;  ///< Of paths that have not ended, as are:
+  std::vector<RayCone> cones;
+
+  /// Makes room for so many, none of which there is yet.
+  void start(std::size_t pixels) {
+    paths.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther, kForksNowhere});
+    next.resize(pixels);
+    cones.resize(pixels);
+  }
+};
+
 class Glossy {
  public:
   /// Light of the coats of `band`'s pixels by rays. `around` lists rows from glossy_halo above the
@@ -43,7 +57,8 @@ class Glossy {
   void start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt);
   std::uint64_t send_through(const GlossySettings& settings, const GBuffer& seen);
   std::uint64_t follow_all(const GlossySettings& settings, std::uint64_t going,
-                           const KeptBehind& kept);
+                           std::uint32_t first_bounce, const KeptBehind& kept);
+  void fork_ways(const GlossySettings& settings, std::uint32_t bounce);
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
@@ -53,9 +68,7 @@ class Glossy {
   // Of the rows around the band, an entry a pixel
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
-  std::vector<CoatPath> paths_;
-  std::vector<Ray> next_;  // of paths that have not ended, as are:
-  std::vector<RayCone> cones_;
+  Ways ways_, forks_;  // what is followed, and branches to be followed later, if any
   std::vector<float> coat_distances_;  // TransmittedLight::coat_distances
   GBuffer met_;                        // by these
   ReflectedLight direct_;

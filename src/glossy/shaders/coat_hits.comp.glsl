@@ -24,7 +24,7 @@ void main() {
   ray.distance = distance_met(path, args.bounce, ray.distance, args.hits.at[k].distance);
   if (path.stage == kStageCoatBehindGlass) {
     args.coat_distances.at[i] =
-        farther_seen(args.coat_distances.at[i], args.hits.at[k].distance);
+        farther_seen(path, args.coat_distances.at[i], args.hits.at[k].distance);
   }
   if ((surface.flags & kSurfaceMissed) != 0u) {
     bring_light(path, surface.emission, ray);

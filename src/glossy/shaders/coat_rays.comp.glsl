@@ -29,6 +29,7 @@ void main() {
   }
   args.coat_rays.at[i].direction_ws = drawn.direction_ws;
   args.coat_rays.at[i].pdf = drawn.pdf;
-  CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat);
+  CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
+                           kForksNowhere);
   append_way(args.ways, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

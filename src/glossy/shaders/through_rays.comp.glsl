@@ -18,8 +18,8 @@ void main() {
   if ((surface.flags & kSurfaceMissed) != 0u || !lets_light_through(surface.transmission)) return;
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path =
-      CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther);
+  CoatPath path = CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther,
+                           kForksNext);
   vec2 u = next_uniform2(random);
   NextRay next = go_on_through(surface.transmission, surface.reflectance, point.normal_ws,
                                surface.to_viewer_ws, vec3(u, next_uniform(random)), path);

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays that go through the surfaces of pixels, on the processor: as those of coats, but that ways
+// fork, and that light of what they show first is kept apart.
+#include <algorithm>
+#include <utility>
+
+#include "compose/glossy/glossy_frame.h"
+#include "compose/glossy/way_rays.h"
+#include "compose/pixel_math.h"
+#include "core/parallel.h"
+
+namespace lambent {
+namespace {
+
+constexpr std::size_t kPixelsPerTask = 1024;
+
+}  // namespace
+
+/// Draws the rays of pixels whose surfaces let light through.
+std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer& seen) {
+  const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
+  std::uint64_t sent = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const Surface& surface = seen.surfaces[i];
+    rays_[i].distance = -1.0f;
+    if (seen.hit[i] == 0 || !lets_light_through(surface.transmission)) continue;
+    RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
+                                             coat_salt(salt_, 0u), ~settings.frame.seed);
+    CoatPath& path = ways_.paths[i];
+    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther, kForksNext};
+    const vec2 u = next_uniform2(random);
+    const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
+                                       seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
+    ways_.next[i] = ray_from(surface, next);
+    ways_.cones[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
+    sent += path.pdf > 0.0f ? 1 : 0;
+  }
+  return sent;
+}
+
+/// Keeps apart what lights up the first surfaces behind glass that let no light through: light of
+/// emitters, and all light of their coats. Elsewhere that of emitters is part of other direct
+/// light.
+void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept) {
+  const bool has_emitters = !direct_.emitters.empty();
+  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (met_.hit[i] == 0) continue;
+      const Surface& surface = met_.surfaces[i];
+      CoatPath& path = ways_.paths[i];
+      if (!comes_behind_glass(path, surface.transmission)) {
+        if (has_emitters) direct_.diffuse[i] += direct_.emitters[i] + direct_.emitter_specular[i];
+        continue;
+      }
+      path.stage = kStageBehindGlass;
+      SeenThrough& seen = *kept.seen;
+      const std::size_t pixel = kept.first + i;
+      seen.depths[pixel] = distance(surface.position_ws, settings.camera.position_ws);
+      seen.positions_ws[pixel] = surface.position_ws;
+      seen.normals_ws[pixel] = surface.normal_ws;
+      seen.coat_to_viewer_ws[pixel] = met_.to_viewer_ws[i];
+      seen.coat_alphas[pixel] = alpha_behind(surface.reflectance, met_.coat_shares[i]);
+      seen.coat_albedo[pixel] = coat_albedo_behind(path, surface.reflectance,
+                                                   dot(surface.normal_ws, met_.to_viewer_ws[i]));
+      if (!has_emitters) continue;
+      rays_[i].apart += path.throughput * direct_.emitter_specular[i];
+      const FilteredEmitter emitter =
+          filtered_emitter(surface.reflectance, direct_.emitters[i], direct_.unoccluded[i]);
+      seen.emitters[pixel] = emitter.light;
+      seen.emitter_levels[pixel] = emitter.level;
+      seen.emitter_albedo[pixel] = path.throughput * emitter.albedo;
+      if (direct_.emitter_variance.empty()) continue;
+      seen.emitter_variance[pixel] =
+          emitter.inverse * emitter.inverse * direct_.emitter_variance[i];
+    }
+  });
+}
+
+/// Keeps the branches that are reflected where ways fork.
+void Glossy::fork_ways(const GlossySettings& settings, std::uint32_t bounce) {
+  const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
+  parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (met_.hit[i] == 0) continue;
+      const Surface& surface = met_.surfaces[i];
+      const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
+      if (!forks(ways_.paths[i], surface.transmission, surface.reflectance, met_.coat_shares[i],
+                 n_dot_v, bounce)) {
+        continue;
+      }
+      const RandomStream random = make_random_stream(
+          first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
+      const NextRay next =
+          go_on_reflected(surface.transmission, surface.reflectance, met_.coat_shares[i],
+                          surface.normal_ws, surface.geometric_normal_ws, met_.to_viewer_ws[i],
+                          random, ways_.paths[i], forks_.paths[i]);
+      forks_.next[i] = ray_from(surface, next);
+      forks_.cones[i] = reflected_cone(ways_.cones[i], forks_.paths[i].pdf);
+    }
+  });
+}
+
+std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyRows& band,
+                                   const KeptBehind& kept, TransmittedLight& light) {
+  start(settings, band.first_row, band.pixels.size(), kThroughSalt);
+  forks_.start(band.pixels.size());
+  std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), 1, kept);
+  const auto goes_on = [](const CoatPath& path) { return path.pdf > 0.0f; };
+  const auto going = std::count_if(forks_.paths.begin(), forks_.paths.end(), goes_on);
+  std::swap(ways_, forks_);
+  forks_.start(0);
+  traced += follow_all(settings, static_cast<std::uint64_t>(going), kFirstBounceOfForks, kept);
+  light.light.resize(rays_.size());
+  light.distances.resize(rays_.size());
+  light.coats_behind.resize(rays_.size());
+  light.coat_distances.resize(rays_.size());
+  for (std::size_t i = 0; i < rays_.size(); ++i) {
+    light.light[i] = rays_[i].radiance;
+    light.distances[i] = rays_[i].distance;
+    light.coats_behind[i] = rays_[i].apart;
+    light.coat_distances[i] = coat_distances_[i];
+  }
+  return traced;
+}
+
+std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
+                                const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
+                                TransmittedLight& light) {
+  const FrameSettings& settings = request.settings;
+  const GlossySettings through{
+      request.world, request.sources.field,
+      settings,      camera_record(request.camera, settings.width, settings.height),
+      sample,        request.jitter()};
+  return memory.coats.look_through(through, {pixels, band.first_row}, kept, light);
+}
+
+}  // namespace lambent

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rays on which ways of light go on, on the processor.
+#pragma once
+
+#include "compose/glossy/ray_reuse.h"
+#include "glossy/way_math.h"
+#include "raytracing/camera_rays.h"
+#include "shared/rays.h"
+
+namespace lambent {
+
+/// The ray that leaves a surface.
+inline Ray ray_from(const Surface& surface, const NextRay& next) {
+  Ray ray;
+  ray.origin = offset_ray_origin(surface.position_ws, next.side * surface.geometric_normal_ws);
+  ray.direction = next.direction_ws;
+  return ray;
+}
+
+/// The cone of a pixel's ray where it ends.
+inline RayCone pixel_cone(const GlossySettings& settings, const Surface& surface,
+                          const vec3& to_viewer_ws) {
+  RayCone cone = camera_cone(settings.camera, -to_viewer_ws,
+                             static_cast<uint>(settings.frame.samples), settings.jitter);
+  cone.width = width_at(cone, length(surface.position_ws - settings.camera.position_ws));
+  return cone;
+}
+
+}  // namespace lambent

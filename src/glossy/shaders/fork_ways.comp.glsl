@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the branches that are reflected where ways fork, to be followed later.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "glossy/shaders/append_way.glsl"
+
+layout(local_size_x = 64) in;
+layout(push_constant, scalar) uniform Push {
+  ForkWaysArguments args;
+};
+
+void main() {
+  uint k = gl_GlobalInvocationID.x;
+  if (k >= args.count) return;
+  PixelSurfaceRecord surface = args.surfaces.at[k];
+  if ((surface.flags & kSurfaceMissed) != 0u) return;
+  LitPointRecord point = args.points.at[k];
+  CoatPath path = args.paths.at[k];
+  if (!forks(path, surface.transmission, surface.reflectance, surface.coat_share,
+             dot(point.normal_ws, surface.to_viewer_ws), args.bounce)) {
+    return;
+  }
+  uint i = args.pixels.at[k];
+  RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
+  CoatPath branch;
+  NextRay next = go_on_reflected(surface.transmission, surface.reflectance, surface.coat_share,
+                                 point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
+                                 random, path, branch);
+  args.paths.at[k].fork = path.fork;
+  if (branch.pdf > 0.0f) append_way(args.reflected, i, branch, surface.cone, point, next);
+}
