@@ -31,7 +31,11 @@ endfunction()
 # and compilers refuse it. Sanitizers have no use for vectors.
 function(lambent_vector_sources)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "" "OPTIONS")
+  set(optimization -O3)
+  if(LAMBENT_SANITIZE)
+    set(optimization)
+  endif()
   set_source_files_properties(${arg_UNPARSED_ARGUMENTS} TARGET_DIRECTORY lambent PROPERTIES
     SKIP_PRECOMPILE_HEADERS ON
-    COMPILE_OPTIONS "$<$<NOT:$<BOOL:${LAMBENT_SANITIZE}>>:-O3>;-fno-math-errno;-fno-trapping-math;${arg_OPTIONS}")
+    COMPILE_OPTIONS "${optimization};-fno-math-errno;-fno-trapping-math;${arg_OPTIONS}")
 endfunction()
