@@ -63,6 +63,7 @@ FrameSettings quality_settings(Quality quality) {
       settings.samples = 4;
       settings.gather_rays = 16;
       settings.glossy_rows = 1;
+      settings.emissive_samples = 8;
       settings.reflected_emissive_samples = 16;
       settings.fog = {8, 96, 16};
       settings.denoise = true;

@@ -83,10 +83,15 @@ LAMBENT_FN vec3 coat_albedo_behind(CoatPath path, Reflectance surface, float n_d
 // A clearcoat whose normal makes at least this cosine with the base's has the same: 0.8 degrees.
 const float kSameNormalCosine = 0.9999f;
 
-/// GGX width of the narrowest lobe with which a surface reflects lights, around its shading normal;
-/// 0 where its clearcoat has another normal.
+// Lamps in lobes up to this GGX width, of roughness 0.05, are found by rays of the coat: little of
+// what samples of emitters bring is theirs.
+const float kFoundByRaysAlpha = 0.0025f;
+
+/// GGX width of the narrowest lobe with which a surface reflects what samples of emitters bring,
+/// around its shading normal; 0 where its clearcoat has another normal.
 LAMBENT_FN float highlight_alpha(Reflectance surface) {
   if (!has_clearcoat(surface.layers)) return surface.alpha;
+  if (surface.layers.clearcoat_alpha <= kFoundByRaysAlpha) return surface.alpha;
   if (surface.layers.clearcoat_normal.z < kSameNormalCosine) return 0.0f;
   return min(surface.alpha, surface.layers.clearcoat_alpha);
 }

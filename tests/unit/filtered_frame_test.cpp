@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <string>
 
+#include "compose/pixel_math.h"
 #include "core/image/metrics.h"
 #include "lambent/renderer.h"
 #include "support/field_scenes.h"
@@ -108,6 +109,24 @@ TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
       compare_images(*smooth.find("glossy"), *one.find("glossy"), {.block = 8, .perceptual = false})
           .value();
   EXPECT_NEAR(mean.mean_ratio, 1.0, 0.005);
+}
+
+// Car paint: rays of a smooth clearcoat find lamps, so that highlights of what it lies on are
+// filtered as though that lay bare, whichever way the coat's normal points.
+TEST(FilteredFrame, HighlightsUnderASmoothClearcoatAreThoseOfTheBase) {
+  Reflectance paint;
+  paint.alpha = 0.16f;
+  EXPECT_FLOAT_EQ(highlight_alpha(paint), 0.16f) << "bare";
+  paint.layers.clearcoat = 1.0f;
+  paint.layers.clearcoat_normal = vec3(0.0f, 0.0f, 1.0f);
+  paint.layers.clearcoat_alpha = 0.0001f;
+  EXPECT_FLOAT_EQ(highlight_alpha(paint), 0.16f) << "smooth";
+  paint.layers.clearcoat_normal = vec3(0.6f, 0.0f, 0.8f);
+  EXPECT_FLOAT_EQ(highlight_alpha(paint), 0.16f) << "smooth, with a normal of its own";
+  paint.layers.clearcoat_alpha = 0.01f;
+  EXPECT_FLOAT_EQ(highlight_alpha(paint), 0.0f) << "rough, with a normal of its own";
+  paint.layers.clearcoat_normal = vec3(0.0f, 0.0f, 1.0f);
+  EXPECT_FLOAT_EQ(highlight_alpha(paint), 0.01f) << "rough: the narrower lobe";
 }
 
 // Settings may change from frame to frame: nothing of the frame before is shown.
