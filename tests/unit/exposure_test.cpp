@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -76,6 +77,29 @@ TEST(Exposure, ShowsWhatIsWhiteAsLighterThanWhatIsGrey) {
   EXPECT_EQ(display_exposure(sky), display_exposure(grey(2.0f)));
   sky.layers.pop_back();
   EXPECT_EQ(display_exposure(sky), display_exposure(grey(2.0f)));
+}
+
+/// A dark stage, this share of which stands in light that is 7 stops brighter.
+LayeredImage stage(double lit_share, float albedo) {
+  constexpr int kEdge = 40;
+  LayeredImage frame;
+  frame.require("", 3) = grey(0.01f, kEdge);
+  frame.require("albedo", 3) = grey(0.1f, kEdge);
+  const auto lit = static_cast<std::size_t>(3 * lit_share * kEdge * kEdge);
+  std::fill_n(frame.find("")->pixels.begin(), lit, 1.28f);
+  std::fill_n(frame.find("albedo")->pixels.begin(), lit, albedo);
+  return frame;
+}
+
+// What stands in a spot light is not burnt out; a small patch of sun may be, and so may the sky.
+TEST(Exposure, ShowsWhatStandsInSpotLights) {
+  const auto shown = [](const LayeredImage& frame) { return 1.28 * display_exposure(frame); };
+  const double patch = shown(stage(0.08, 0.1f)), spot = shown(stage(0.12, 0.1f));
+  EXPECT_NEAR(std::log2(shown(stage(0.08, 0.0f)) / patch), 0.0, 0.01) << "small";
+  EXPECT_NEAR(std::log2(shown(stage(0.12, 0.0f)) / spot), 2.0, 0.01) << "sky";
+  // 3 stops above mid-grey, or 2 stops lower than without
+  EXPECT_NEAR(std::log2(spot / patch), -2.0 - 3.0 * 0.04, 0.1);
+  EXPECT_GE(std::log2(spot / 0.18), 3.0 - 0.07);
 }
 
 TEST(Exposure, IsTheSameByBands) {

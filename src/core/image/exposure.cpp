@@ -18,6 +18,15 @@ constexpr double kDarker = 5.0, kBrighter = 3.0;
 // leave white walls no room for highlights. Dark surfaces stay as a camera shows them: a street at
 // night is dark enough.
 constexpr double kAlbedoShare = 0.5;
+// No more than this share of a picture, of the surfaces in it, is to be shown brighter than so many
+// stops above mid-grey, half a stop past white: what stands in spot lights on a dark stage. An
+// exposure is lowered by at most so much for it: a room is not left in the dark for a patch of sun.
+constexpr double kBrightShare = 0.1, kBright = 3.0, kMaxLowered = 2.0;
+
+/// Whether something that reflects is in a pixel, rather than sky or a lamp.
+bool is_surface(const float* albedo) {
+  return albedo[0] > 0.0f || albedo[1] > 0.0f || albedo[2] > 0.0f;
+}
 
 /// The stops by which a surface of this albedo counts as darker than it is.
 double albedo_stops(const float* albedo) {
@@ -36,20 +45,33 @@ void LuminanceHistogram::add(const Image& linear, const Image* albedo) {
       const float value = luminance(vec3(in[0], in[grey ? 0 : 1], in[grey ? 0 : 2]));
       if (!(value > 0.0f) || !std::isfinite(value)) continue;
       double stops = std::log2(static_cast<double>(value));
+      if (albedo != nullptr && is_surface(albedo->at(x, y))) ++surfaces_[bin_of(stops)];
       if (albedo != nullptr) stops -= albedo_stops(albedo->at(x, y));
-      const double bin = (stops - kMinStop) * kBinsPerStop;
-      ++counts_[static_cast<std::size_t>(std::clamp(bin, 0.0, kBins - 1.0))];
+      ++counts_[bin_of(stops)];
     }
   }
+}
+
+std::size_t LuminanceHistogram::bin_of(double stops) {
+  return static_cast<std::size_t>(
+      std::clamp((stops - kMinStop) * kBinsPerStop, 0.0, static_cast<double>(kBins - 1)));
+}
+
+double LuminanceHistogram::stop_of(std::size_t bin) {
+  return kMinStop + (static_cast<double>(bin) + 0.5) / kBinsPerStop;
+}
+
+double LuminanceHistogram::bright_stop(double pixels) const {
+  double above = 0.0;
+  std::size_t bin = kBins;
+  while (bin > 0 && above < pixels) above += static_cast<double>(surfaces_[--bin]);
+  return above < pixels ? kMinStop : stop_of(bin);
 }
 
 float LuminanceHistogram::stops() const {
   std::uint64_t total = 0;
   for (const std::uint64_t count : counts_) total += count;
   if (total == 0) return 0.0f;
-  const auto stop_of = [](std::size_t bin) {
-    return kMinStop + (static_cast<double>(bin) + 0.5) / kBinsPerStop;
-  };
   std::size_t median = 0;
   for (std::uint64_t below = counts_[0]; 2 * below < total; below += counts_[median]) ++median;
 
@@ -58,7 +80,11 @@ float LuminanceHistogram::stops() const {
   for (std::size_t bin = 0; bin < kBins; ++bin) {
     sum += static_cast<double>(counts_[bin]) * std::clamp(stop_of(bin), low, high);
   }
-  return static_cast<float>(std::log2(kMidGrey) - sum / static_cast<double>(total));
+  const double typical = sum / static_cast<double>(total);
+  const double too_bright =
+      bright_stop(kBrightShare * static_cast<double>(total)) - typical - kBright;
+  return static_cast<float>(std::log2(kMidGrey) - typical -
+                            std::clamp(too_bright, 0.0, kMaxLowered));
 }
 
 float display_stops(const Image& linear) {

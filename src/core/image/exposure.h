@@ -23,14 +23,21 @@ class LuminanceHistogram {
   /// in their place would, by stops: a white room is to look white. The log-average luminance, as
   /// of Reinhard et al., "Photographic Tone Reproduction for Digital Images", 2002, Eq. 1 and 2,
   /// but each pixel counts as no further from the median than some stops: a lamp in the picture, or
-  /// a black corner, does not decide what the rest looks like.
+  /// a black corner, does not decide what the rest looks like. Where more than a tenth of the
+  /// picture is surfaces far brighter than that, it is up to two stops less.
   float stops() const;
 
  private:
   static constexpr int kBinsPerStop = 8;
   static constexpr int kMinStop = -64, kMaxStop = 64;  // luminances beyond fall into the end bins
   static constexpr std::size_t kBins = (kMaxStop - kMinStop) * kBinsPerStop;
-  std::array<std::uint64_t, kBins> counts_{};
+  static std::size_t bin_of(double stops);
+  static double stop_of(std::size_t bin);
+  /// The luminance [stops] that so many pixels of surfaces reach; the least where there are fewer.
+  double bright_stop(double pixels) const;
+
+  std::array<std::uint64_t, kBins> counts_{};    // stops by which pixels count
+  std::array<std::uint64_t, kBins> surfaces_{};  // those of what reflects, as bright as it is
 };
 
 /// The exposure of an image of linear radiance [stops].
