@@ -235,6 +235,10 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   if (!from_front) surface.geometric_normal_ws = -surface.geometric_normal_ws;
   surface.normal_ws = normal_towards_viewer(shading_normal, along_winding, from_front, direction_ws,
                                             surface.geometric_normal_ws);
+  if (material.normal_texture.texture < 0) {
+    surface.normal_ws =
+        reflecting_normal(surface.normal_ws, direction_ws, surface.geometric_normal_ws);
+  }
 
   Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.mean);
   surface.reflectance = optics.reflectance;
@@ -246,6 +250,9 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
     vec3 coat_normal = normalize_or(normal_from_object * coat.normal, surface.geometric_normal_ws);
     coat_normal = normal_towards_viewer(coat_normal, along_winding, from_front, direction_ws,
                                         surface.geometric_normal_ws);
+    if (material.clearcoat_normal_texture.texture < 0) {
+      coat_normal = reflecting_normal(coat_normal, direction_ws, surface.geometric_normal_ws);
+    }
     place_clearcoat(surface.reflectance.layers, surface.normal_ws, coat_normal, direction_ws);
     surface.emission *=
         passes_clearcoat(surface.reflectance.layers, surface.reflectance.layers.clearcoat_cosine);

@@ -130,6 +130,31 @@ LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from
   return normalize_or(n + (view_cosine - kMinViewCosine) * direction, geometric_normal);
 }
 
+// Mirror directions of smooth surfaces leave the triangle at least at this cosine, or at so much of
+// the viewer's own where that is less.
+const float kMinMirrorCosine = 0.01f;
+const float kMinMirrorShare = 0.9f;
+
+/// The normal that vertices interpolate, bent towards the triangle's where the mirror direction of
+/// a ray that arrives along `direction` would run below the triangle: nothing is reflected from
+/// there, and smooth shapes would have dark rims. `normal` and `geometric_normal` face the ray's
+/// origin, unit. The mirror direction and the geometric normal then have a cosine of just
+/// kMinMirrorCosine: with the viewer's direction (g, u) in the plane of the two normals, and the
+/// normal at an angle t to the geometric one, it is g cos 2t + u sin 2t.
+LAMBENT_FN vec3 reflecting_normal(vec3 normal, vec3 direction, vec3 geometric_normal) {
+  float viewer_cosine = -dot(geometric_normal, direction);
+  float least = min(kMinMirrorShare * viewer_cosine, kMinMirrorCosine);
+  if (dot(geometric_normal, reflect(direction, normal)) >= least) return normal;
+  vec3 beside = normalize_or(normal - dot(normal, geometric_normal) * geometric_normal, vec3(0.0f));
+  float along = -dot(beside, direction);
+  float squared = viewer_cosine * viewer_cosine + along * along;
+  if (squared <= least * least || least <= 0.0f) return normal;
+  float rest = sqrt(squared - least * least);
+  float cos_2t = (least * viewer_cosine - along * rest) / squared;
+  float sin_2t = (least * along + viewer_cosine * rest) / squared;
+  return normalize_or((1.0f + cos_2t) * geometric_normal + sin_2t * beside, geometric_normal);
+}
+
 /// Gives a clearcoat its normal, in the frame of the shading normal, for a ray along a direction.
 LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal_ws,
                                 vec3 clearcoat_normal_ws, vec3 direction_ws) {

@@ -19,7 +19,7 @@ struct ShadingNumbers {
   vec3 position, area_normal;
   float cone_share;
   vec4 tangent;
-  vec3 orthogonal, mapped, shading_normal;
+  vec3 orthogonal, mapped, shading_normal, reflecting_normal;
   Reflectance coated, plain;
   PunctualSample punctual[3];
   vec2 uv;
@@ -108,6 +108,7 @@ LAMBENT_FN void evaluate_surfaces(LAMBENT_INOUT(RandomStream) random,
   bool along_winding = next_uniform(random) < 0.5f;
   bool from_front = next_uniform(random) < 0.5f;
   n.shading_normal = normal_towards_viewer(normal, along_winding, from_front, along, geometric);
+  n.reflecting_normal = reflecting_normal(n.shading_normal, along, geometric);
   vec3 base = random_vec3(random, 0.0f, 1.0f);
   vec3 tint = random_vec3(random, 0.0f, 1.5f);
   vec2 amounts = next_uniform2(random);

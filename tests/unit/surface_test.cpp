@@ -197,6 +197,35 @@ TEST(Surface, NeverShadesASideThatTheRayCannotSee) {
   EXPECT_NEAR(glm::length(surface.normal_ws), 1.0f, 1e-5f);
 }
 
+// Near silhouettes a smooth shape's normals lean further from the viewer than its triangles do.
+TEST(Surface, OfSmoothShapesReflectsUpwardsAtTheirRims) {
+  Scene scene;
+  Material lacquer = lambert(glm::vec3(0.5f));
+  lacquer.clearcoat = 1.0f;
+  scene.materials = {lacquer};
+  add(scene, test::sphere(1.0f, 16, 0));
+  const auto tracer = make_embree_raytracer(scene);
+  int seen = 0, bent = 0;
+  for (int i = 0; i < 400; ++i) {
+    Ray ray;
+    ray.origin = {0.8f + 0.0005f * static_cast<float>(i), 0.03f, 5.0f};
+    ray.direction = {0.0f, 0.0f, -1.0f};
+    const Hit hit = tracer->closest_hit(ray);
+    if (hit.missed()) continue;
+    ++seen;
+    const Surface surface = surface_at(scene, ray, hit, 0.0f);
+    const float cosine =
+        glm::dot(glm::reflect(ray.direction, surface.normal_ws), surface.geometric_normal_ws);
+    ASSERT_GT(cosine, 0.0f) << ray.origin.x;
+    ASSERT_NEAR(glm::length(surface.normal_ws), 1.0f, 1e-5f);
+    ASSERT_EQ(surface.reflectance.layers.clearcoat_normal.z, 1.0f);
+    bent += cosine < 1.001f * kMinMirrorCosine;
+  }
+  EXPECT_GT(seen, 300);
+  EXPECT_GT(bent, 5);
+  EXPECT_LT(bent, seen / 2);
+}
+
 // A normal map whose normal leans towards +x (u) and +y (up, against v).
 Scene normal_mapped(const glm::mat4& world_from_object) {
   Scene scene = square(lambert(glm::vec3(0.5f)), world_from_object);
