@@ -201,6 +201,23 @@ LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef mate
   return optics;
 }
 
+/// A triangle as a ray sees it.
+struct FacingTriangle {
+  vec3 geometric_normal_ws;  ///< Turned to where the ray comes from; unit.
+  vec3 direction_ws;         ///< Of the ray; unit.
+  bool along_winding;        ///< As of normal_towards_viewer(),
+  bool from_front;           ///< as this.
+};
+
+/// The normal of shading for one that vertices and a normal map make, which is of any length.
+LAMBENT_FN vec3 seen_normal(FacingTriangle seen, vec3 normal, TextureViewRef map) {
+  vec3 of_front = seen.from_front ? seen.geometric_normal_ws : -seen.geometric_normal_ws;
+  vec3 facing = normal_towards_viewer(normalize_or(normal, of_front), seen.along_winding,
+                                      seen.from_front, seen.direction_ws, seen.geometric_normal_ws);
+  if (map.texture >= 0) return facing;
+  return reflecting_normal(facing, seen.direction_ws, seen.geometric_normal_ws);
+}
+
 /// The surface at a hit (not a miss) of a ray along a direction, whose footprint there has a width
 /// [m]; 0 reads textures at full resolution.
 LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Footprint footprint) {
@@ -228,17 +245,13 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   bool along_winding = dot(normal, face_normal) >= 0.0f;
   BentNormal bent = bent_normal_at(scene, mesh, material.normal_texture, material.normal_scale, p,
                                    edge1, edge2, normal, cone_share);
-  vec3 shading_normal = normalize_or(normal_from_object * bent.normal, surface.geometric_normal_ws);
 
   // Turn both normals to the side the ray came from
   bool from_front = dot(surface.geometric_normal_ws, direction_ws) <= 0.0f;
   if (!from_front) surface.geometric_normal_ws = -surface.geometric_normal_ws;
-  surface.normal_ws = normal_towards_viewer(shading_normal, along_winding, from_front, direction_ws,
-                                            surface.geometric_normal_ws);
-  if (material.normal_texture.texture < 0) {
-    surface.normal_ws =
-        reflecting_normal(surface.normal_ws, direction_ws, surface.geometric_normal_ws);
-  }
+  FacingTriangle facing = {surface.geometric_normal_ws, direction_ws, along_winding, from_front};
+  surface.normal_ws =
+      seen_normal(facing, normal_from_object * bent.normal, material.normal_texture);
 
   Optics optics = bumpy_optics_at(scene, mesh, material, p, cone_share, bent.mean);
   surface.reflectance = optics.reflectance;
@@ -247,12 +260,8 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
     BentNormal coat =
         bent_normal_at(scene, mesh, material.clearcoat_normal_texture,
                        material.clearcoat_normal_scale, p, edge1, edge2, normal, cone_share);
-    vec3 coat_normal = normalize_or(normal_from_object * coat.normal, surface.geometric_normal_ws);
-    coat_normal = normal_towards_viewer(coat_normal, along_winding, from_front, direction_ws,
-                                        surface.geometric_normal_ws);
-    if (material.clearcoat_normal_texture.texture < 0) {
-      coat_normal = reflecting_normal(coat_normal, direction_ws, surface.geometric_normal_ws);
-    }
+    vec3 coat_normal =
+        seen_normal(facing, normal_from_object * coat.normal, material.clearcoat_normal_texture);
     place_clearcoat(surface.reflectance.layers, surface.normal_ws, coat_normal, direction_ws);
     surface.emission *=
         passes_clearcoat(surface.reflectance.layers, surface.reflectance.layers.clearcoat_cosine);
