@@ -26,9 +26,11 @@ constexpr std::uint64_t kWritingBytes = 2 * kLayerBytes;
 // The path tracer's sums of its eight layers and their squares in doubles, and its own layers.
 constexpr std::uint64_t kReferenceBytes = 18 * 3 * sizeof(double) + 11 * kLayerBytes + 4;
 // What is kept of a pixel's sample to filter its light, and what the filter itself takes.
-// Whether a scene has glass, whose light is kept besides, is not known here.
+// Whether a scene has glass or clearcoats, whose light is kept besides, is not known here.
 constexpr std::uint64_t kGlassBytes = 14 * kLayerBytes + 9 * sizeof(float);
-constexpr std::uint64_t kFilterBytes = 17 * kLayerBytes + 7 * sizeof(float) + 124 + kGlassBytes;
+constexpr std::uint64_t kClearcoatBytes = 4 * kLayerBytes + 2 * sizeof(float);
+constexpr std::uint64_t kFilterBytes =
+    17 * kLayerBytes + 7 * sizeof(float) + 124 + kGlassBytes + kClearcoatBytes;
 // Light of the frame before and of this one, where it is averaged over frames, and its motion.
 constexpr std::uint64_t kHistoryBytes = 2 * (4 * kLayerBytes + 4 * sizeof(float)) + 20;
 // A pixel of the view that maps light: position, normal and depth, planes of guide and two lights,

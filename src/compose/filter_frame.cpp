@@ -37,27 +37,35 @@ void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
   });
 }
 
-/// Averages what coats reflect as far as their neighbours see the same; highlights of emitters, at
-/// which something may stand in the way, not over what differs by more than noise.
-void filter_coats(DenoiseView view, FilteredPixels& pixels) {
+/// Averages what coats reflect as far as their neighbours see the same. Returns whether rays light
+/// any.
+bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats) {
   const auto shines = [](float alpha) { return alpha > 0.0f; };
-  const bool any = !pixels.coats.empty() &&
-                   std::any_of(pixels.coat_alphas.begin(), pixels.coat_alphas.end(), shines);
-  pixels.filtered_coats.resize(any ? pixels.coats.size() : 0);
-  pixels.filtered_highlights.resize(pixels.highlights.size());
-  if (!any) {
+  const bool any = std::any_of(coats.alphas.begin(), coats.alphas.end(), shines);
+  coats.filtered.resize(any ? coats.light.size() : 0);
+  if (!any) return false;
+  view.lobes = {pixels.to_viewer_ws, coats.alphas, coats.inverse_distances};
+  [[maybe_unused]] const Expected<void> done =
+      pixels.denoiser.filter(view, {coats.light, {}, {}}, blind_denoising(), coats.filtered);
+  assert(done);  // sizes are the view's
+  return true;
+}
+
+/// Filters what coats and clearcoats reflect, and highlights of emitters. On these, shadows may
+/// fall: they are not averaged over what differs by more than noise.
+void filter_coats(DenoiseView view, FilteredPixels& pixels) {
+  view.normals_ws = pixels.clearcoats.normals_ws;
+  filter_lobes(view, pixels, pixels.clearcoats);
+  view.normals_ws = pixels.normals_ws;
+  const bool any = filter_lobes(view, pixels, pixels.coats);
+  if (!any || pixels.highlights.empty()) {
     pixels.filtered_highlights = pixels.highlights;
     return;
   }
-  view.normals_ws = pixels.normals_ws;
-  view.lobes = {pixels.to_viewer_ws, pixels.coat_alphas, pixels.coat_inverse_distances};
-  [[maybe_unused]] Expected<void> done = pixels.denoiser.filter(
-      view, {pixels.coats, {}, {}}, blind_denoising(), pixels.filtered_coats);
-  assert(done);  // sizes are the view's
-  if (pixels.highlights.empty()) return;
-  view.lobes.alphas = pixels.highlight_alphas;
-  done = pixels.denoiser.filter(view, {pixels.highlights, {}, {}}, emitter_denoising(),
-                                pixels.filtered_highlights);
+  pixels.filtered_highlights.resize(pixels.highlights.size());
+  view.lobes = {pixels.to_viewer_ws, pixels.highlight_alphas, pixels.coats.inverse_distances};
+  [[maybe_unused]] const Expected<void> done = pixels.denoiser.filter(
+      view, {pixels.highlights, {}, {}}, emitter_denoising(), pixels.filtered_highlights);
   assert(done);
 }
 
@@ -66,37 +74,66 @@ float passed_by_fog(const BandToFilter& light, std::size_t pixel) {
   return light.fog.empty() ? 1.0f : light.fog[pixel].w;
 }
 
-/// Keeps the light that a band's coats reflect by rays.
-void keep_coats(const BandToFilter& light, std::size_t first, std::size_t count,
-                FilteredPixels& pixels) {
-  pixels.coats.resize(count);
-  pixels.coat_albedo.resize(count);
-  pixels.to_viewer_ws.resize(count);
-  pixels.coat_alphas.resize(count);
-  pixels.coat_inverse_distances.resize(count);
-  const GBuffer& gbuffer = light.gbuffer;
-  const CoatLight& coats = *light.coats;
-  parallel_chunks(gbuffer.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
+/// Pixels of a band from `first` on, as they are kept.
+struct KeptBand {
+  const BandToFilter& light;
+  std::size_t first;
+};
+
+/// Keeps the light that coats of a band reflect by rays where their GGX width is above
+/// `least_alpha`. The coats are those of `surfaces`.
+void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& by_rays,
+                float least_alpha, FilteredCoats& coats) {
+  parallel_chunks(surfaces.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t pixel = first + i;
-      const vec4 by_rays = coats.empty() ? vec4(0.0f) : coats.light[i];
-      pixels.coats[pixel] = vec3(0.0f);
-      pixels.coat_alphas[pixel] = 0.0f;
-      if (gbuffer.hit[i] == 0 || by_rays.w <= 0.0f) continue;
-      const Surface& surface = gbuffer.surfaces[i];
+      const std::size_t pixel = band.first + i;
+      const vec4 light = by_rays.empty() ? vec4(0.0f) : by_rays.light[i];
+      coats.light[pixel] = vec3(0.0f);
+      coats.alphas[pixel] = 0.0f;
+      if (surfaces.hit[i] == 0 || light.w <= 0.0f) continue;
+      const Surface& surface = surfaces.surfaces[i];
+      if (surface.reflectance.alpha <= least_alpha) continue;
       const vec3 albedo = filtered_coat_albedo(
-          surface.reflectance, dot(surface.normal_ws, gbuffer.to_viewer_ws[i]), by_rays.w);
-      const float passed = passed_by_fog(light, i);
-      pixels.coats[pixel] = vec3(by_rays) / albedo;
-      pixels.coat_albedo[pixel] = passed * albedo;
-      pixels.to_viewer_ws[pixel] = gbuffer.to_viewer_ws[i];
-      pixels.coat_alphas[pixel] = surface.reflectance.alpha;
-      pixels.coat_inverse_distances[pixel] = coats.inverse_distances[i];
+          surface.reflectance, dot(surface.normal_ws, surfaces.to_viewer_ws[i]), light.w);
+      coats.light[pixel] = vec3(light) / albedo;
+      coats.albedo[pixel] = passed_by_fog(band.light, i) * albedo;
+      if (!coats.normals_ws.empty()) coats.normals_ws[pixel] = surface.normal_ws;
+      coats.alphas[pixel] = surface.reflectance.alpha;
+      coats.inverse_distances[pixel] = by_rays.inverse_distances[i];
     }
   });
 }
 
-/// Keeps the specular light of emitters of a band; after keep_coats, where there are coats.
+/// Keeps what coats and clearcoats of a band of so many pixels reflect by rays.
+void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& kept) {
+  const BandToFilter& light = band.light;
+  const GBuffer& gbuffer = light.gbuffer;
+  kept.coats.resize(light.coats != nullptr ? pixels : 0);
+  kept.clearcoats.resize(light.filters_clearcoats ? pixels : 0);
+  kept.clearcoats.normals_ws.resize(kept.clearcoats.light.size());
+  if (light.coats == nullptr) return;
+  kept.to_viewer_ws.resize(pixels);
+  std::copy_n(gbuffer.to_viewer_ws.begin(), gbuffer.size(), &kept.to_viewer_ws[band.first]);
+  keep_coats(band, gbuffer, *light.coats, 0.0f, kept.coats);
+  if (light.clearcoats != nullptr) {
+    keep_coats(band, light.clearcoats->surfaces, light.clearcoats->rays, kFoundByRaysAlpha,
+               kept.clearcoats);
+  } else if (light.filters_clearcoats) {
+    std::fill_n(&kept.clearcoats.light[band.first], gbuffer.size(), vec3(0.0f));
+    std::fill_n(&kept.clearcoats.alphas[band.first], gbuffer.size(), 0.0f);
+  }
+}
+
+/// Adds filtered light of coats to the layers of a pixel.
+void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, float share,
+               Layers& layers) {
+  if (coats.filtered.empty() || coats.alphas[i] <= 0.0f) return;
+  const vec3 glossy = share * coats.albedo[i] * coats.filtered[i];
+  add(layers.glossy, pixel, glossy);
+  add(layers.all, pixel, glossy);
+}
+
+/// Keeps the specular light of emitters of a band; after keep_all_coats.
 void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t count,
                      FilteredPixels& pixels) {
   pixels.highlights.resize(count);
@@ -112,7 +149,7 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
       if (gbuffer.hit[i] == 0) continue;
       const Reflectance& reflectance = gbuffer.surfaces[i].reflectance;
       vec3 albedo(1.0f);
-      if (light.coats != nullptr && pixels.coat_alphas[pixel] > 0.0f) {
+      if (light.coats != nullptr && pixels.coats.alphas[pixel] > 0.0f) {
         albedo = filtered_coat_albedo(
             reflectance, dot(gbuffer.surfaces[i].normal_ws, gbuffer.to_viewer_ws[i]), 1.0f);
         pixels.highlight_alphas[pixel] = highlight_alpha(reflectance);
@@ -125,6 +162,13 @@ void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t c
 }
 
 }  // namespace
+
+void FilteredCoats::resize(std::size_t pixels) {
+  light.resize(pixels);
+  albedo.resize(pixels);
+  alphas.resize(pixels);
+  inverse_distances.resize(pixels);
+}
 
 std::size_t traced_pixels(const FrameRequest& request) {
   const Band rows = traced_rows(request);
@@ -163,11 +207,7 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
       static_cast<std::size_t>(request.settings.width);
   const GBuffer& gbuffer = light.gbuffer;
   const bool emitters = !light.direct.emitters.empty(), gathered = light.gathered != nullptr;
-  if (light.coats != nullptr) {
-    keep_coats(light, first, count, pixels);
-  } else {
-    pixels.coats.clear();
-  }
+  keep_all_coats({light, first}, count, pixels);
   if (emitters) {
     keep_highlights(light, first, count, pixels);
   } else {
@@ -279,11 +319,8 @@ void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float
         add(layers.glossy, pixel, glossy);
         add(layers.all, pixel, glossy);
       }
-      if (!pixels.filtered_coats.empty() && pixels.coat_alphas[i] > 0.0f) {
-        const vec3 glossy = share * pixels.coat_albedo[i] * pixels.filtered_coats[i];
-        add(layers.glossy, pixel, glossy);
-        add(layers.all, pixel, glossy);
-      }
+      show_coat(pixels.coats, i, pixel, share, layers);
+      show_coat(pixels.clearcoats, i, pixel, share, layers);
       if (pixels.filtered_gathered.empty() || pixels.receives[i] == 0) continue;
       const vec3 irradiance = share * pixels.filtered_gathered[i];
       const vec3 indirect = pixels.indirect_albedo[i] * irradiance;

@@ -14,6 +14,19 @@
 
 namespace lambent {
 
+/// Light that coats reflect by rays, a pixel each.
+struct FilteredCoats {
+  std::vector<glm::vec3> light;          ///< Without filtered_coat_albedo,
+  std::vector<glm::vec3> albedo;         ///< and that, as far as fog lets it through.
+  std::vector<glm::vec3> normals_ws;     ///< Of clearcoats; empty where coats have the surface's.
+  std::vector<float> alphas;             ///< 0 where none such lights a coat.
+  std::vector<float> inverse_distances;  ///< As of CoatLight.
+  std::vector<glm::vec3> filtered;       ///< Empty where there is none.
+
+  /// Makes room for so many pixels; 0 for none.
+  void resize(std::size_t pixels);
+};
+
 /// One sample of the pixels of the traced rows. Its memory is used again from sample to sample and
 /// from frame to frame.
 struct FilteredPixels {
@@ -28,17 +41,14 @@ struct FilteredPixels {
   std::vector<glm::vec3> indirect_albedo;
   std::vector<glm::vec3> emitter_albedo;  ///< Times the levels.
   std::vector<float> emitter_levels;      ///< As of filtered_level.
-  // Light that coats reflect by rays, without filtered_coat_albedo, and what they see
-  std::vector<glm::vec3> coats, coat_albedo, to_viewer_ws;
-  std::vector<float> coat_alphas;  ///< 0 where no rays light a coat.
-  std::vector<float> coat_inverse_distances;
+  FilteredCoats coats, clearcoats;
+  std::vector<glm::vec3> to_viewer_ws;  ///< Where there are coats.
   // Specular light of emitters, without filtered_coat_albedo where rays light the coat; the lobes
   // are those of highlight_alpha
   std::vector<glm::vec3> highlights, highlight_albedo;
   std::vector<float> highlight_alphas;
   // Light that is
-  std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_coats,
-      filtered_highlights;
+  std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_highlights;
 
   SeenThrough through;  ///< Of scenes with glass.
 
@@ -52,6 +62,8 @@ struct BandToFilter {
   const GatheredLight* gathered = nullptr;            ///< Null: it is not gathered.
   const std::vector<glm::vec3>* looked_up = nullptr;  ///< With `gathered`.
   const CoatLight* coats = nullptr;                   ///< Null: none have rays.
+  bool filters_clearcoats = false;                    ///< With `coats`.
+  const ClearcoatsShown* clearcoats = nullptr;        ///< Null: none are in the band.
   const TransmittedLight* transmitted = nullptr;      ///< Null: no surface lets light through.
   std::span<const glm::vec4> fog = {};  ///< As of fog_along, a pixel each; empty: there is none.
 };

@@ -27,12 +27,17 @@ struct FilteredPixelsRecord {
   Vec3Array coats;
   Vec3Array coat_albedo;
   LobeGuideArray coat_lobes;  ///< Of sharpness 0 where no rays light a coat.
+  Vec3Array clearcoats;       ///< Of clearcoats that are filtered, and so on.
+  Vec3Array clearcoat_albedo;
+  Vec3Array clearcoat_normals_ws;
+  LobeGuideArray clearcoat_lobes;
   Vec3Array highlights;
   Vec3Array highlight_albedo;
   LobeGuideArray highlight_lobes;
   Vec3Array filtered_gathered;
   Vec3Array filtered_emitters;
   Vec3Array filtered_coats;
+  Vec3Array filtered_clearcoats;
   Vec3Array filtered_highlights;
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)
@@ -55,7 +60,22 @@ struct KeepPixelsArguments {
   uint first;        ///< Of the band, among the traced pixels.
   uint count;
   uint draws;  ///< Of emitters, a pixel.
-  uint has;    ///< kHasCoats, kHasFog; kIsFiltered and kCoatsAreFiltered where such light is kept.
+  /// kHasCoats, kHasFog; kIsFiltered, kCoatsAreFiltered and kClearcoatsAreFiltered where such light
+  /// is kept.
+  uint has;
+};
+
+/// Keeps what a band's clearcoats reflect by rays, before keep_pixels, and takes it out of `coats`.
+struct KeepClearcoatsArguments {
+  LitPointArray points;        ///< As clearcoats have them,
+  PixelSurfaceArray surfaces;  ///< these as coats.
+  Vec4Array coats;             ///< As in struct CoatLight; read where has_rays is 1,
+  FloatArray inverse_distances;
+  FilteredPixelsArray pixels;
+  uint first;  ///< Of the band, among the traced pixels.
+  uint count;
+  uint has_rays;
+  uint padding;
 };
 
 /// Adds filtered light to layers.
@@ -68,6 +88,8 @@ struct AddFilteredArguments {
   uint emitters;  ///< 1: there is such light, and so on.
   uint gathered;
   uint coats;
+  uint clearcoats;
+  uint padding;
 };
 
 LAMBENT_END

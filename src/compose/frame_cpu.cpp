@@ -292,6 +292,10 @@ class FramePassesCpu final : public FramePasses {
       BandToFilter band{gbuffer_, light_.direct};
       band.fog = light_.fog;
       if (light_.coats_are_filtered) band.coats = &light_.coats;
+      band.filters_clearcoats = filters_clearcoats(request());
+      if (band.filters_clearcoats && !light_.clearcoats.empty()) {
+        band.clearcoats = &glossy_.clearcoats;
+      }
       if (light_.is_filtered) band.gathered = &gathered_, band.looked_up = &light_.irradiance;
       if (light_.transmitted_is_filtered) band.transmitted = &light_.transmitted;
       keep_pixels(request(), band_, band, to_filter_);

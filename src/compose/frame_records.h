@@ -82,6 +82,7 @@ const uint kIsLookedUp = 16u;         ///< which was looked up in the field; see
 const uint kIsFiltered = 32u;         ///< and is added once it was filtered.
 const uint kHasClearcoats = 64u;      ///< Light of clearcoats is part of `specular`.
 const uint kCoatsAreFiltered = 128u;  ///< Light of coats by rays is added once it was filtered.
+const uint kClearcoatsAreFiltered = 256u;  ///< That of clearcoats, of KeepPixelsArguments::has.
 
 /// Adds what pixels show to their layers.
 struct ComposeArguments {

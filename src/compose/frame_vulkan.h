@@ -40,6 +40,7 @@
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
 #include "shaders/keep_behind_comp.h"
+#include "shaders/keep_clearcoats_comp.h"
 #include "shaders/keep_pixels_comp.h"
 #include "shaders/keep_through_comp.h"
 #include "shaders/motion_comp.h"
@@ -92,10 +93,11 @@ struct FrameKernels {
   vulkan::Kernel fog_pixels{device, shaders::fog_pixels_comp(), "fog of pixels"};
   vulkan::Kernel compose{device, shaders::compose_comp(), "compose"};
   vulkan::Kernel keep_pixels{device, shaders::keep_pixels_comp(), "keep pixels"};
+  vulkan::Kernel keep_clearcoats{device, shaders::keep_clearcoats_comp(), "keep clearcoats"};
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 284 bytes a pixel. As in FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 364 bytes a pixel. As in FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
   vulkan::Buffer addresses;  ///< That record.
@@ -103,8 +105,10 @@ struct FilteredBuffers {
   vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, receives;
   vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
   vulkan::Buffer coats, coat_albedo, coat_lobes;
+  vulkan::Buffer clearcoats, clearcoat_albedo, clearcoat_normals_ws, clearcoat_lobes;
   vulkan::Buffer highlights, highlight_albedo, highlight_lobes;
   vulkan::Buffer filtered_gathered, filtered_emitters, filtered_coats, filtered_highlights;
+  vulkan::Buffer filtered_clearcoats;
 };
 
 /// What is seen through surfaces and filtered, of the traced rows: 216 bytes a pixel.

@@ -47,6 +47,12 @@ void FramePassesVulkan::begin_filter() {
   r.coats.address = room(coated, sizeof(vec3), f.coats);
   r.coat_albedo.address = room(coated, sizeof(vec3), f.coat_albedo);
   r.coat_lobes.address = room(coated, sizeof(LobeGuide), f.coat_lobes);
+  const std::size_t clearcoated = filters_clearcoats(*request_) ? pixels : 0;
+  r.clearcoats.address = room(clearcoated, sizeof(vec3), f.clearcoats);
+  r.clearcoat_albedo.address = room(clearcoated, sizeof(vec3), f.clearcoat_albedo);
+  r.clearcoat_normals_ws.address = room(clearcoated, sizeof(vec3), f.clearcoat_normals_ws);
+  r.clearcoat_lobes.address = room(clearcoated, sizeof(LobeGuide), f.clearcoat_lobes);
+  r.filtered_clearcoats.address = room(clearcoated, sizeof(vec3), f.filtered_clearcoats);
   r.highlights.address = room(lit, sizeof(vec3), f.highlights);
   r.highlight_albedo.address = room(lit, sizeof(vec3), f.highlight_albedo);
   r.highlight_lobes.address = room(lit, sizeof(LobeGuide), f.highlight_lobes);
@@ -70,7 +76,8 @@ void FramePassesVulkan::keep_pixels() {
   add("compose", [this](Recorder& to) {
     const uint has = (rays_bring_ & kHasCoats) | (has_fog(*request_) ? kHasFog : 0u) |
                      (gathers(*request_) ? kIsFiltered : 0u) |
-                     (filters_coats() ? kCoatsAreFiltered : 0u);
+                     (filters_coats() ? kCoatsAreFiltered : 0u) |
+                     (filters_clearcoats(*request_) ? kClearcoatsAreFiltered : 0u);
     const glm::mat4& view = request_->camera.world_from_view;
     const KeepPixelsArguments arguments = {{world_.scene().address()},
                                            {memory_.points.address()},
@@ -94,13 +101,20 @@ void FramePassesVulkan::keep_pixels() {
   if (filters_through(*request_)) keep_through();
 }
 
-/// Filters what coats reflect by rays, and highlights of emitters.
+/// Filters what coats and clearcoats reflect by rays, and highlights of emitters.
 void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
   add("denoise", [=, this](Recorder& to) {
     const FilteredPixelsRecord& r = memory_.filtered.record;
     DenoiseViewOnDevice of_lobes = view;
     of_lobes.lobes = r.coat_lobes;
     memory_.denoiser.record(to, of_lobes, {r.coats}, blind_denoising(), r.filtered_coats);
+    if (filters_clearcoats(*request_)) {
+      DenoiseViewOnDevice of_clearcoats = view;
+      of_clearcoats.normals_ws = r.clearcoat_normals_ws;
+      of_clearcoats.lobes = r.clearcoat_lobes;
+      memory_.denoiser.record(to, of_clearcoats, {r.clearcoats}, blind_denoising(),
+                              r.filtered_clearcoats);
+    }
     if (emitter_draws() == 0) return;
     of_lobes.lobes = r.highlight_lobes;
     memory_.denoiser.record(to, of_lobes, {r.highlights}, emitter_denoising(),
@@ -152,7 +166,9 @@ void FramePassesVulkan::denoise(float share) {
                                             share,
                                             lit ? 1u : 0u,
                                             gathered ? 1u : 0u,
-                                            coats ? 1u : 0u};
+                                            coats ? 1u : 0u,
+                                            filters_clearcoats(*request_) ? 1u : 0u,
+                                            0u};
     to.run(kernels_.add_filtered, arguments, static_cast<std::uint32_t>(shown.count));
   });
   if (through) denoise_through(by_shading, shown, share);

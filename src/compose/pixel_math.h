@@ -96,6 +96,12 @@ LAMBENT_FN float highlight_alpha(Reflectance surface) {
   return min(surface.alpha, surface.layers.clearcoat_alpha);
 }
 
+/// Whether light that a clearcoat of this GGX width reflects by rays is filtered. Narrower lobes
+/// have little noise, and show what neighbours do not see.
+LAMBENT_FN bool is_filtered_clearcoat(float alpha) {
+  return alpha > kFoundByRaysAlpha;
+}
+
 /// GGX width of the lobe over which light of a coat behind glass is filtered. 0, which is not at
 /// all, where no ray of the coat tells how far away the things are that it shows.
 LAMBENT_FN float alpha_behind(Reflectance surface, float coat_share) {

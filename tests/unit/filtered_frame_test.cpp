@@ -73,24 +73,37 @@ TEST(FilteredFrame, ComesCloseToOneOfManyMoreRays) {
   EXPECT_NEAR(mean.mean_ratio, 1.0, 0.02);
 }
 
-/// A box of rough metal with a lamp: its walls reflect each other, the lamp and what stands there.
-/// The camera sees a small part of it, so that lobes are many pixels wide.
-Scene metal_cornell() {
+/// A box whose walls, all of this material but for their colours, reflect each other, the lamp and
+/// what stands there. The camera sees a small part of it, so that lobes are many pixels wide.
+Scene glossy_cornell(Material walls) {
   Scene scene = scenes::make("cornell").value();
   scene.cameras.at(0).vertical_fov *= 0.15f;
   for (Material& material : scene.materials) {
     if (material.emission != glm::vec3(0.0f)) continue;
-    Material metal;
-    metal.base_color = material.base_color;
-    metal.metallic = 1.0f;
-    metal.roughness = 0.4f;
-    material = metal;
+    walls.base_color = material.base_color;
+    material = walls;
   }
   return scene;
 }
 
-TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
-  const LitStage metal(metal_cornell());
+Scene metal_cornell() {
+  Material metal;
+  metal.metallic = 1.0f;
+  metal.roughness = 0.4f;
+  return glossy_cornell(metal);
+}
+
+/// Matte walls under a varnish.
+Scene varnished_cornell() {
+  Material varnished;
+  varnished.roughness = 1.0f;
+  varnished.clearcoat = 1.0f;
+  varnished.clearcoat_roughness = 0.4f;
+  return glossy_cornell(varnished);
+}
+
+/// Expects that the filter takes noise off the layer "glossy" of one sample, but no light.
+void expect_less_noise_in_reflections(const LitStage& box) {
   FrameSettings filtered = of_quality(Quality::high);
   filtered.samples = 1;  // through the middle of pixels, whatever the seed
   filtered.gather_rays = 0;
@@ -98,17 +111,25 @@ TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
   raw.denoise = false;
   FrameSettings filtered_again = filtered, raw_again = raw;
   filtered_again.seed = raw_again.seed = 7;
-  const LayeredImage one = metal.picture(raw), smooth = metal.picture(filtered);
+  const LayeredImage one = box.picture(raw), smooth = box.picture(filtered);
   const auto seen_difference = [](const LayeredImage& a, const LayeredImage& b) {
     return compare_images(*a.find("glossy"), *b.find("glossy"), {}).value().flip;
   };
   constexpr double kLess = 0.7;  // of the noise is left at most
-  EXPECT_LT(seen_difference(smooth, metal.picture(filtered_again)),
-            kLess * seen_difference(one, metal.picture(raw_again)));
+  EXPECT_LT(seen_difference(smooth, box.picture(filtered_again)),
+            kLess * seen_difference(one, box.picture(raw_again)));
   const Metrics mean =
       compare_images(*smooth.find("glossy"), *one.find("glossy"), {.block = 8, .perceptual = false})
           .value();
   EXPECT_NEAR(mean.mean_ratio, 1.0, 0.005);
+}
+
+TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
+  expect_less_noise_in_reflections(LitStage(metal_cornell()));
+}
+
+TEST(FilteredFrame, ShowsRoughClearcoatsWithLessNoiseAndAllOfTheirLight) {
+  expect_less_noise_in_reflections(LitStage(varnished_cornell()));
 }
 
 // Car paint: rays of a smooth clearcoat find lamps, so that highlights of what it lies on are

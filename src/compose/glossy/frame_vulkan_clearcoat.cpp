@@ -39,6 +39,19 @@ void FramePassesVulkan::light_clearcoats() {
   // The buffers of coats, which are the clearcoats' until here, are used again
   reserve<vec4>(1, "coats", memory_.coats);
   add("glossy", [=, this](Recorder& to) {
+    if (filters_clearcoats(*request_)) {
+      const KeepClearcoatsArguments kept = {{points},
+                                            {surfaces},
+                                            {memory_.coats.address()},
+                                            {memory_.coat_inverse_distances.address()},
+                                            {memory_.filtered.addresses.address()},
+                                            first_traced_pixel(),
+                                            pixels_,
+                                            has_rays ? 1u : 0u,
+                                            0u};
+      to.run(kernels_.keep_clearcoats, kept, pixels_);
+      to.barrier();
+    }
     const ClearcoatLightArguments lit = {{points},
                                          {surfaces},
                                          {memory_.coats.address()},

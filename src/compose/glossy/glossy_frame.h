@@ -78,13 +78,18 @@ class Glossy {
   RayReuse reuse_;
 };
 
+/// A band's pixels as show_clearcoats leaves them, and their light of rays.
+struct ClearcoatsShown {
+  GBuffer surfaces;
+  CoatLight rays;
+};
+
 /// Memory of the pass, kept from band to band.
 struct GlossyMemory {
   Glossy coats;
-  GBuffer above, below;      ///< The band.
-  GBuffer clearcoats;        ///< The band's pixels as show_clearcoats leaves them, and
-  CoatLight clearcoat_rays;  ///< their light of rays,
-  std::vector<glm::vec3> clearcoat_irradiance;  ///< and of the field.
+  GBuffer above, below;                         ///< The band.
+  ClearcoatsShown clearcoats;                   ///< Of the band.
+  std::vector<glm::vec3> clearcoat_irradiance;  ///< Their light of the field.
   std::vector<FieldQuery> queries;
   std::vector<std::size_t> asked;  ///< Pixels of the queries, and what is answered.
   std::vector<glm::vec3> answers;
@@ -102,8 +107,12 @@ void show_clearcoats(GBuffer& pixels);
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
                            const GBuffer& pixels, GlossyMemory& memory, CoatLight& light);
 
-/// Light that the clearcoats of a band's pixels reflect but for what lights sent them straight: by
-/// rays and by the field. Empty where no pixel has one. Returns the rays traced.
+/// Whether light of clearcoats by rays is filtered where is_filtered_clearcoat().
+bool filters_clearcoats(const FrameRequest& request);
+
+/// Light that the clearcoats of a band's pixels reflect but for what lights sent them straight and
+/// for what is to be filtered: by rays and by the field. Empty where no pixel has one; else
+/// `memory.clearcoats` are theirs. Returns the rays traced.
 std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, int sample,
                                  const GBuffer& pixels, GlossyMemory& memory,
                                  std::vector<glm::vec3>& light);

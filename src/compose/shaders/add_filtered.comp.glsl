@@ -29,6 +29,12 @@ void main() {
     layers.glossy += glossy;
     layers.all += glossy;
   }
+  if (args.clearcoats != 0u && args.pixels.at[0].clearcoat_lobes.at[i].sharpness > 0.0f) {
+    vec3 glossy = args.share * args.pixels.at[0].clearcoat_albedo.at[i] *
+                  args.pixels.at[0].filtered_clearcoats.at[i];
+    layers.glossy += glossy;
+    layers.all += glossy;
+  }
   if (args.gathered != 0u && args.pixels.at[0].receives.at[i] != 0u) {
     vec3 irradiance = args.share * args.pixels.at[0].filtered_gathered.at[i];
     vec3 indirect = args.pixels.at[0].indirect_albedo.at[i] * irradiance;

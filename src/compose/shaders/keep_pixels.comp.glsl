@@ -66,6 +66,9 @@ void main() {
   float passed = (args.has & kHasFog) != 0u ? args.fog.at[i].w : 1.0f;
   bool has_rays = (args.has & kCoatsAreFiltered) != 0u &&
                   keep_coat(i, pixel, point, surface, passed);
+  if ((args.has & kClearcoatsAreFiltered) != 0u) {
+    args.pixels.at[0].clearcoat_albedo.at[pixel] *= passed;
+  }
   if (args.draws > 0u) {
     keep_highlight(i, pixel, point, surface, has_rays, passed);
     FilteredEmitter emitter = FilteredEmitter(vec3(0.0f), vec3(0.0f), 0.0f, 0.0f);
