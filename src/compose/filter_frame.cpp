@@ -262,7 +262,8 @@ void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilt
         pixels.emitter_albedo[pixel] = passed * emitter.albedo;
         pixels.emitters[pixel] = emitter.light;
         if (!pixels.emitter_variance.empty()) {
-          pixels.emitter_variance[pixel] *= emitter.inverse * emitter.inverse;
+          pixels.emitter_variance[pixel] =
+              filtered_variance(emitter, pixels.emitter_variance[pixel]);
         }
       }
       if (gathered) {

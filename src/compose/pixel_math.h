@@ -66,6 +66,12 @@ LAMBENT_FN FilteredEmitter filtered_emitter(Reflectance surface, vec3 reflected,
   return filtered;
 }
 
+/// The variance of such light's luminance where that of what was found, without albedo, is this.
+LAMBENT_FN float filtered_variance(FilteredEmitter emitter, float variance) {
+  // The square of the inverse may be more than floats hold
+  return emitter.inverse * (emitter.inverse * variance);
+}
+
 /// The albedo without which light that a coat reflects by rays is filtered, where these bring
 /// `coat_share` of its light.
 LAMBENT_FN vec3 filtered_coat_albedo(Reflectance surface, float n_dot_v, float coat_share) {

@@ -153,7 +153,9 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
   AtrousGuide here = guide_at(0, 0);
   Real plane_scale = fetch_guide(kInverseDepthPlane, 0, 0) * by.plane_scale;
   Real inverse_level = plane_scale * 0.0f + 1.0f;
-  if (by.has_levels != 0u) inverse_level = 1.0f / max(fetch_guide(kLevelPlane, 0, 0), kLeastLevel);
+  if (by.has_levels != 0u) {
+    inverse_level = 1.0f / max(fetch_guide(kLevelPlane, 0, 0), kLeastFilteredLevel);
+  }
   AtrousLobe lobe;
   Real3 across_ws = here.normal_ws;
   if (by.has_lobes != 0u) {

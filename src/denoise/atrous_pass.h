@@ -6,6 +6,7 @@
 
 #include "shared/color.h"
 #include "shared/cross_bilateral.h"
+#include "shared/demodulate.h"
 
 LAMBENT_BEGIN
 
@@ -56,9 +57,6 @@ const float kLeastContrast = 1e-20f;
 // A variance from several pixels is at least this share of the square of their mean: less is the
 // rounding of the two of which it is the difference.
 const float kLeastVariance = 1e-6f;
-
-// Lower levels of light count as this one, so that none divides by zero.
-const float kLeastLevel = 1e-30f;
 
 // The share of a window that one pixel has where it has hardly any neighbours. Its variance is then
 // not known, and that estimated from the window is enlarged by no more than 1 / (1 - this).

@@ -29,9 +29,13 @@ LAMBENT_FN float filtered_level(float unoccluded, float light) {
   return max(unoccluded, light / kMostOverUnoccluded);
 }
 
+// Lower levels are rounding, where a lamp is just above the horizon, and count as no light: one over
+// them may be more than floats hold.
+const float kLeastFilteredLevel = 1e-30f;
+
 /// One over a level; 0 where there is no light.
 LAMBENT_FN float inverse_level(float level) {
-  return level > 0.0f ? 1.0f / level : 0.0f;
+  return level > kLeastFilteredLevel ? 1.0f / level : 0.0f;
 }
 
 LAMBENT_END

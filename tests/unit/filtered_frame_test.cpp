@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "compose/pixel_math.h"
@@ -130,6 +131,22 @@ TEST(FilteredFrame, ShowsRoughCoatsWithLessNoiseAndAllOfTheirLight) {
 
 TEST(FilteredFrame, ShowsRoughClearcoatsWithLessNoiseAndAllOfTheirLight) {
   expect_less_noise_in_reflections(LitStage(varnished_cornell()));
+}
+
+// Just above a lamp's horizon rounding alone decides how little light arrives there. One pixel
+// whose light is no number would spread over all that the filter reaches.
+TEST(FilteredFrame, LightOfLampsIsANumberHoweverLittleArrives) {
+  Reflectance matte;
+  matte.diffuse = vec3(0.5f);
+  constexpr int kFewestDecades = -45;  // float has no smaller numbers
+  for (int decade = kFewestDecades; decade <= 0; ++decade) {
+    const float unoccluded = std::pow(10.0f, static_cast<float>(decade));
+    for (const float found : {0.0f, unoccluded}) {
+      const FilteredEmitter emitter = filtered_emitter(matte, matte.diffuse * found, unoccluded);
+      EXPECT_TRUE(std::isfinite(emitter.light.x)) << unoccluded << " " << found;
+      EXPECT_TRUE(std::isfinite(filtered_variance(emitter, found * found))) << unoccluded;
+    }
+  }
 }
 
 // Car paint: rays of a smooth clearcoat find lamps, so that highlights of what it lies on are

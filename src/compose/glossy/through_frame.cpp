@@ -70,8 +70,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
       seen.emitter_levels[pixel] = emitter.level;
       seen.emitter_albedo[pixel] = path.throughput * emitter.albedo;
       if (direct_.emitter_variance.empty()) continue;
-      seen.emitter_variance[pixel] =
-          emitter.inverse * emitter.inverse * direct_.emitter_variance[i];
+      seen.emitter_variance[pixel] = filtered_variance(emitter, direct_.emitter_variance[i]);
     }
   });
 }

@@ -77,9 +77,9 @@ void main() {
       emitter = filtered_emitter(
           surface.reflectance, args.emitters.at[i],
           unoccluded_light(args.scene, point.position_ws, point.normal_ws));
-      variance = emitter.inverse * emitter.inverse *
-                 variance_of_sum(emitter.level * luminance(emitter.light),
-                                 args.emitter_squares.at[i], args.draws);
+      variance = filtered_variance(
+          emitter, variance_of_sum(emitter.level * luminance(emitter.light),
+                                   args.emitter_squares.at[i], args.draws));
     }
     args.pixels.at[0].emitter_levels.at[pixel] = emitter.level;
     args.pixels.at[0].emitter_albedo.at[pixel] = passed * emitter.albedo;
