@@ -113,7 +113,7 @@ struct RsmTexel {
   glm::vec3 position_ws{0.0f};  ///< [m], a little off the surface.
   float area = 0.0f;            ///< That it stands for [m^2]; 0: it saw nothing.
   glm::vec3 normal_ws{0.0f};    ///< Unit, on the lit side; 0: it saw nothing.
-  float softening = 0.0f;       ///< Added to squared distances [m^2], see src/rsm/geometry.h.
+  float softening = 0.0f;       ///< Added to squared distances [m^2], see src/rsm/geometry_term.h.
   glm::vec3 flux{0.0f};         ///< Reflected [W].
   float unused = 0.0f;          ///< Fills up 16 bytes.
 };

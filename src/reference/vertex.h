@@ -9,6 +9,7 @@
 #include "reference/glass.h"
 #include "reference/path.h"
 #include "shared/brdf.h"
+#include "shared/phase.h"
 #include "shared/rays.h"
 #include "shared/sampling.h"
 

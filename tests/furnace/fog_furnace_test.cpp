@@ -12,6 +12,7 @@
 #include "reference/path_tracer.h"
 #include "scene/media/media.h"
 #include "shared/constants.h"
+#include "shared/phase.h"
 #include "support/box_scenes.h"
 #include "support/field_scenes.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "scene/media/media.h"
+#include "shared/phase.h"
 #include "shared/random.h"
 #include "shared/sampling.h"
 #include "support/chi_squared.h"

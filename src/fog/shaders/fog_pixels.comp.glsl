@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/pixel_math.h"
 #include "fog/fog_records.h"
+#include "shared/phase.h"
 
 #define MediaRef FogArray
 #define FroxelsRef FogArray

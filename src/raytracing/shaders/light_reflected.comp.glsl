@@ -6,6 +6,7 @@
 #include "raytracing/coat_share.h"
 #include "raytracing/vulkan/shading_records.h"
 #include "scene/light_tree/pick_lobe.h"
+#include "shared/phase.h"
 #include "shared/sampling.h"
 
 /// What light is drawn for.

@@ -3,6 +3,7 @@
 #include "raytracing/coat_share.h"
 #include "rsm/shaders/direct_place.glsl"
 #include "shared/demodulate.h"
+#include "shared/phase.h"
 #include "shared/sampling.h"
 
 layout(push_constant, scalar) uniform Push {

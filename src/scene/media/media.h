@@ -6,6 +6,7 @@
 
 #include "lambent/scene.h"
 #include "scene/media/medium.h"
+#include "shared/phase.h"
 
 namespace lambent {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A box of fog: its density along a ray in closed form, and how it scatters.
-// Based on: Henyey and Greenstein, "Diffuse Radiation in the Galaxy", Astrophysical Journal 93,
-// 1941 (the phase function); Wenzel, "Real-time Atmospheric Effects in Games", SIGGRAPH 2006 course
-// (the integral of exponential height fog).
+// A box of fog: its density along a ray in closed form. How it scatters is shared/phase.h.
+// Based on: Wenzel, "Real-time Atmospheric Effects in Games", SIGGRAPH 2006 course (the integral of
+// exponential height fog).
 #ifndef LAMBENT_SCENE_MEDIA_MEDIUM_H
 #define LAMBENT_SCENE_MEDIA_MEDIUM_H
 
@@ -92,31 +91,6 @@ LAMBENT_FN float medium_density(MediumRecord medium, vec3 position_ws) {
   vec3 outside = abs(position) - medium.half_size;
   if (max(outside.x, max(outside.y, outside.z)) > 0.0f) return 0.0f;
   return medium.density * exp(-(position.y + medium.half_size.y) * medium.inverse_height);
-}
-
-/// The phase function of Henyey and Greenstein 1941 [1/sr]: the density of scattering by an angle,
-/// given the cosine between the ways of light before and after.
-LAMBENT_FN float phase(float anisotropy, float cosine) {
-  float squared = anisotropy * anisotropy;
-  float base = max(1.0f + squared - 2.0f * anisotropy * cosine, 0.0f);
-  return (1.0f - squared) / (4.0f * kPi * base * sqrt(base));
-}
-
-// Anisotropy below which light is scattered evenly: the inverse of the distribution divides by it.
-const float kLeastAnisotropy = 1e-3f;
-
-/// The cosine of a scattered way, drawn with density phase(), for a uniform number.
-LAMBENT_FN float sample_phase(float anisotropy, float u) {
-  if (abs(anisotropy) < kLeastAnisotropy) return 1.0f - 2.0f * u;
-  float ratio = (1.0f - anisotropy * anisotropy) / (1.0f - anisotropy + 2.0f * anisotropy * u);
-  return clamp((1.0f + anisotropy * anisotropy - ratio * ratio) / (2.0f * anisotropy), -1.0f, 1.0f);
-}
-
-/// The uniform number for which sample_phase gives a cosine.
-LAMBENT_FN float invert_phase(float anisotropy, float cosine) {
-  if (abs(anisotropy) < kLeastAnisotropy) return 0.5f * (1.0f - cosine);
-  float root = sqrt(1.0f + anisotropy * anisotropy - 2.0f * anisotropy * cosine);
-  return ((1.0f - anisotropy * anisotropy) / root - 1.0f + anisotropy) / (2.0f * anisotropy);
 }
 
 LAMBENT_END

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Based on: Dachsbacher and Stamminger, "Reflective Shadow Maps", I3D 2005. Light from a texel to a
 // point, and how it is bounded where the two are close.
-#ifndef LAMBENT_RSM_GEOMETRY_H
-#define LAMBENT_RSM_GEOMETRY_H
+#ifndef LAMBENT_RSM_GEOMETRY_TERM_H
+#define LAMBENT_RSM_GEOMETRY_TERM_H
 
 #include "shared/constants.h"
 
