@@ -29,8 +29,8 @@ LAMBENT_FN float filtered_level(float unoccluded, float light) {
   return max(unoccluded, light / kMostOverUnoccluded);
 }
 
-// Lower levels are rounding, where a lamp is just above the horizon, and count as no light: one over
-// them may be more than floats hold.
+// Lower levels are rounding, where a lamp is just above the horizon, and count as no light: one
+// over them may be more than floats hold.
 const float kLeastFilteredLevel = 1e-30f;
 
 /// One over a level; 0 where there is no light.
