@@ -37,7 +37,8 @@ struct DenoiseView {
   DenoiseLobes lobes = {};        ///< Of coats with the shading normals, if these are filtered.
 };
 
-/// Light that arrives at the pixels' surfaces, without their albedo. All numbers are finite.
+/// Light that arrives at the pixels' surfaces, without their albedo. Light, base and variance that
+/// are not finite count as 0, lest they spread; levels are finite.
 struct NoisyLight {
   std::span<const glm::vec3> light;  ///< As it was sampled, >= 0.
   /// The same light as another method knows it, without noise, such as the irradiance field's

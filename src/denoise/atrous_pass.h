@@ -98,6 +98,19 @@ LAMBENT_FN LobeGuide lobe_guide(vec3 normal_ws, vec3 to_viewer_ws, float alpha,
   return guide;
 }
 
+/// A number, or 0 where it is not finite, which its bits tell: compilers of shaders may take every
+/// number for finite.
+LAMBENT_FN float finite_or_dark(float value) {
+  const uint kExponent = 0x7f800000u;
+  return (floatBitsToUint(value) & kExponent) == kExponent ? 0.0f : value;
+}
+
+/// Light as the first pass reads it, where channels that are not finite count as dark: the passes
+/// would spread them over all pixels that they reach.
+LAMBENT_FN vec3 finite_or_dark(vec3 light) {
+  return vec3(finite_or_dark(light.x), finite_or_dark(light.y), finite_or_dark(light.z));
+}
+
 /// AtrousLight::spread of a pixel before the first pass, where its variance was not measured.
 LAMBENT_FN float unmeasured_spread(vec3 light, vec3 base) {
   float level = luminance(light - base);

@@ -93,10 +93,11 @@ void load_lobes(const DenoiseView& view, PlanePicture& lobes) {
 void load_light(const DenoiseView& view, const NoisyLight& light, PlanePicture& to) {
   const bool has_base = !light.base.empty();
   fill_planes(view, kDenoisePlanes, to, [&](const Planes& row, int x, std::size_t i) {
-    const vec3 base = has_base ? light.base[i] : vec3(0.0f);
-    store_vector(row, kLightPlane, x, light.light[i]);
+    const vec3 noisy = finite_or_dark(light.light[i]);
+    const vec3 base = has_base ? finite_or_dark(light.base[i]) : vec3(0.0f);
+    store_vector(row, kLightPlane, x, noisy);
     row.at(kSpreadPlane)[x] =
-        light.variance.empty() ? unmeasured_spread(light.light[i], base) : light.variance[i];
+        light.variance.empty() ? unmeasured_spread(noisy, base) : finite_or_dark(light.variance[i]);
     row.at(kSharePlane)[x] = 1.0f;
     if (has_base) store_vector(row, kBasePlane, x, base);
   });

@@ -2,6 +2,7 @@
 // The filter on the processor and on a device: the same picture, the same light.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -132,6 +133,18 @@ TEST_F(DenoiseTwin, FiltersTheSameLight) {
       }
     }
   }
+}
+
+TEST_F(DenoiseTwin, SpreadsNothingThatIsNoNumber) {
+  NoisyWall wall(37, 23);
+  wall.light[100] = vec3(std::numeric_limits<float>::quiet_NaN());
+  wall.light[300] = vec3(std::numeric_limits<float>::infinity());
+  wall.variance[500] = std::numeric_limits<float>::infinity();
+  const NoisyLight light{wall.light, {}, wall.variance};
+  const std::vector<vec3> expected = on_host(wall.view(), light, {});
+  const std::vector<vec3> on_it = on_device(wall.view(), light, {});
+  for (const vec3& e : on_it) EXPECT_TRUE(e.x >= 0.0f && e.x < 1e6f);
+  EXPECT_LT(difference(expected, on_it), kTolerance);
 }
 
 TEST_F(DenoiseTwin, FiltersTheSameLightOfLobes) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "shared/color.h"
@@ -73,6 +74,26 @@ TEST(Denoise, TakesNoiseOffAndKeepsTheMean) {
   EXPECT_GT(before.deviation, 2.0);
   EXPECT_LT(after.deviation, 0.12);
   EXPECT_NEAR(after.mean, before.mean, 0.03 * before.mean);
+}
+
+// One bad pixel would make a block of all that the filter reaches.
+TEST(Denoise, DoesNotSpreadWhatIsNoNumber) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Wall wall(70, 40);
+  wall.set_light([](int, int, float) { return vec3(1.0f); });
+  wall.base = wall.light;
+  wall.variance.assign(wall.light.size(), 0.01f);
+  wall.light[wall.at(20, 10)] = vec3(1.0f, kNan, 1.0f);
+  wall.light[wall.at(50, 20)] = vec3(kInfinity);
+  wall.base[wall.at(35, 30)] = vec3(-kInfinity);
+  wall.variance[wall.at(5, 5)] = kNan;
+  const std::vector<vec3> filtered = wall.filtered();
+  for (std::size_t i = 0; i < filtered.size(); ++i) {
+    EXPECT_TRUE(filtered[i].x >= 0.0f && filtered[i].y >= 0.0f && filtered[i].x < 3.0f) << i;
+  }
+  constexpr int kApart = 3;  // pixels, from where on hardly any of the dark one is left
+  EXPECT_NEAR(filtered[wall.at(20 + kApart, 10)].y, 1.0f, 0.1f);
 }
 
 TEST(Denoise, LeavesLightWithoutNoiseAsItIs) {

@@ -12,8 +12,9 @@ layout(push_constant, scalar) uniform Push {
 void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
-  vec3 light = args.light.at[i];
-  vec3 base = args.has_base != 0u ? args.base.at[i] : vec3(0.0f);
-  float spread = args.measured != 0u ? args.variance.at[i] : unmeasured_spread(light, base);
+  vec3 light = finite_or_dark(args.light.at[i]);
+  vec3 base = args.has_base != 0u ? finite_or_dark(args.base.at[i]) : vec3(0.0f);
+  float spread = args.measured != 0u ? finite_or_dark(args.variance.at[i])
+                                     : unmeasured_spread(light, base);
   args.out_light.at[i] = DenoiseRecord(light, spread, base, 1.0f);
 }
