@@ -126,9 +126,9 @@ LAMBENT_FN ivec3 cell_corner(int corner) {
   return ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
 }
 
-// Stored distances are compared only with distances to points of the cells around a probe, at most
-// a cell's diagonal away. Longer ones are clamped to this many diagonals, so that far surfaces do
-// not dominate the variance.
+// Stored distances are compared only with distances to points of the cells around a probe, which
+// are at most a cell's diagonal away. Stored distances are clamped to this many diagonals, so that
+// far surfaces do not dominate the variance.
 const float kMaxDistanceDiagonals = 1.5f;
 
 /// The longest distance that a probe stores [m].
@@ -144,8 +144,8 @@ LAMBENT_FN float distance_unit(ProbeGrid grid) {
   return power_of_two(exponent - kDistanceUnitBits);
 }
 
-// The largest offset of a probe from its place on the grid, along each axis [cells]: probes never
-// pass each other. JCGT 10(2) 2021, sec. 4.
+// The largest offset of a probe from its place on the grid, along each axis [cells]. It is below
+// 0.5, so that probes never pass each other. JCGT 10(2) 2021, sec. 4.
 const float kMaxProbeOffset = 0.45f;
 
 // Offsets are stored as three signed numbers of 10 bits; 511 stands for kMaxProbeOffset.

@@ -21,8 +21,8 @@ inline constexpr std::uint32_t kMaxVolumes = 64;
 // wide as the range of coordinates.
 inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = kMaxCoordinate;
 
-// No volume starts farther from the world's origin along an axis [m]: some millions of the widest
-// cells, which is how far cascades scroll with a viewer.
+// The largest distance of a volume from the world's origin along an axis [m]: some millions of the
+// widest cells, which is how far cascades scroll with a viewer.
 inline constexpr float kMaxOrigin = 1e16f;
 
 /// Whether all three coordinates are numbers.
@@ -62,10 +62,11 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
 /// Checks the settings, except those of volumes, against the ranges that FieldSettings states.
 Expected<void> check_settings(const FieldSettings& settings);
 
-/// Whether a volume can scroll: it is axis-aligned, has enough probes, and stands on whole cells.
+/// Whether a volume can scroll: it is axis-aligned, has enough probes, and its origin is a whole
+/// number of cells from the world's origin.
 bool can_scroll(const ProbeGrid& grid);
 
-/// The volume moved at once so that it is centred on the viewer.
+/// The volume, moved in one step so that it is centred on the viewer.
 ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The volume after an update's scrolling. It scrolls in whole cells, and only once the viewer is
