@@ -14,7 +14,7 @@ struct CornerOffsets {
 
 /// The weights of the eight probes around a point. Corner k (bit 0 x, bit 1 y, bit 2 z) of the cell
 /// whose lowest probe is `base` has `weight[k]`. The weights sum to 1, or to the volume's weight in
-/// the lookup.
+/// the lookup, times the correction and the share of irradiance that the point receives.
 struct CornerWeights {
   int base;
   uint table;  ///< The cell's entry in ProbeStore::corner_table.

@@ -14,8 +14,8 @@
 namespace lambent {
 
 /// The weights of probes in the lookups of some queries: `corners[i]` belong to query `query[i]`. A
-/// query has an entry for each volume in which it has a weight. Its weights over all volumes sum to
-/// 1, or to 0 where all probes around it are inside geometry.
+/// query has an entry for each volume in which it has a weight. Before corrections, its weights
+/// over all volumes sum to 1, or to 0 where all probes around it are inside geometry.
 struct QueryWeights {
   std::vector<CornerWeights> corners;
   std::vector<std::uint32_t> query;
