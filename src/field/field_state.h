@@ -80,7 +80,8 @@ struct IrradianceField::State {
   void relocate_edited(const World& world, UpdateStatistics& statistics);
   /// Scrolls the volumes that follow the viewer. Returns the number of recycled probes.
   int scroll_volumes(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
-  /// For hybrid visibility, finds which probes of the cells around the given ones see each other.
+  /// For hybrid visibility, finds which probes of the cells around the given ones are visible to
+  /// each other.
   /// Returns the number of rays traced; 0 in other modes.
   std::uint64_t update_cell_visibility(const World& world, std::span<const int> probes);
 

@@ -54,7 +54,7 @@ class FieldPasses {
   virtual void move_distances() = 0;
   /// Blends the distances of all rays into the store.
   virtual void blend_distances() = 0;
-  /// Finds which probes of the cells around the update's probes see each other.
+  /// Finds which probes of the cells around the update's probes are visible to each other.
   virtual void visibility() = 0;
   /// Whether the executor learns corrections of lookups.
   virtual bool learns() const = 0;

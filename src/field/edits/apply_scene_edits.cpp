@@ -205,7 +205,7 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
     vec4* now = &data.light[probe * texels];
     const TileLight held(&before[k * texels], texels), found(now, texels);
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
-      // The last estimate stays as well, so that several changes too small to be seen add up
+      // The last estimate stays as well, so that several changes too small to be visible add up
       std::copy(held.begin(), held.end(), now);
       continue;
     }

@@ -10,7 +10,7 @@
 LAMBENT_BEGIN
 
 // The estimate of one update's rays is corrected by at most this factor. Where it is further off,
-// the rays met too little light for a correction to make sense.
+// the rays hit too little light for a correction to make sense.
 const float kMaxHistoryRatio = 2.0f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its

@@ -256,7 +256,7 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
   });
 }
 
-/// The luminance of the direct and sky light that a probe's rays bring back, summed over the rays.
+/// The luminance of the direct and sky light along a probe's rays, summed over the rays.
 double direct_light_of(const ProbeTrace& trace) {
   double sum = 0.0;
   for (const Surfel& surfel : trace.surfels) {

@@ -26,7 +26,7 @@ struct ProbeGrid {
   ivec3 count;       ///< >= 2 along each axis
   ivec3 scroll;      ///< Probe c is stored as the one of coordinates (c + scroll) mod count; >= 0.
   int first;         ///< Index of the probe stored first, among the probes of all volumes.
-  vec3 fade_centre;  ///< Centre of the box in which the volume counts [cells from probe 0].
+  vec3 fade_centre;  ///< Centre of the box in which it has a weight [cells from probe 0].
   vec3 fade_half;    ///< Half the size of that box [cells]; > 0.
   vec3 fade_cells;   ///< The weight falls to 0 across this many cells within the box's faces; > 0.
 };
@@ -111,8 +111,9 @@ LAMBENT_FN int cell_wrap(ProbeGrid grid, ivec3 base) {
          (c.z + 1 == grid.count.z ? 4 : 0);
 }
 
-/// The blend weight of a volume at a point: 1 well inside the box in which the volume counts,
-/// falling to 0 at the box's faces. In a thin box it falls all the way from the middle.
+/// The blend weight of a volume at a point: 1 well inside the box in which the volume has a weight,
+/// falling to 0 at the box's faces. In a box thinner than twice fade_cells, it falls from the
+/// middle on.
 LAMBENT_FN float volume_blend_weight(ProbeGrid grid, vec3 position_ws) {
   vec3 inside = grid.fade_half - abs(grid_coords(grid, position_ws) - grid.fade_centre);
   vec3 weight = inside / min(grid.fade_half, grid.fade_cells);

@@ -38,7 +38,7 @@ struct VolumeRole {
       0;  ///< Cascade level, 0 the finest. Volumes of level L are updated every 2^L updates.
 };
 
-/// A volume as the settings ask for it.
+/// A volume that the settings request.
 struct Volume {
   ProbeGrid grid;
   VolumeRole role;
@@ -54,7 +54,7 @@ ProbeGrid still_grid(const FieldGrid& grid);
 /// The grid of a volume, for the public interface.
 FieldGrid field_grid(const ProbeGrid& grid);
 
-/// The volumes that the settings ask for, in the order in which lookups use them. Cascades are
+/// The volumes that the settings request, in the order in which lookups use them. Cascades are
 /// centred on the bounds. Fails as IrradianceField::make does.
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
                                            const Bounds& scene_bounds);
@@ -69,10 +69,10 @@ bool can_scroll(const ProbeGrid& grid);
 /// The volume, moved in one step so that it is centred on the viewer.
 ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws);
 
-/// The volume after an update's scrolling. It scrolls in whole cells, and only once the viewer is
-/// most of a cell off its middle. A walking viewer does not see this: the box in which the volume
-/// counts changes smoothly, and contains neither slabs that are about to be recycled nor slabs that
-/// just were.
+/// The volume after an update's scrolling. It scrolls in whole cells, and only when the viewer is
+/// most of a cell off its middle. A walking viewer does not notice this: the box in which the
+/// volume has a weight changes smoothly, and contains neither slabs that are about to be recycled
+/// nor slabs that have just been recycled.
 ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The probes of `next` whose places are outside `before`, the same volume before scrolling.

@@ -32,7 +32,8 @@ const float kDistanceExponent = 100.0f;
 // that a probe inside something has little weight in its surroundings. JCGT 10(2) 2021, sec. 4.
 const float kBackFaceDistanceScale = 0.2f;
 
-/// The distance that a ray counts as [m]. `seen` is the distance to its hit, infinite for a miss.
+/// The distance that a ray counts as in a blend [m]. `seen` is the distance to its hit, infinite
+/// for a miss.
 LAMBENT_FN float counted_distance(float seen, uint back_face, float farthest) {
   float cut = min(seen, farthest);
   return back_face != 0u ? cut * kBackFaceDistanceScale : cut;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers of workgroups of kernels that work on a list of probes. The host or the device
-// computes them, whichever knows the length of the list.
+// computes them, depending on which of them decides the length of the list.
 #ifndef LAMBENT_FIELD_TRANSPORT_LIST_SIZES_H
 #define LAMBENT_FIELD_TRANSPORT_LIST_SIZES_H
 

@@ -21,7 +21,7 @@ struct ProbeStanding {
   uint offset;    ///< Offset that applies from its next rays on (encode_probe_offset).
   RelocationState relocation;
   uint placed;  ///< Number of updates that took part in its placement so far.
-  uint coarse;  ///< 1: it was traced with new rays since the last edit.
+  uint coarse;  ///< 1: its last estimate is coarse, since new rays were traced after the last edit.
 };
 LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
 

@@ -90,8 +90,8 @@ struct RecordedField::State {
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         std::span<const Volume> volumes, const ProbeStore& shape);
 
-  /// Whether the file's volumes are the planned ones, with tiles as the settings ask for. The error
-  /// names the file.
+  /// Checks that the file's volumes are the planned ones, with the tiles that the settings request.
+  /// The error contains the file's name.
   Expected<void> check_fit(const std::string& path, const FieldFile& file) const;
   /// Uploads the contents of a file that passed check_fit(). Submits to the device's queue, and
   /// waits.

@@ -28,7 +28,7 @@ void main() {
   in_field = probe * texels;
   LightChange change = light_change(texels);
 
-  // The last estimate stays as well, so that several changes too small to be seen add up
+  // The last estimate stays as well, so that several changes too small to be visible add up
   bool changed = mean_relative_square(change.squares, texels, change.before) >=
                  kChangedFraction * kChangedFraction;
   args.changed.at[k] = changed ? 1u : 0u;
