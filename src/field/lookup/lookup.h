@@ -25,8 +25,8 @@ const float kBias = 0.3f;
 // equally far from both ends.
 const float kFreeShare = 0.5f;
 
-// A probe behind a surface, whose cosine is negative, has a smaller weight the farther behind it
-// is, and none where the negative cosine exceeds this.
+// The weight of a probe falls with the cosine between the normal and the direction to the probe,
+// and is 0 where that cosine is below -kWrapCosine, behind the surface.
 // The published value is 1 (JCGT 8(2) 2019). Where probes stand just in front of both sides of a
 // thin wall, those of the far side then count too much: in the two rooms of `scripts/measure leaks`
 // with probes 1 m apart, the mean light behind the sealed wall is 1.0 % of that with the door open,

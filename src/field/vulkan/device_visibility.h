@@ -32,8 +32,9 @@ class DeviceVisibility {
   /// Records CellVisibility::update() for cells that exist.
   void record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer,
                               const StoreArrays& store, IntArray cells, int count) const;
-  /// Records visibility rays for the corners whose visibility is in doubt (VisibilityMask), and the
-  /// lookups' weights that result. Only the first `columns` points of each row exist.
+  /// Records visibility rays for the corners whose visibility is in doubt (VisibilityMask), or with
+  /// exact visibility for all corners with a weight, and the lookups' weights that result. Only the
+  /// first `columns` points of each row exist.
   void record_corner_tests(vulkan::Recorder& to, const DeviceTracer& tracer,
                            const StoreArrays& store, const LookupPoints& points,
                            LookupArray lookups, int columns) const;
