@@ -26,11 +26,11 @@ const float kBias = 0.3f;
 const float kFreeShare = 0.5f;
 
 // The weight of a probe falls with the cosine between the normal and the direction to the probe,
-// and is 0 where that cosine is below -kWrapCosine, behind the surface.
-// The published value is 1 (JCGT 8(2) 2019). Where probes stand just in front of both sides of a
-// thin wall, those of the far side then count too much: in the two rooms of `scripts/measure leaks`
-// with probes 1 m apart, the mean light behind the sealed wall is 1.0 % of that with the door open,
-// and 0.14 % with this value. A smaller value costs accuracy.
+// and is 0 where that cosine is below -kWrapCosine, behind the surface. The published value is 1
+// (JCGT 8(2) 2019). Where probes stand just in front of both sides of a thin wall, those of the far
+// side then count too much: in the two rooms of `scripts/measure leaks` with probes 1 m apart, the
+// mean light behind the sealed wall is 1.0 % of that with the door open, and 0.14 % with this
+// value. A smaller value costs accuracy.
 const float kWrapCosine = 0.5f;
 
 // Weights below this threshold are replaced by their cube over its square, so that nearly hidden
