@@ -17,7 +17,7 @@ Expected<void> check_settings(const FieldSettings& s) {
   };
   if (outside(s.rays_per_probe, 16, 4096)) return fail("", "rays", "must be 16 to 4096 a probe");
   if (outside(s.hysteresis, 0.0f, 0.999f)) return fail("", "hysteresis", "must be 0 to 0.999");
-  // An odd tile reads directions along the axes from one side only
+  // In an odd tile, a fetch along the x or y axis reads texels on one side of the axis only
   if (outside(s.irradiance_texels, 2, 16) || s.irradiance_texels % 2 != 0) {
     return fail("", "irradiance texels", "must be even, 2 to 16");
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes, files and tools find in a field besides its public interface.
+// Access to a field's internals for passes, files and tools.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class ProbeStore;
 class Ranks;
 struct ProbeStatus;
 
-/// Opens a field to the functions below, and to those that save and load it.
+/// Gives the functions below, and those that save and load a field, access to its private state.
 struct FieldAccess {
   using State = IrradianceField::State;
   static const State& state_of(const IrradianceField& field) { return *field.state_; }
@@ -23,19 +23,21 @@ struct FieldAccess {
   static IrradianceField make(std::unique_ptr<State> state);
 };
 
-/// The probes' store, brought to the processor's memory where a device holds a newer one.
+/// The probes' store in the processor's memory. Where a device holds a newer one, it is copied from
+/// there first.
 const ProbeStore& store_of(const IrradianceField& field);
 
-/// IrradianceField::irradiance, which is by smooth corrections, by any. Without corrections light
-/// is as smooth as the probes are, and can be combined with what other means find of the same
-/// pixels.
+/// Does what IrradianceField::irradiance does, which always uses CorrectionUse::smooth, with any
+/// use of corrections. Without corrections, light is as smooth as the probes are, and can be
+/// combined with what other techniques compute for the same pixels.
 void look_up_irradiance(const IrradianceField& field, std::span<const FieldQuery> queries,
                         CorrectionUse use, std::span<glm::vec3> result, const World& world);
 
-/// Parts the work on a field among processes. Each has a field of the same settings over the same
-/// world on the processor that holds no light yet, and makes the same calls of it. What they have
-/// afterwards has the bits that one process alone finds. Until the last update the world must not
-/// be edited, the viewer must stay, and updates have no budget. `ranks` must outlive the field.
+/// Divides the work on a field among processes. Each process has a field of the same settings, for
+/// the same world on the processor, that holds no light yet, and makes the same calls. The results
+/// have the same bits as those of a single process. Until the last update the world must not be
+/// edited, the viewer must not move, and updates must have no budget. `ranks` must outlive the
+/// field.
 void share_work(IrradianceField& field, Ranks& ranks);
 
 /// The state and history of each probe.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Picks where a field lives.
+// Chooses the backend of a field.
 #include "field/field_backend.h"
 #include "raytracing/world_access.h"
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a field lives, and who runs its passes there: the processor, or a device that keeps tiles,
-// surfels and light in its own memory. IrradianceField::State decides what is done with which
-// probes. What it decides by (probe statuses, positions, and the light where edits are applied) is
-// in the processor's memory, which a device's backend brings up to date when it is asked to.
+// The interface to the executor that holds a field and runs its passes: the processor, or a device
+// that stores tiles, surfels and light in its own memory. IrradianceField::State decides what is
+// done with which probes. The data that these decisions depend on (probe statuses, positions, and
+// the light where edits are applied) is in the processor's memory. A device's backend brings it up
+// to date when the functions below are called.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +28,12 @@ class Recorder;
 /// The arguments of FieldBackend::update_probes.
 struct ProbeUpdate {
   const World& world;
-  std::vector<TraceGroup> groups;    ///< Probes by their rays. The hits are empty.
+  std::vector<TraceGroup> groups;    ///< Probes, grouped by ray set. The hits are empty.
   std::vector<int> probes;           ///< The probes of all groups, group after group.
   std::vector<float> blend_weights;  ///< How much each probe's new light counts, 0 to 1.
   SolveSettings solve;
-  uint number = 0;       ///< Of the update, from 0.
-  bool learns = false;   ///< Corrections of lookups are learned.
+  uint number = 0;       ///< Number of the update, from 0.
+  bool learns = false;   ///< Whether the update learns corrections of lookups.
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
 };
 
@@ -81,7 +82,7 @@ class FieldBackend {
   virtual void fetch_corrections() = 0;
   /// Uploads the light and the last irradiance estimates.
   virtual void push_light() = 0;
-  /// Uploads the grids and the probes' offsets. Drops the surfels of the probes that moved, and
+  /// Uploads the grids and the probes' offsets. Discards the surfels of the probes that moved, and
   /// uploads their distance tiles.
   virtual void push_places(std::span<const int> moved) = 0;
 
@@ -92,18 +93,18 @@ class FieldBackend {
 
   /// Runs all passes of update_probes() in passes.h.
   virtual ProbeUpdateResult update_probes(ProbeUpdate update) = 0;
-  /// Brings the surfels and stored distances of `probes` up to date with the world, and finds the
-  /// lookups that this affects again, `among` all traced probes. `changes` name everything that may
-  /// differ from the world in which the surfels were found. What the edits do not affect keeps its
-  /// value.
+  /// Brings the surfels and stored distances of `probes` up to date with the world, and recomputes
+  /// the lookups that this affects. `among` are all traced probes. `changes` name everything that
+  /// may differ from the world in which the surfels were found. What the edits do not affect keeps
+  /// its value.
   virtual InvalidationResult retrace(const World& world, std::span<const WorldChanges> changes,
                                      std::span<const int> probes, std::span<const int> among,
                                      uint dither_seed) = 0;
   /// CellVisibility::update of a field with hybrid visibility. `cells` come from cells_around().
   /// Returns the number of rays traced.
   virtual std::uint64_t update_cell_visibility(const World& world, std::span<const int> cells) = 0;
-  /// Finds the lookups of those `among` the traced probes whose surfels may read one of `moved`.
-  /// Returns the number of visibility rays traced.
+  /// Recomputes the lookups of those probes in `among`, all of which have been traced, whose
+  /// surfels may read one of the probes `moved`. Returns the number of visibility rays traced.
   virtual std::uint64_t find_lookups(const World& world, std::span<const int> moved,
                                      std::span<const int> among) = 0;
 
@@ -112,16 +113,16 @@ class FieldBackend {
   virtual SolveResult solve(std::span<const int> probes, std::span<const float> blend_weights,
                             const WorkingIrradiance& history_ratio,
                             const SolveSettings& settings) = 0;
-  /// Computes what some probes receive from the field's light. Texels that no ray counts for keep
-  /// what `received` holds.
+  /// Computes the irradiance that some probes receive from the field's light. Texels for which no
+  /// ray counts keep their value in `received`.
   virtual void receive(std::span<const int> probes, WorkingIrradiance& received) = 0;
-  /// Luminance of the direct and sky light that each probe's rays bring back, summed over its rays
+  /// Luminance of the direct and sky light that each probe receives, summed over its rays
   /// (processor) or texels (device).
   virtual std::vector<double> direct_light(std::span<const int> probes) = 0;
   /// Encodes the light of some probes into the store.
   virtual void store_light(std::span<const int> probes, uint dither_seed) = 0;
 
-  /// CorrectionTable::forget() of what the field has learned of how far its lookups are off.
+  /// Does what CorrectionTable::forget() does, for the field's corrections.
   virtual void forget_corrections(std::span<const float> kept) = 0;
 
   /// See ImportanceScatter in importance.h.
@@ -143,8 +144,8 @@ inline constexpr int kMaxBackendProbes = 1 << 18;
 /// Whether a field of this many probes lives on the device of the world that it follows.
 bool lives_on_device(const World& world, int probes);
 
-/// Makes the backend for a field that follows the world: this is the one place that picks an
-/// executor. It takes over all data but surfels. The data must outlive it.
+/// Makes the backend for a field that follows the world. No other function chooses an executor. The
+/// backend takes over all data but surfels. The data must outlive it.
 std::unique_ptr<FieldBackend> make_field_backend(const World& world, ProbeData& data);
 std::unique_ptr<FieldBackend> make_field_backend_cpu(ProbeData& data);
 /// For worlds on a device.

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kProbesPerTask = 64;
 constexpr std::size_t kQueriesPerTask = 4096;
 
-/// How surfels see probes.
+/// The visibility and the corrections with which surfels look the field up.
 VisibilityRays visibility_in(const World& world, const ProbeData& data) {
   return {data.settings.visibility, &tracer_of(world), &data.cell_visibility, &data.correction,
           CorrectionUse::picked};
@@ -40,7 +40,7 @@ void store_irradiance(std::span<const int> probes, uint dither_seed, ProbeData& 
 }
 
 /// Brings the visibility between probes of some cells up to date on all ranks. Returns the number
-/// of rays that this one traced.
+/// of rays that this rank traced.
 std::uint64_t update_visibility(const World& world, std::span<const int> cells, ProbeData& data) {
   const std::uint64_t traced =
       data.cell_visibility.update(tracer_of(world), data.store, data.share.own(cells));
@@ -48,8 +48,8 @@ std::uint64_t update_visibility(const World& world, std::span<const int> cells, 
   return traced;
 }
 
-/// Parts an update among the ranks: leaves this one's probes in its groups. Surfels of probes that
-/// are now another's are dropped.
+/// Divides an update among the ranks, and removes the probes of other ranks from its groups.
+/// Discards the surfels of probes that now belong to another rank.
 void take_own_share(ProbeUpdate& update, ProbeData& data) {
   if (data.share.alone()) return;
   assert(update.groups.size() <= 1);  // so that the probes are in ascending order
@@ -63,7 +63,7 @@ void take_own_share(ProbeUpdate& update, ProbeData& data) {
   }
 }
 
-/// Those of an update's numbers, one a probe, that are of this rank's probes.
+/// The blend weights of this rank's probes.
 std::span<const float> own_weights(const ProbeUpdate& update, const ProbeShare& share) {
   if (share.alone()) return update.blend_weights;
   const std::size_t before = share.places_of_parts(update.probes)[share.ranks().own()];
@@ -72,7 +72,7 @@ std::span<const float> own_weights(const ProbeUpdate& update, const ProbeShare& 
 
 class FieldPassesCpu final : public FieldPasses {
  public:
-  /// take_own_share() has left this rank's probes in the update's groups.
+  /// The update's groups must have this rank's probes only, see take_own_share().
   FieldPassesCpu(ProbeUpdate& update, ProbeData& data)
       : update_(update),
         data_(data),
@@ -171,11 +171,11 @@ class FieldPassesCpu final : public FieldPasses {
  private:
   ProbeUpdate& update_;
   ProbeData& data_;
-  std::span<const int> own_;              // this rank's of the update's probes
-  std::span<const float> blend_weights_;  // of these
+  std::span<const int> own_;              // the update's probes that belong to this rank
+  std::span<const float> blend_weights_;  // one per probe of own_
   PassTimer timer_;
   const char* name_ = nullptr;
-  WorkingIrradiance history_;  // what these held
+  WorkingIrradiance history_;  // the light of these probes before the update
 };
 
 class FieldBackendCpu final : public FieldBackend {
@@ -199,7 +199,7 @@ class FieldBackendCpu final : public FieldBackend {
     FieldPassesCpu passes(update, data_);
     lambent::update_probes(passes);
     ProbeUpdateResult& result = passes.result;
-    // Most work is in proportion to rays
+    // The time of most passes is in proportion to the number of rays
     data_.share.learn_work(
         data_.share.own(update.probes).size(),
         static_cast<double>(result.probe_rays + result.shadow_rays + result.correction_rays));

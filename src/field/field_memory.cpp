@@ -10,10 +10,11 @@
 namespace lambent {
 namespace {
 
-// Light of all probes that exists at once, each a vec4 a texel: what the field holds and was told,
-// and in the solve the iterates, their differences and the steps that it extrapolates from.
+// The number of arrays with a vec4 for each texel of the probes that exist at once: the light and
+// the last estimates of the field, and in the solve the iterates, their differences and the steps
+// from which it extrapolates.
 constexpr std::uint64_t kLightCopies = 20;
-// Those of them that every rank has of all probes: what the field holds and was told.
+// The number of those that every rank has for all probes: the light and the last estimates.
 constexpr std::uint64_t kLightCopiesOnAll = 2;
 
 std::uint64_t tile_bytes(int texels, std::uint64_t texel_bytes) {

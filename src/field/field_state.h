@@ -42,8 +42,8 @@ struct IrradianceField::State {
   /// Where the field lives; never null.
   std::unique_ptr<FieldBackend> backend;
 
-  /// Moves the field to the processor or device that the world is on. The light moves along; the
-  /// surfels are dropped, to be traced again.
+  /// Moves the field to the processor or device that the world is on. The light is copied; the
+  /// surfels are discarded, and traced again later.
   void move_to(const World& world, UpdateStatistics& statistics);
   std::vector<int> all_probes() const;
   std::uint64_t ray_budget(const UpdateRequest& request) const;
@@ -66,21 +66,22 @@ struct IrradianceField::State {
   /// Relocates some probes, starting from their places on the grid, and updates their
   /// classification inputs. Resets and returns those that moved.
   std::vector<int> place_probes(const World& world, std::span<const int> probes);
-  /// Traces the fixed rays of some probes to find what classification needs to know of them. With
+  /// Traces the fixed rays of some probes to compute their classification inputs. With
   /// `learn_distances`, the distances of these rays become the probes' first stored distances.
   void update_classification_inputs(const World& world, std::span<const int> probes,
                                     bool learn_distances = false);
-  /// Gives relocated probes their first distances, and finds the lookups of all surfels that read
-  /// one of them again.
+  /// Computes the first distances of relocated probes, and recomputes the lookups of all surfels
+  /// that read one of them.
   void initialize_relocated(const World& world, std::span<const int> moved,
                             UpdateStatistics& statistics);
-  /// Lets a relocated probe continue from the light that it holds.
+  /// Keeps the light of a relocated probe as the start of its new average.
   void inherit_history(int probe, const World& world);
   /// Relocates probes near edited static geometry, once nothing there has been edited for a while.
   void relocate_edited(const World& world, UpdateStatistics& statistics);
   /// Scrolls the volumes that follow the viewer. Returns the number of recycled probes.
   int scroll_volumes(const World& world, const vec3& viewer_ws, UpdateStatistics& statistics);
-  /// For hybrid visibility, finds which probes of the cells around the given ones see each other.
+  /// For hybrid visibility, finds which probes of the cells around the given ones are visible to
+  /// each other.
   /// Returns the number of rays traced; 0 in other modes.
   std::uint64_t update_cell_visibility(const World& world, std::span<const int> probes);
 
@@ -91,7 +92,8 @@ struct IrradianceField::State {
                                  UpdateStatistics& statistics);
   /// Finds the stale probes. Those that cannot be brought up to date start their average again.
   StaleProbes find_stale_probes(const World& world);
-  /// Keeps the light before edits, while light and surfels still belong to the same world.
+  /// Stores a copy of the light before edits, while light and surfels still belong to the same
+  /// world.
   void begin_edits(std::uint64_t revision, std::span<const int> traced);
   /// Brings waiting probes up to date until the budget is spent, and removes them from
   /// `stale.waiting`.
@@ -101,7 +103,7 @@ struct IrradianceField::State {
   void apply_edits_to_slice(const World& world, std::span<const WorldChanges> changes,
                             std::span<const int> probes, std::span<const int> all,
                             UpdateStatistics& statistics);
-  /// Lets what averages and corrections learned of light that pending edits changed count less.
+  /// Reduces the weight of averages and corrections whose light the pending edits changed.
   void reduce_history();
   void forget_corrections(EditProgress progress);
   void darken_sleeping();
@@ -113,11 +115,11 @@ struct IrradianceField::State {
   /// Brings some of the stale sleeping probes up to date.
   void apply_edits_to_sleeping(const World& world, std::uint64_t ray_budget,
                                std::span<const int> all, UpdateStatistics& statistics);
-  /// Whether an update that traces these probes learns how far lookups are off.
+  /// Whether an update that traces these probes learns corrections of lookups.
   bool learns_corrections(std::span<const TraceGroup> groups) const;
   /// Traces the scheduled probes, and blends what they receive into the store.
   void trace(const World& world, std::vector<TraceGroup> groups, UpdateStatistics& statistics);
-  /// Solves for the light of all traced probes, from what their last rays met.
+  /// Solves for the light of all traced probes, from the hits of their last rays.
   void solve_warm_up(UpdateStatistics& statistics);
   /// Replaces all light by what a file holds.
   void restore(const FieldFile& file, const World& world, float correction_weight);

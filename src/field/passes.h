@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of an update of the field, as executors supply them; update.cpp says in which order
-// they run.
+// The passes of an update of the field, which executors implement. update.cpp calls them in their
+// order.
 //
-// There are two executors: the processor (field_backend_cpu.cpp), which does what it is asked at
-// once, and Vulkan (vulkan/passes_vulkan.h), which only records. Where rays come from is the
-// executor's ray source: Embree, our Vulkan world, or an engine. An engine shades what rays meet
-// with commands of its own, so that its update is recorded in parts.
+// There are two executors: the processor (field_backend_cpu.cpp), which runs each pass at once, and
+// Vulkan (vulkan/passes_vulkan.h), which records commands. Rays are traced by the executor's ray
+// source: Embree, our Vulkan world, or an engine. An engine shades hits with commands of its own,
+// so that its update is recorded in parts.
 #pragma once
 
 #include "lambent/field.h"
@@ -35,31 +35,32 @@ class FieldPasses {
   virtual ~FieldPasses() = default;
 
   virtual const FieldSettings& settings() const = 0;
-  /// The number of batches in which the update's rays are traced and shaded. Each fits into memory.
+  /// The number of batches in which the update's rays are traced and shaded. A batch fits into
+  /// memory.
   virtual int batches() const = 0;
 
-  /// Scrolls the volumes that follow the viewer, where the executor does and not the host.
+  /// Scrolls the volumes that follow the viewer, where the host has not done so.
   virtual void scroll() = 0;
-  /// Chooses the probes and draws their rays, where the executor decides and not the host.
+  /// Chooses the probes and draws their rays, where the host has not done so.
   virtual void schedule() = 0;
-  /// Finds what a batch's rays meet.
+  /// Finds the hits of a batch's rays.
   virtual void trace(int batch) = 0;
   /// Makes surfels of a batch's hits, with the direct light on them.
   virtual void shade(int batch) = 0;
-  /// Keeps what must be known of the probes from before edits. Their rays are about to be traced
-  /// again.
+  /// Stores the state of the probes before edits that the passes after them need. Called before the
+  /// probes' rays are traced again.
   virtual void keep_history() = 0;
-  /// Shifts the stored distances by the change in what the same rays see.
+  /// Shifts the stored distances by the change in the distances of the same rays.
   virtual void move_distances() = 0;
-  /// Blends the distances that all rays saw into the store.
+  /// Blends the distances of all rays into the store.
   virtual void blend_distances() = 0;
-  /// Finds which probes of the cells around the update's probes see each other.
+  /// Finds which probes of the cells around the update's probes are visible to each other.
   virtual void visibility() = 0;
-  /// Whether the executor learns how far lookups are off.
+  /// Whether the executor learns corrections of lookups.
   virtual bool learns() const = 0;
-  /// Learns how far lookups are off, from the light of the update before.
+  /// Learns corrections of lookups, from the light of the update before.
   virtual void corrections() = 0;
-  /// Finds which probes light each surfel, and by how much.
+  /// Finds the probes that light each surfel, and their weights.
   virtual void lookups() = 0;
   /// Solves for the light of all bounces, and blends it into what the probes hold.
   virtual void solve() = 0;
@@ -67,13 +68,13 @@ class FieldPasses {
   virtual void variability() = 0;
   /// Encodes the probes' light for lookups.
   virtual void store() = 0;
-  /// Relocates and classifies the probes, where the update's own rays are all there is to decide
-  /// by.
+  /// Relocates and classifies the probes by the hits of the update's own rays, where the host
+  /// cannot trace fixed rays.
   virtual void placement() = 0;
 
-  /// Is called before each pass, with its name, ...
+  /// Called before each pass, with its name.
   virtual void begin(const char* name) = 0;
-  /// ... and after it.
+  /// Called after each pass.
   virtual void end() = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes of an update work on, in the processor's data.
+// The data of the probes in the processor's memory, which the passes of an update work on.
 #pragma once
 
 #include <cstdint>
@@ -18,21 +18,22 @@
 
 namespace lambent {
 
-/// What probes hold and what their rays met. Where a device holds the field, this is the host's
-/// copy, as of the last transfer (FieldBackend).
+/// The tiles, light and surfels of the probes. Where a device holds the field, this is the host's
+/// copy from the last transfer (see FieldBackend).
 struct ProbeData {
   /// The settings must outlive it.
   ProbeData(std::span<const ProbeGrid> volumes, const FieldSettings& field_settings);
 
   const FieldSettings& settings;
-  ProbeShare share;  ///< Whose surfels are here. Everything else is of all probes.
+  ProbeShare share;  ///< The probes whose surfels are here. Everything else is of all probes.
   ProbeStore store;
   BlendMatrix tile_fit;
-  /// Of the world that the field follows; made before its first probe is placed.
+  /// The sides of the world's surfaces that bound solid matter; found before the first probe is
+  /// placed.
   SolidSides solid_sides;
   std::vector<ProbeTrace> traces;  ///< Where a device holds the field, their ray sets only.
   CorrectionTable correction;
-  CellVisibility cell_visibility;              ///< Only hybrid visibility keeps it up to date.
+  CellVisibility cell_visibility;              ///< Up to date with hybrid visibility only.
   WorkingIrradiance light;                     ///< The irradiance that the store encodes.
   WorkingIrradiance last_irradiance_estimate;  ///< What each probe's last rays alone estimated.
   /// 1 where a probe's last estimate comes from a solve that stopped at its tolerance, so that it

@@ -32,12 +32,12 @@ void ProbeShare::divide(std::span<const int> probes) {
 void ProbeShare::learn_work(std::size_t probes, double work) {
   if (alone()) return;
   work_ = gather_each(*ranks_, probes > 0 ? work / static_cast<double>(probes) : 0.0);
-  // Nothing is known of those of a process that had none: they are taken to be like the others
+  // The work of a process that had no probes is not known: assume the most that any other had
   const double most = *std::max_element(work_.begin(), work_.end());
   for (double& of_probe : work_) of_probe = of_probe > 0.0 ? of_probe : most > 0.0 ? most : 1.0;
 }
 
-/// Work with a probe, as it was with those of the process that had it.
+/// The work with a probe: the mean over the probes of the process to which it belongs.
 double ProbeShare::work_of(int probe) const {
   if (work_.empty()) return 1.0;
   const auto next = std::upper_bound(firsts_.begin(), firsts_.end(), probe);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which probes of a field a process works on, where several (core/ranks.h) work on it together.
 //
-// Every process holds the tiles, the light and the state of all probes: lookups read any of them.
-// The surfels of a probe, which take most of the memory, are where the probe is worked on. What a
-// pass finds of single probes is gathered after it, so that all processes have the same bits.
+// Every process holds the tiles, the light and the state of all probes, since lookups read any of
+// them. The surfels of a probe, which take most of the memory, are held only by the process that
+// works on the probe. The results of a pass for single probes are gathered after it, so that all
+// processes have the same bits.
 #pragma once
 
 #include <algorithm>
@@ -18,18 +19,18 @@ namespace lambent {
 
 class ProbeShare {
  public:
-  /// All of so many probes belong to this process.
+  /// Starts with all probes of a field of this many belonging to this process.
   explicit ProbeShare(int probes) : firsts_{0, probes} {}
 
-  /// From now on, probes are parted among these processes, as many to each. `ranks` must outlive
-  /// it.
+  /// From now on, probes are divided equally among these processes. `ranks` must outlive this
+  /// object.
   void part_among(Ranks& ranks);
-  /// Parts the probes anew, so that each process has about as much work with these, which are in
-  /// ascending order: as many of them, or what learn_work() was told. Without any, all stay where
-  /// they are.
+  /// Divides the probes again, so that each process has about the same work with `probes`, which
+  /// are in ascending order. Work is measured by learn_work(); before its first call, each process
+  /// gets the same number of them. With no probes, the division stays as it is.
   void divide(std::span<const int> probes);
-  /// Notes how much work this process had with so many probes: any number in proportion. All
-  /// processes call it.
+  /// Notes how much work this process had with this many probes, in a unit that all processes
+  /// share. All processes must call it together.
   void learn_work(std::size_t probes, double work);
 
   Ranks& ranks() const { return *ranks_; }
@@ -38,19 +39,20 @@ class ProbeShare {
   int end() const { return firsts_[static_cast<std::size_t>(ranks_->own()) + 1]; }
   bool has(int probe) const { return probe >= first() && probe < end(); }
 
-  /// Those of some probes that are this process's. Where it is not alone, `probes` must be in
-  /// ascending order.
+  /// Returns those of the probes that belong to this process. Where it is not alone, `probes` must
+  /// be in ascending order.
   std::span<const int> own(std::span<const int> probes) const {
     if (alone()) return probes;
     const std::vector<std::size_t> begins = places_of_parts(probes);
     const auto rank = static_cast<std::size_t>(ranks_->own());
     return probes.subspan(begins[rank], begins[rank + 1] - begins[rank]);
   }
-  /// Where the part of each process begins in such a list, and the size of the list.
+  /// The place in a list of probes, in ascending order, at which the part of each process begins,
+  /// and then the size of the list.
   std::vector<std::size_t> places_of_parts(std::span<const int> probes) const;
 
-  /// Gives every process what the others found of their probes. `values` has as many entries for
-  /// each probe of the field, probe after probe.
+  /// Gives every process the values that the others computed for their probes. `values` has the
+  /// same number of entries for each probe of the field, probe after probe.
   template <class T>
   void gather(std::span<T> values) const {
     if (alone()) return;
@@ -65,8 +67,8 @@ class ProbeShare {
   double work_of(int probe) const;
 
   Ranks* ranks_ = &one_rank();
-  std::vector<int> firsts_;   // of each process's probes; then the number of all
-  std::vector<double> work_;  // with a probe of each process's; empty: not known
+  std::vector<int> firsts_;   // the first probe of each process; then the number of all probes
+  std::vector<double> work_;  // per probe, one entry for each process; empty: not known
 };
 
 }  // namespace lambent

@@ -113,12 +113,12 @@ bool IrradianceField::State::follows_viewer() const {
                      [](const VolumeRole& role) { return role.follows_viewer; });
 }
 
-/// Whether an update learns how far lookups are off. An exact number of bounces is carried without:
-/// gathers tell of light of any number. So are volumes that follow the viewer: where one hands over
-/// to another that scrolled there and has learned nothing yet, light would step.
+/// Whether an update learns corrections of lookups. With an exact number of bounces it does not,
+/// since gathers include light of all bounces. With volumes that follow the viewer it does not
+/// either: light would jump where a volume with corrections borders on one that has just scrolled.
 bool IrradianceField::State::learns_corrections(std::span<const TraceGroup> groups) const {
   if (!settings.corrections || settings.max_bounces >= 0 || follows_viewer()) return false;
-  // What is gathered can be compared with light of the same world alone
+  // Gathered light can be compared only with light of the same world
   std::size_t lit = 0, all = 0;
   for (const TraceGroup& group : groups) {
     all += group.probes.size();
@@ -131,8 +131,8 @@ void IrradianceField::State::trace(const World& world, std::vector<TraceGroup> g
                                    UpdateStatistics& statistics) {
   for (const TraceGroup& group : groups) {
     for (const int probe : group.probes) {
-      // A probe that woke before it was brought up to date holds an average of the light before the
-      // edit
+      // A probe that became awake before the edits were applied to it holds an average of the light
+      // before them
       if (statuses[probe].revision != world.revision()) {
         reset_history(probe, world.revision(), statuses, scheduling.scheduler);
       }
@@ -203,7 +203,7 @@ std::vector<int> IrradianceField::State::all_probes() const {
   return all;
 }
 
-/// Has volumes follow the viewer, and places and classifies probes.
+/// Scrolls volumes with the viewer, and places and classifies probes.
 void IrradianceField::State::place_all(const World& world, const std::optional<vec3>& viewer_ws,
                                        UpdateStatistics& statistics) {
   find_solid_sides(world);
@@ -238,7 +238,7 @@ std::uint64_t IrradianceField::State::edit_budget(const UpdateRequest& request) 
   return request.ray_budget == 0 ? learned : std::min(request.ray_budget, learned);
 }
 
-/// Computes how many rays are left of a budget once edits have taken so many rays and so long.
+/// Computes how many rays are left of a budget after edits have taken `spent` rays and `spent_ms`.
 std::uint64_t IrradianceField::State::budget_after_edits(const UpdateRequest& request,
                                                          std::uint64_t spent,
                                                          double spent_ms) const {
@@ -261,7 +261,7 @@ std::vector<TraceGroup> IrradianceField::State::schedule(std::uint64_t budget,
   return group_by_rays(schedule, settings, update);
 }
 
-/// Computes how much each probe matters to the points that the camera sees.
+/// Computes the importance of each probe to the points that the camera sees.
 void IrradianceField::State::weigh_importance(std::span<const FieldQuery> seen) {
   backend->fetch_store();
   scheduling.importance =
@@ -273,7 +273,7 @@ void IrradianceField::State::weigh_importance(std::span<const FieldQuery> seen) 
 /// Solves once more as soon as all probes have been traced.
 void IrradianceField::State::end_warm_up(UpdateStatistics& statistics) {
   if (!scheduling.warming_up || scheduling.scheduler.never_traced() > 0) return;
-  // Probes that were traced while others held no light yet have received a part of the bounces only
+  // Probes that were traced while others held no light yet have received only part of the bounces
   if (updates > 0 && settings.max_bounces < 0) solve_warm_up(statistics);
   scheduling.warming_up = false;
 }
@@ -309,12 +309,12 @@ UpdateStatistics IrradianceField::update(const World& world, const UpdateRequest
   }
   s.forget_corrections(progress);
   const double forgotten_ms = whole.lap();
-  // Without edits, what comes before the rays is part of their cost
+  // Without edits, the time before the rays are traced is part of their cost
   const double spent_ms =
       progress == EditProgress::none ? 0.0 : before_edits_ms + edits_ms + forgotten_ms;
   const std::uint64_t left = budget == 0 ? 0 : s.budget_after_edits(request, spent, spent_ms);
-  // Tracing is put off while stale probes are left: new surfels could no longer be compared with
-  // those from before the edits
+  // New rays are not traced while stale probes are left: new surfels could no longer be compared
+  // with those from before the edits
   const bool trace =
       progress != EditProgress::partial &&
       (budget == 0 ? progress == EditProgress::none || s.edits.applied_last : left > 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fields over time: what a field on the device holds after edits, under budgets and on the move is
-// what one on the processor does.
+// Fields over time: after edits, with budgets and with scrolling volumes, a field on the device
+// holds the same light as one on the processor.
 #include <cmath>
 #include <random>
 
@@ -15,13 +15,13 @@
 namespace lambent {
 namespace {
 
-// Both sides draw the same random numbers. Rays that graze edges, and rounding that tips a dither
-// or a schedule, leave some texels a step apart.
+// Both fields draw the same random numbers. Some texels differ by a step, because of rays that
+// graze edges, and of rounding that changes a dither or a schedule.
 constexpr double kTolerance = 0.01;
 
 constexpr int kPoints = 500;
 
-/// Points in the open part of a box, that ask in all directions.
+/// Queries at points in the open part of a box, with normals in all directions.
 std::vector<FieldQuery> points_in(const Bounds& box) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> unit(0.0f, 1.0f);
@@ -35,7 +35,7 @@ std::vector<FieldQuery> points_in(const Bounds& box) {
   return points;
 }
 
-/// One scene in two worlds, a field in each.
+/// The same scene in a world on the processor and in one on the device, with a field in each.
 class Twins {
  public:
   Twins(const char* name, FieldSettings settings, std::shared_ptr<vulkan::Device> device)
@@ -51,7 +51,8 @@ class Twins {
     ASSERT_TRUE(there.update());
   }
 
-  /// Away from the lattice that cascades keep to: whether a probe on a wall sees it is chance.
+  /// Moves the scene off the lattice on which the probes of cascades stand: rounding decides
+  /// whether the rays of a probe on a wall hit the wall.
   void leave_lattice() {
     for (Instance& instance : scene.instances) {
       instance.world_from_object[3] += vec4(0.037f, 0.041f, 0.043f, 0.0f);
@@ -134,7 +135,7 @@ TEST_F(FieldOverTime, FollowsAMovedBoxAlike) {
   EXPECT_LE(twins.difference(), kTolerance);
 }
 
-/// A request of a budget that reaches less than half of the probes.
+/// A request with a budget that suffices for less than half of the probes.
 UpdateRequest scarce_rays() {
   UpdateRequest request;
   request.ray_budget = 1000;
@@ -142,9 +143,9 @@ UpdateRequest scarce_rays() {
   return request;
 }
 
-// A schedule that rounding tips gives other probes their turn, and those that follow are others
-// too. Budgets are so compared over a few updates each, which all are of the same probes: the first
-// four reach each probe, and the fifth comes back to those with the largest errors.
+// If rounding changes one choice of a schedule, all later choices differ as well. Budgets are
+// therefore compared over a few updates, which choose the same probes on both sides: the first four
+// trace each probe, and the fifth those with the largest errors.
 constexpr int kScarceUpdates = 5;
 
 TEST_F(FieldOverTime, SpendsABudgetAlike) {
@@ -161,7 +162,7 @@ TEST_F(FieldOverTime, SpendsABudgetOnSeenPointsAlike) {
   Twins twins("two-rooms", small(), shared_device());
   UpdateRequest request = scarce_rays();
   twins.update(request);
-  // Points that are seen decide by what probes receive through surfels
+  // With visible points, the schedule also depends on the importance that surfels scatter
   request.seen = twins.points;
   for (int i = 1; i < kScarceUpdates; ++i) {
     twins.update(request);
@@ -248,7 +249,7 @@ TEST_F(FieldOverTime, SeesByRaysInCascadesAlike) {
 TEST_F(FieldOverTime, ComesAndGoesWithItsLight) {
   Twins twins("cornell", small(), shared_device());
   for (int i = 0; i < 4; ++i) twins.update();
-  // The device's field goes on on the processor, and the other way round
+  // The device's field continues on the processor, and the processor's on the device
   twins.cpu->update(twins.there);
   twins.field_resources->update(twins.here);
   std::vector<glm::vec3> a(twins.points.size()), b(a);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Looking a field up on a device, against the processor's lookup of the same store.
+// Compares the lookup of a field on a device with the processor's lookup of the same store.
 #include "field/lookup/lookup_volumes.h"
 #include "field/vulkan/field_resources.h"
 #include "support/random_store.h"
@@ -43,7 +43,7 @@ TEST_P(FieldLookup, AnswersAsTheProcessorDoes) {
   std::vector<vec3> expected(queries.size());
   lookup_irradiance(store, {}, queries, expected);
   for (std::size_t i = 0; i < queries.size(); ++i) {
-    // Where hardly any probe is seen, Chebyshev's bound magnifies rounding
+    // Where hardly any probe is visible, Chebyshev's bound magnifies rounding
     ASSERT_LE(length(found[i] - expected[i]), 2e-3f * length(expected[i])) << i;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions of the field that both languages share, from numbers to numbers.
+// Functions of the field that C++ and GLSL share, as a function from numbers to numbers.
 #ifndef LAMBENT_TESTS_TWIN_FIELD_MATH_H
 #define LAMBENT_TESTS_TWIN_FIELD_MATH_H
 
@@ -15,21 +15,21 @@
 LAMBENT_BEGIN
 
 struct FieldMathArguments {
-  FloatArray in_numbers;   ///< kFieldMathInputs a case, 0 to 1.
-  FloatArray out_numbers;  ///< kFieldMathOutputs a case.
+  FloatArray in_numbers;   ///< kFieldMathInputs per case, 0 to 1.
+  FloatArray out_numbers;  ///< kFieldMathOutputs per case.
   uint count;
   uint padding;
 };
 
 const int kFieldMathInputs = 16;
-const int kFieldMathExact = 11;    // outputs that must agree to the bit, ...
-const int kFieldMathOutputs = 26;  // ... and those after them, up to rounding
+const int kFieldMathExact = 11;    // the first outputs, which must agree to the bit
+const int kFieldMathOutputs = 26;  // all outputs; the others must agree up to rounding
 
 struct FieldMathResult {
   float number[kFieldMathOutputs];
 };
 
-/// A gram matrix of three random steps and their projections.
+/// The Gram matrix of three random steps, and their products with a residual.
 LAMBENT_FN StepProducts some_products(vec3 a, vec3 b, vec3 c, vec3 residual) {
   vec3 steps[3];
   steps[0] = a;

@@ -33,8 +33,8 @@ TEST_F(FieldMath, AgreesWithTheProcessor) {
       if (k < kFieldMathExact) {
         ASSERT_EQ(is, should) << i << " " << k;
       } else {
-        // Divisions, roots and powers of a device are off by a few units in the last place, which
-        // the 100th power multiplies
+        // Divisions, roots and powers of a device are off by a few units in the last place, and the
+        // 100th power multiplies this error
         ASSERT_NEAR(is, should, 1e-4f * abs(should) + 1e-6f) << i << " " << k;
       }
     }
@@ -54,7 +54,7 @@ TEST(Wide, KeepsTwiceTheDigits) {
 }
 
 TEST(AndersonMath, TakesStepsBackSoThatNothingIsLeft) {
-  // The residual is a sum of the steps' changes: their shares are its coefficients
+  // The residual is a weighted sum of the steps' changes: the weights are the coefficients
   const vec3 a(1.0f, 0.2f, 0.1f), b(0.3f, -1.0f, 0.4f), c(0.2f, 0.5f, 0.9f);
   const vec3 coefficients =
       step_coefficients(some_products(a, b, c, 0.5f * a - 2.0f * b + 0.25f * c), 3);

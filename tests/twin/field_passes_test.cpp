@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of a field's update on a device, each against the processor's on the same inputs.
+// Compares each pass of a field's update on a device with the processor's on the same inputs.
 #include <algorithm>
 
 #include "field/vulkan/device_solver.h"
@@ -33,7 +33,7 @@ const UpdateOnCpu& cascades() {
 
 class FieldPasses : public test::OnDevice {
  protected:
-  /// The device's field as the processor's is once all passes but the solve are done.
+  /// A field on the device in the state of the processor's after all passes but the solve.
   static FieldResources put(const UpdateOnCpu& update) {
     FieldResources field(device(), update.settings, update.store);
     field.write_surfels(update.all, update.traces);
@@ -44,7 +44,7 @@ class FieldPasses : public test::OnDevice {
     vulkan::read<vec4>(device(), buffer, light);
     return light;
   }
-  /// Of the list's probes, in the order in which they were named.
+  /// Sorts light from the list's order of probes into the caller's order.
   static WorkingIrradiance in_order(const DeviceProbes& list, const WorkingIrradiance& light,
                                     std::size_t texels) {
     WorkingIrradiance ordered(light.size());
@@ -53,7 +53,7 @@ class FieldPasses : public test::OnDevice {
     }
     return ordered;
   }
-  /// The other way round.
+  /// Sorts light from the caller's order of probes into the list's order.
   static WorkingIrradiance in_list(const DeviceProbes& list, const WorkingIrradiance& ordered,
                                    std::size_t texels) {
     WorkingIrradiance light(ordered.size());
@@ -91,7 +91,8 @@ TEST_F(FieldPasses, RaysLeaveProbesWhereTheyStand) {
   }
 }
 
-/// Distances of two stores: where dither is at the edge between two codes, rounding tips it.
+/// Expects almost equal distances of two stores. Where the dither is close to the border between
+/// two codes, rounding may change the code.
 void expect_like_distances(const ProbeStore& a, const ProbeStore& b) {
   std::size_t other = 0;
   const bool halves = a.distance_format() == DistanceFormat::rg16f;
@@ -103,7 +104,7 @@ void expect_like_distances(const ProbeStore& a, const ProbeStore& b) {
       ASSERT_LE(abs(u.x - v.x), 1.1e-3f * u.x) << i;
       ASSERT_LE(abs(u.y - v.y), 1.1e-3f * u.y) << i;
     } else {
-      // Powers of cosines and sums in another order
+      // The device computes powers of cosines differently, and sums in another order
       ASSERT_NEAR(uintBitsToFloat(x), uintBitsToFloat(y), 2e-5f * uintBitsToFloat(x)) << i;
     }
   }
@@ -155,13 +156,13 @@ void expect_like_lookups(const UpdateOnCpu& update, const FieldResources& field)
     const auto slots = static_cast<std::size_t>(field.lookups_per_surfel());
     std::vector<std::size_t> next(trace.surfels.size(), 0);
     const auto expect = [&](std::size_t ray, const SurfelLookup& should) {
-      // Where no probe knows anything, nothing is read
+      // Where no probe has a weight, nothing is read
       if (std::count(should.corners.weight, should.corners.weight + kCellCorners, 0.0f) ==
           kCellCorners) {
         return;
       }
       const SurfelLookup& is = found[ray * slots + next[ray]++];
-      // Chebyshev's bound is steep, and its inputs are rounded on both sides
+      // Chebyshev's bound is steep, and the processor and the device round its inputs differently
       for (int k = 0; k < kCellCorners; ++k) {
         ASSERT_NEAR(is.corners.weight[k], should.corners.weight[k], 2e-3f);
       }
@@ -216,7 +217,7 @@ TEST_F(FieldPasses, LightIsCarriedAsOnTheProcessor) {
       if (mode == kGatherAll) update->transport().apply(light, light, expected);
       if (mode == kGatherDirect) update->transport().apply_direct(light, expected);
       if (mode == kGatherSky) update->transport().apply_sky(light, expected);
-      // Sums of some hundred products, in another order
+      // The sums of some hundred products are in another order
       const double far =
           norm(expected) > 0.0 ? relative_distance(received, expected) : norm(received);
       EXPECT_LE(far, 1e-5) << mode;
@@ -247,7 +248,7 @@ TEST_F(FieldPasses, ASolveComesToWhatTheProcessorsDoes) {
       EXPECT_NEAR(here.iterations, there.iterations, 1);
       EXPECT_LE(here.error, settings.tolerance);
       EXPECT_NEAR(here.change, there.change, 1e-4 * there.change);
-      // Either solution is as exact as it was asked to be
+      // Both solutions are exact up to the tolerance
       const WorkingIrradiance solved = download_light(field.light(), expected.size());
       EXPECT_LE(relative_distance(solved, expected), 2.0 * settings.tolerance);
       const WorkingIrradiance solution =
@@ -275,7 +276,7 @@ TEST_F(FieldPasses, ASolveStopsAtTheIterationsItIsGiven) {
     solver.record(to, list, blend_weights, 1.0f, {}, {0.95f, 1e-7f, 2});
   });
   EXPECT_EQ(solver.result().iterations, 2);
-  // Two iterations have nothing to look back on
+  // The first two iterations have no earlier steps to extrapolate from
   const WorkingIrradiance solution =
       in_order(list, download_light(solver.solution(), plain.size()), update.tile_texels());
   EXPECT_LE(relative_distance(solution, plain), 1e-5);
@@ -332,7 +333,7 @@ TEST_F(FieldPasses, LightIsStoredAsOnTheProcessor) {
     for (std::size_t i = 0; i < store.irradiance_words().size(); ++i) {
       if (store.irradiance_words()[i] != stored.irradiance_words()[i]) ++other;
     }
-    // The perceptual encoding takes a power, of which a device may lose the last bits
+    // The perceptual encoding computes a power, in whose last bits a device may differ
     const std::size_t allowed =
         format == IrradianceFormat::r11g11b10f ? store.irradiance_words().size() / 100 : 0;
     EXPECT_LE(other, allowed) << static_cast<int>(format);

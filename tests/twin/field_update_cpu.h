@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An update of a field on the processor, pass by pass, for a device's passes to be held against.
+// An update of a field on the processor, pass by pass, with which a device's passes are compared.
 #pragma once
 
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the kernel that maintains probes has them stand, against the processor's on the same
-// sights.
+// Compares the relocation of probes by the kernel maintain_probes with the processor's, for the
+// same hits.
 #include "field/placement/relocate.h"
 
 #include <algorithm>
@@ -18,12 +18,12 @@ namespace {
 
 using vulkan::Buffer, vulkan::Memory;
 
-// Steps of stored offsets that rounding may move one by, and the share of probes that it may make
-// decide otherwise: for another one of two surfaces as near, say.
+// The steps by which stored offsets may differ because of rounding, and the share of probes for
+// which it may lead to another result, for example where two surfaces are equally near.
 constexpr int kOffsetTolerance = 1;
 constexpr double kMaxOtherwise = 0.02;
 
-/// Boxes strewn through each other: all kinds of corners, and probes in solid matter.
+/// Random boxes that intersect each other: with all kinds of corners, and probes in solid matter.
 Scene clutter() {
   RandomStream random = make_random_stream(7, 8, 9);
   std::vector<Mesh> boxes;
@@ -42,7 +42,7 @@ RayResult ray_result(const FixedRayHit& hit, const mat3& axes) {
   return ray_met_surface(hit.distance, normal, normal, vec3(0.5f), vec3(0.0f), vec3(0.0f));
 }
 
-/// Probes on both sides.
+/// The same probes on the processor and on the device.
 class Relocated {
  public:
   Relocated(const vulkan::Device& device, const test::Stage& stage)
@@ -63,7 +63,8 @@ class Relocated {
     }
   }
 
-  /// A step of both from where the processor's probes stand. Returns how many decide otherwise.
+  /// Takes a step of relocation on both, from the positions of the processor's probes. Returns for
+  /// how many probes the results differ.
   int step(uint placed, uint placing_updates) {
     look();
     const MaintainArguments arguments = {{grids_.address()},
@@ -94,7 +95,7 @@ class Relocated {
  private:
   std::size_t rays() const { return probes_ * fixed_ray_directions().size(); }
 
-  /// A grid askew, so that frames matter.
+  /// A rotated grid, so that a confusion of frames is found.
   static ProbeGrid grid() {
     const float c = cos(0.4f), s = sin(0.4f);
     return still_grid({vec3(0.6f, 0.1f, 0.9f), vec3(0.5f, 0.6f, 0.55f), ivec3(5, 6, 5),
@@ -117,7 +118,8 @@ class Relocated {
     }
   }
 
-  /// Whether a probe's step comes out as the device's. The device's goes on from the processor's.
+  /// Whether a probe's step has the same result as the device's. The device's next step starts from
+  /// the processor's result.
   bool step_on_cpu(std::size_t k, uint place) {
     const auto probe = static_cast<int>(k);
     const std::size_t n = fixed_ray_directions().size();

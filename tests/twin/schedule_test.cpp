@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Schedules that a device decides: against a plain selection on the host, and what they do to a
-// recorded field.
+// Schedules that a device decides: compares them with a simple selection on the host, and tests
+// their effect on a recorded field.
 #include <numeric>
 
 #include "field/probes/tile_light.h"
@@ -20,7 +20,7 @@ using vulkan::Buffer, vulkan::Memory, vulkan::RecordedField, vulkan::RecordedFie
 constexpr std::uint32_t kUpdate = 1000;  // counted from 0
 constexpr float kMeanDeviation = 0.8f;
 
-/// Probes of which all sorts of things are known.
+/// Probes with random states, histories and variances.
 struct Crowd {
   explicit Crowd(const FieldSettings& of)
       : settings(of), store(test::grids_for(of, cornell().bounds()), of) {
@@ -37,7 +37,7 @@ struct Crowd {
     }
   }
 
-  /// As the kernel's, by the processor.
+  /// The bin of a probe, as the kernel computes it, on the processor.
   int bin_of(int probe, bool look) const {
     const ProbeVariability& own = variability[probe];
     const float weight = level_weight(roles[store.volume_of(probe)].level);
@@ -67,7 +67,7 @@ struct Crowd {
 
   FieldSettings settings;
   ProbeStore store;
-  std::vector<VolumeRole> roles = {{.follows_viewer = false, .level = 2}};  // of the one volume
+  std::vector<VolumeRole> roles = {{.follows_viewer = false, .level = 2}};  // for the only volume
   std::vector<ProbeStanding> standing;
   std::vector<uint> states;
   std::vector<ProbeVariability> variability;
@@ -75,7 +75,7 @@ struct Crowd {
 
 FieldSettings many_probes() {
   FieldSettings settings;
-  settings.probe_count = {20, 7, 5};  // three chunks, the last one in part
+  settings.probe_count = {20, 7, 5};  // three chunks, the last of them not full
   settings.rays_per_probe = 32;
   return settings;
 }
@@ -114,7 +114,7 @@ TEST_F(DeviceScheduleTest, ChoosesWhatAPlainSortChooses) {
   for (const int most : {8, 96, 400, 696}) {
     const bool look = most == 96;
     const Chosen chosen = choose(crowd, most, look);
-    // A device's roots and divisions may lose the last bits: of a probe between two bins
+    // A device's roots and divisions may differ in the last bits, for a probe between two bins
     int other = 0;
     for (int probe = 0; probe < crowd.store.probes(); ++probe) {
       const int bin = static_cast<int>(chosen.bins[probe]), expected = crowd.bin_of(probe, look);
@@ -191,7 +191,7 @@ TEST_F(DeviceScheduleTest, LearnsVarianceAsTheProcessorDoes) {
   fill(before);
   std::vector<float> blend_weights;
   for (int k = 0; k < list.count(); ++k) {
-    // Some rest, some held nothing
+    // Some probes are left out (weight 0), some have no history (weight 1)
     blend_weights.push_back(k % 10 == 0   ? 0.0f
                             : k % 10 == 1 ? 1.0f
                                           : 0.05f + 0.4f * next_uniform(random));
@@ -232,7 +232,7 @@ TEST_F(DeviceScheduleTest, LearnsVarianceAsTheProcessorDoes) {
   for (int probe = 0; probe < crowd.store.probes(); ++probe) {
     const ProbeVariability& is = booked[probe];
     const ProbeVariability& should = expected[probe];
-    // Sums over a tile in another order
+    // The sums over a tile are in another order
     EXPECT_NEAR(is.known.variance, should.known.variance, 1e-4f * should.known.variance) << probe;
     EXPECT_EQ(is.known.samples, should.known.samples) << probe;
     EXPECT_EQ(is.last_traced, should.last_traced) << probe;
@@ -242,7 +242,7 @@ TEST_F(DeviceScheduleTest, LearnsVarianceAsTheProcessorDoes) {
 
 class BudgetedFieldTest : public RecordedFieldTest {
  protected:
-  /// Probes that the device decided on.
+  /// The number of probes that the device has chosen.
   static std::uint32_t served(const RecordedField& field) {
     const vulkan::BufferRange launch = field.ray_launch();
     return launch.buffer == VK_NULL_HANDLE ? 0 : download<GroupCounts>(launch).front().y;
@@ -251,7 +251,7 @@ class BudgetedFieldTest : public RecordedFieldTest {
 
 TEST_F(BudgetedFieldTest, ComesToTheSameLightWithAQuarterOfTheRaysAndThenRests) {
   FieldSettings settings = recorded_settings();
-  settings.hysteresis = 0.9f;  // averages of ten updates
+  settings.hysteresis = 0.9f;  // averages remember ten updates
   RecordedFieldSettings recorded;
   recorded.rays_per_update = settings.rays_per_probe * settings.probe_count.x *
                              settings.probe_count.y * settings.probe_count.z / 4;
@@ -266,21 +266,21 @@ TEST_F(BudgetedFieldTest, ComesToTheSameLightWithAQuarterOfTheRaysAndThenRests) 
   EXPECT_GE(updates, 5 * 10);
   const IrradianceField on_cpu = test::make_field(cornell(), settings, 10);
   const std::vector<FieldQuery> queries = test::seen_points(cornell());
-  // Noise of other rays: the last 10 x 72 a probe on both sides
+  // Both have the noise of different rays: the last 10 x 72 per probe
   EXPECT_LE(difference(look_up(field, queries), test::look_up(on_cpu, queries)), 0.08);
 
-  // A change wakes them
+  // After a change, probes are traced again
   update(field, {.history = 0.1f});
   EXPECT_EQ(served(field), 16u);
 }
 
 TEST_F(BudgetedFieldTest, TracesNoMoreThanItsProbesDecidedOn) {
   FieldSettings settings = recorded_settings();
-  settings.hysteresis = 0.5f;  // averages of two updates
+  settings.hysteresis = 0.5f;  // averages remember two updates
   RecordedFieldSettings recorded;
   recorded.rays_per_update = 24 * settings.rays_per_probe;
   RecordedField field = make(settings, recorded);
-  // Two rounds, of which the second starts anew, and three times 24 of 80 probes
+  // Two rounds, in the second of which averages start again, and three updates of 24 of 80 probes
   for (int i = 0; i < 4 + 4 + 3; ++i) update(field);
   const vulkan::PlannedUpdate planned = field.plan().value();
   EXPECT_TRUE(planned.on_device);

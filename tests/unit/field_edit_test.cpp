@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Edits of the world, and what the field makes of them.
+// How the field follows edits of the world.
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
@@ -36,7 +36,7 @@ TEST(FieldEdit, LightThatGetsBrighterArrivesInOneUpdateWithoutAProbeRay) {
   EXPECT_EQ(statistics.probes_changed, 125);
   std::vector<double> expected = before;
   for (double& e : expected) e *= 3.0;
-  // As exact as the solution, not as the rays
+  // The error is that of the solve, not the noise of the rays
   EXPECT_LT(relative_rmse(light_of(edited.field), expected), 0.005);
 }
 
@@ -65,7 +65,7 @@ TEST(FieldEdit, EmissionThatChangesIsFollowed) {
   Edited edited("cornell");
   const std::vector<double> before = light_of(edited.field);
   for (Material& material : edited.scene.materials) material.emission *= 0.25f;
-  EXPECT_LT(edited.follow().probe_rays, 125u * 16u);  // those that meet the lamp
+  EXPECT_LT(edited.follow().probe_rays, 125u * 16u);  // those that hit the lamp
   std::vector<double> expected = before;
   for (double& e : expected) e *= 0.25;
   EXPECT_LT(relative_rmse(light_of(edited.field), expected), 0.01);
@@ -102,7 +102,7 @@ TEST(FieldEdit, ProbesThatItCannotReachKeepTheirBits) {
   FieldSettings settings = Edited::few();
   settings.probe_count = {8, 4, 4};
   Edited edited("two-rooms-sealed", settings);
-  // A second lamp in the other room, of which alone that room has light
+  // A second lamp, which is the only one that lights the other room
   Light lamp = edited.scene.lights[0];
   const Bounds bounds = open_bounds(edited.world);
   lamp.position_ws = bounds.min + bounds.max - lamp.position_ws;
@@ -132,7 +132,7 @@ TEST(FieldEdit, AnEditOfNothingIsNoEdit) {
   Edited edited("cube");
   const UpdateStatistics statistics = edited.follow();
   EXPECT_EQ(statistics.probes_invalidated, 0);
-  // The 27 in open air, which light no surface, sleep
+  // The 27 probes in open air, which light no surface, are sleeping
   EXPECT_EQ(statistics.probes_traced, 98);
 }
 
@@ -148,7 +148,7 @@ TEST(FieldEdit, OpenAirFollowsEditsThatNeverEnd) {
   const float before = light_in_the_middle();
   edited.scene.lights[0].intensity *= 3.0f;
   for (int i = 0; i < 12; ++i) {
-    // Each update brings an edit, too small to matter
+    // Every update has an edit, which is too small to be visible
     edited.scene.lights[0].intensity *= 1.0001f;
     ASSERT_TRUE(edited.world.update().has_value());
     edited.field.update(edited.world, {.ray_budget = 1u << 20});
@@ -175,14 +175,14 @@ TEST(FieldEdit, GoesOnWithAnotherWorldOfTheSameScene) {
   edited.scene.lights[0].intensity *= 3.0f;
   edited.follow();
   ASSERT_GT(edited.world.revision(), 0u);
-  // Revisions count from 0 again: what was averaged under later ones is not to be trusted
+  // Revisions count from 0 again: averages of later revisions must be discarded
   const World another(edited.scene);
   edited.field.update(another);
   EXPECT_LT(relative_rmse(light_of(edited.field), light_of(edited.settled())), 0.1);
 }
 
 TEST(FieldEdit, WhatDoesNotReceiveStaysDarkForTheNextBounce) {
-  // The light's own bounce remains: surfaces still reflect direct light
+  // The first bounce remains: surfaces still reflect direct light
   Scene scene = scenes::make("cube").value();
   const auto mean_light = [&] {
     const World world(scene);
@@ -210,7 +210,7 @@ std::vector<uint> offsets_of(const IrradianceField& field) {
 TEST(FieldEdit, ProbesMakeWayForWhatIsBuiltAmongThemOnceItKeepsStill) {
   Edited edited("cornell");
   const std::vector<uint> before = offsets_of(edited.field);
-  // The tall block wanders, frame by frame, though nobody said that it would
+  // The tall block moves in every frame, though it is not marked as dynamic
   Instance& block = edited.scene.instances.back();
   ASSERT_FALSE(block.dynamic);
   const Bounds bounds = open_bounds(edited.world);
@@ -222,7 +222,7 @@ TEST(FieldEdit, ProbesMakeWayForWhatIsBuiltAmongThemOnceItKeepsStill) {
   }
   for (int i = 0; i < 16; ++i) edited.field.update(edited.world);
   EXPECT_NE(offsets_of(edited.field), before);
-  // They stand where those of a field made for the scene as it is now do, and hold its light
+  // Probes stand where those of a new field for the current scene do, and hold the same light
   const IrradianceField fresh = edited.settled();
   std::vector<double> held, expected;
   for (int probe = 0; probe < fresh.probes(); ++probe) {
@@ -247,12 +247,12 @@ TEST(FieldEdit, ABudgetIsKeptAndTheLightArrivesAfterAFewUpdates) {
   int updates = 0;
   while (relative_rmse(light_of(edited.field), expected) > 0.05 && updates < 20) {
     const UpdateStatistics statistics = edited.field.update(edited.world, {.ray_budget = kBudget});
-    // One lamp: no more than one shadow ray a surfel
+    // With one lamp, a surfel takes at most one shadow ray
     EXPECT_LE(statistics.probe_rays + statistics.shadow_rays, 2 * kBudget);
     ++updates;
   }
   EXPECT_GE(updates, 2);
-  EXPECT_LE(updates, 16);  // half of them for open air
+  EXPECT_LE(updates, 16);  // half of them bring sleeping probes up to date
 }
 
 TEST(FieldEdit, RestsOnceItHasSettled) {
@@ -288,7 +288,7 @@ TEST(FieldEdit, SameBitsOnAnyNumberOfThreads) {
 TEST(FieldEdit, IsNotHeldUpByWhatLearningCorrectionsTakes) {
   Edited edited("cornell-spot");
   const double before = mean(light_of(edited.field));
-  // New rays take ages, as if corrections were learned with them; those of edits take no time
+  // Make new rays expensive, as if corrections were learned with them, and rays of edits cheap
   Scheduling& learned = FieldAccess::state_of(edited.field).scheduling;
   learned.ray_cost = {};
   learned.ray_cost.learn(1, 1e6);
@@ -298,7 +298,7 @@ TEST(FieldEdit, IsNotHeldUpByWhatLearningCorrectionsTakes) {
   ASSERT_TRUE(edited.world.update());
   const UpdateStatistics first = edited.field.update(edited.world, {.time_budget_ms = 1e3});
   EXPECT_GE(first.probes_invalidated, first.states.vigilant);
-  // Open air follows in the updates to come
+  // Sleeping probes follow in later updates
   EXPECT_NEAR(mean(light_of(edited.field)), 0.25 * before, 0.05 * before);
 }
 
@@ -318,11 +318,11 @@ TEST(FieldEdit, ALampThatGoesOnAgainIsAsBrightAsItWas) {
     edited.scene.lights[0].intensity = intensity;
     ASSERT_TRUE(edited.world.update());
     edited.field.update(edited.world);
-    // Open air follows within eight updates
+    // Sleeping probes follow within eight updates
     EXPECT_NEAR(mean(light_of(edited.field)) / mean(before), 1.0, 0.05);
     for (int i = 0; i < 8; ++i) edited.field.update(edited.world);
     EXPECT_NEAR(mean(light_of(edited.field)) / mean(before), 1.0, 0.02);
-    // What averaging had gained is lost, and corrections have to be learned again
+    // The averages are lost, and corrections must be learned again
     EXPECT_LT(relative_rmse(light_of(edited.field), before), corrections ? 0.12 : 0.05);
   }
 }

@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A volume with every value that a file can hold, and no two probes alike.
+/// A volume with a value for everything that a file stores, and no two probes alike.
 FieldVolume made_volume(IrradianceFormat irradiance, DistanceFormat distance) {
   FieldVolume volume;
   volume.grid = still_grid({{-1.0f, 0.5f, 2.0f}, {0.5f, 1.0f, 0.25f}, {3, 2, 2}});
@@ -145,7 +145,7 @@ TEST(FieldFile, StandsWhereTheDocumentSays) {
   EXPECT_EQ(bytes.size(), corrections + 4 + 104);
 }
 
-/// The reason why a file with these bytes is refused; empty: it is not.
+/// The error with which a file of these bytes is rejected; empty: it is accepted.
 std::string refusal(const std::vector<std::byte>& bytes) {
   const Expected<FieldFile> read = decode_field("a.field", bytes);
   return read ? "" : read.error().message();
@@ -155,7 +155,7 @@ void put_u32(std::vector<std::byte>& bytes, std::size_t offset, uint value) {
   for (int i = 0; i < 4; ++i) bytes[offset + i] = static_cast<std::byte>(value >> (8 * i));
 }
 
-/// The reason why a file is refused in which one word is another, but all else is right.
+/// The error with which a file is rejected in which only one word is wrong.
 std::string refusal_with(std::size_t offset, uint value, const FieldFile& file = made_file()) {
   std::vector<std::byte> bytes = encode_field(file);
   put_u32(bytes, offset, value);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of an update, as an executor is asked for it.
+// The order in which an update calls the passes of an executor.
 #include "field/passes.h"
 
 #include <gtest/gtest.h>
@@ -13,7 +13,7 @@
 namespace lambent {
 namespace {
 
-/// Writes down what it is asked for.
+/// Records the passes that are called.
 class Log final : public FieldPasses {
  public:
   explicit Log(Visibility visibility = Visibility::moments, int batches = 1) : batches_(batches) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes come in millimetres and in kilometres; light does not care.
+// The light of a scene must not depend on its unit of length.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -12,7 +12,8 @@
 namespace lambent {
 namespace {
 
-/// Weights at some points of a cell whose probes see a wall halfway to it, `scale` metres a cell.
+/// Weights at some points of a cell of `scale` metres, whose probes store mean distances of 0.3 to
+/// 0.7 of its edge.
 std::vector<CornerWeights> weights_at_scale(float scale, DistanceFormat format) {
   FieldSettings settings;
   settings.distance_format = format;
@@ -41,7 +42,7 @@ std::vector<CornerWeights> weights_at_scale(float scale, DistanceFormat format) 
 class FieldScale : public testing::TestWithParam<DistanceFormat> {};
 
 TEST_P(FieldScale, DoesNotChangeWhatIsVisible) {
-  // Powers of two scale floats without rounding: the same halves, dithered alike
+  // Powers of two scale floats without rounding, so that halves and their dither are the same
   constexpr float kTolerance = 1e-5f;
   const std::vector<CornerWeights> metres = weights_at_scale(1.0f, GetParam());
   for (const float scale : {1.0f / 1024.0f, 1.0f / 64.0f, 32.0f, 1024.0f}) {

@@ -14,8 +14,8 @@
 namespace lambent {
 namespace {
 
-/// A point of the plane of the octahedral map, in or just outside of the square, as the point of
-/// the square that stands for the same direction: beyond an edge the map goes on turned by half a
+/// Maps a point of the octahedral map's plane, in or just outside the square, to the point of the
+/// square with the same direction: beyond an edge, the map is continued by its rotation by half a
 /// turn about the middle of that edge.
 vec2 fold(vec2 p) {
   if (std::abs(p.x) > 1.0f) p = {std::copysign(2.0f, p.x) - p.x, -p.y};
@@ -68,7 +68,7 @@ ProbeStore random_store(int irradiance_texels, int distance_texels) {
 }
 
 TEST(Tile, BilinearFetchIsContinuousAcrossEveryEdgeOfTheOctahedron) {
-  // Steps this long across an edge may change a fetch by a few times the slope between texels
+  // A step of this length across an edge may change a fetch by a few times the slope between texels
   constexpr float kStep = 1e-4f;
   constexpr float kMaxChange = 60.0f * kStep;
   for (const int texels : {2, 4, 6, 14}) {
@@ -78,7 +78,8 @@ TEST(Tile, BilinearFetchIsContinuousAcrossEveryEdgeOfTheOctahedron) {
       EXPECT_LT(glm::distance(store.irradiance(0, a), store.irradiance(0, b)), kMaxChange);
       EXPECT_LT(glm::distance(store.moments(0, a), store.moments(0, b)), kMaxChange);
     };
-    // The edges lie in the three planes between the axes; the square's own are those with z < 0
+    // The octahedron's edges lie in the three planes between the axes; the square's edges are those
+    // with z < 0
     for (int i = 0; i < 720; ++i) {
       const float angle = kTwoPi * (static_cast<float>(i) + 0.21f) / 720.0f;
       const float c = cos(angle), s = sin(angle);
@@ -114,7 +115,7 @@ struct Harmonics {
   }
 };
 
-/// Root mean square, over the sphere, of what is read from the stored values less the function.
+/// Root mean square, over the sphere, of the difference between a fetch and the function.
 double reading_error(const Harmonics& function, const std::vector<float>& stored, int edge) {
   constexpr int kDirections = 4096;
   double sum = 0.0;
@@ -164,7 +165,8 @@ TEST(TileFit, ReadsHarmonicsOfDegreeTwoBetterThanValuesAtTheCentres) {
       centre_error += reading_error(function, centres, edge);
       fit_error += reading_error(function, fitted(centres, edge), edge);
     }
-    // Least squares is the best that a tile can hold: measured, 0.72 to 0.60 of the error
+    // The least-squares fit is the best that a tile can store: it was measured to have 0.72 to 0.60
+    // of the error
     EXPECT_LT(fit_error, 0.75 * centre_error) << edge;
   }
 }

@@ -21,7 +21,7 @@ namespace {
 using test::make_field;
 using test::Stage;
 
-/// All that a run leaves: the store's words and the frame's pixels.
+/// The results of a run: the store's words and the frame's pixels.
 struct Outcome {
   std::vector<uint> words;
   std::vector<float> pixels;
@@ -109,8 +109,8 @@ TEST(IrradianceField, TellsWhatAnUpdateDid) {
   EXPECT_LE(field.store_bytes(), 1168u * 125u);
 }
 
-/// The relative root mean square difference of the light of two fields' probes, seen as
-/// IrradianceField::standard_error() sees it.
+/// The relative root mean square difference of the light of two fields' probes, weighted as
+/// IrradianceField::standard_error() weights it.
 double difference(const IrradianceField& a, const IrradianceField& b) {
   const auto texels = static_cast<std::size_t>(a.settings().irradiance_texels) *
                       static_cast<std::size_t>(a.settings().irradiance_texels);
@@ -137,7 +137,7 @@ TEST(IrradianceField, KnowsItsStandardError) {
     EXPECT_EQ(field.standard_error(), std::numeric_limits<double>::infinity());
     for (int i = 0; i < 12; ++i) field.update(stage.world);
     const double few = field.standard_error();
-    // Of two fields, one has twice the variance
+    // The difference of two fields has twice the variance of one
     const IrradianceField other = make_field(stage, small_field(2), 12);
     const double found = difference(field, other) / std::sqrt(2.0);
     EXPECT_GT(few, 0.7 * found) << scene;

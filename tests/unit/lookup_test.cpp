@@ -35,7 +35,8 @@ ProbeStore random_store(const FieldSettings& settings) {
   return store;
 }
 
-/// Points in the grid, on its probes, and up to two cells beyond; any normal, any viewer.
+/// Queries at points in the grid, on its probes, and up to two cells beyond, with random normals
+/// and viewers.
 std::vector<FieldQuery> random_queries(const ProbeGrid& grid, int count) {
   RandomStream random = make_random_stream(4, 5, 6);
   const vec3 size = grid.spacing * vec3(grid.count - 1);
@@ -72,11 +73,11 @@ class Lookup : public testing::TestWithParam<Formats> {
 };
 
 TEST_P(Lookup, OfManyPointsEqualsTheSharedLookup) {
-  // Sums run in another order, and a variance is a difference of nearly equal numbers
+  // The sums are in another order, and a variance is a difference of nearly equal numbers
   constexpr float kTolerance = 2e-4f;
   const ProbeStore tested = store();
   SharedLookup shared{tested};
-  // Not a multiple of any batch
+  // The count is not a multiple of any batch size
   std::vector<FieldQuery> queries = random_queries(tested.grid(0), 1237);
   for (std::size_t i = 0; i < queries.size(); i += 2) {
     queries[i].viewer_distance = 1e-4f * static_cast<float>(i);
@@ -123,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Formats{IrradianceFormat::float32, DistanceFormat::rg16f, 2, 4},
                     Formats{IrradianceFormat::float32, DistanceFormat::rg32f, 16, 32}));
 
-/// A store whose probes see nothing near and hold a number each, the same in all directions.
+/// A store whose probes have no surfaces near and hold one number each, the same in all directions.
 template <class Value>
 ProbeStore store_of(Value value) {
   const FieldSettings settings = test::exact_formats();
@@ -191,7 +192,7 @@ TEST(IrradianceLookup, SurvivesNumbersThatAreNone) {
   EXPECT_NEAR(result[5].x, 1.0f, 1e-5f);
 }
 
-/// Irradiance at what the scene's camera sees.
+/// Irradiance at points that the scene's camera sees.
 std::vector<float> seen_irradiance(const std::string& scene, const FieldSettings& settings) {
   const Stage stage(scene);
   const IrradianceField field = make_field(stage, settings, 2);
@@ -213,8 +214,8 @@ TEST(IrradianceLookup, IsDarkBehindAClosedWall) {
   const std::vector<float> sealed = seen_irradiance("two-rooms-sealed", settings);
   const double lit = mean(open);
   ASSERT_GT(lit, 0.0);
-  // Shares of what a door gap lets in, measured: 0.008 % and, at the worst spot, 0.06 %. Published
-  // weights: 0.2 % and 15 %
+  // Measured as shares of the light through a door gap: 0.008 %, and 0.06 % at the worst point.
+  // With the published weights: 0.2 % and 15 %
   EXPECT_LT(mean(sealed), 5e-4 * lit);
   EXPECT_LT(*std::max_element(sealed.begin(), sealed.end()), 5e-3 * lit);
 }

@@ -12,14 +12,14 @@ namespace lambent {
 namespace {
 
 constexpr float kHysteresis = 0.97f;
-// The project's bar for a field under constant light: stored, it must stay what it is.
+// The largest relative drift of stored irradiance and moments when the same values are blended in.
 constexpr double kMaxDrift = 0.001;
 
 constexpr IrradianceFormat kIrradianceFormats[] = {
     IrradianceFormat::rgb9e5, IrradianceFormat::r11g11b10f, IrradianceFormat::float32};
 constexpr DistanceFormat kDistanceFormats[] = {DistanceFormat::rg16f, DistanceFormat::rg32f};
 
-/// Some thousand texels, so that the mean of what dither does to each is known well.
+/// A store with some thousand texels, so that the mean effect of dither is estimated well.
 ProbeStore make_store(IrradianceFormat irradiance, DistanceFormat distance) {
   FieldSettings settings;
   settings.irradiance_format = irradiance;
@@ -57,7 +57,8 @@ glm::dvec3 mean_irradiance(const ProbeStore& store) {
   return sum / static_cast<double>(store.probes() * n * n);
 }
 
-/// The mean over many updates of the mean over all texels, once the start is forgotten.
+/// The mean over many updates of the mean over all texels, after enough updates that the start has
+/// no weight.
 glm::dvec3 settled_irradiance(ProbeStore& store, const vec3& light) {
   constexpr int kForget = 300;  // updates: 0.97^300 is 1e-4
   constexpr int kWindows = 20, kWindow = 10;

@@ -36,7 +36,7 @@ class ProbeView : public ::testing::Test {
 
   Camera camera() const { return stage.scene.cameras.at(0); }
 
-  /// The pixel in which a point shows, and how far it is along the axis of view.
+  /// The pixel in which a point is visible, and its depth along the view axis.
   glm::vec3 project(const glm::vec3& point_ws) const {
     const glm::vec3 p(glm::inverse(camera().world_from_view) * glm::vec4(point_ws, 1.0f));
     const float slope = std::tan(0.5f * camera().vertical_fov);
@@ -71,9 +71,9 @@ TEST_F(ProbeView, SpheresStandWhereProbesDo) {
 }
 
 TEST_F(ProbeView, ScenesHideSpheresBehindThem) {
-  // Small enough not to pass through the wall that they stand before
+  // A radius that is small enough for spheres not to pass through the wall near them
   constexpr float kInside = 0.05f;
-  // From behind the back wall, opposite the open side, nothing of the room shows
+  // From behind the back wall, opposite the open side, nothing of the room is visible
   const Bounds room = world_bounds(stage.scene);
   const glm::vec3 middle = 0.5f * (room.min + room.max);
   const glm::vec3 eye(camera().world_from_view[3]);
@@ -93,7 +93,7 @@ TEST_F(ProbeView, ScenesHideSpheresBehindThem) {
 }
 
 TEST_F(ProbeView, ShowsWhatProbesHold) {
-  // Straight at one probe: the sphere's middle faces the camera
+  // The camera looks straight at one probe, at the middle of its sphere
   const int probe = 21;
   const glm::vec3 centre = store_of(field).probe_position_ws(probe);
   const glm::vec3 way = glm::normalize(glm::vec3(0.3f, 0.2f, 1.0f));

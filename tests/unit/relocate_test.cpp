@@ -24,7 +24,7 @@ using test::box_mesh;
 using test::scene_of;
 using test::Stage;
 
-// Where probes stand in front of surfaces, in smallest spacings, and how far off they may be.
+// The distance at which probes stand in front of surfaces, and its tolerance, in smallest spacings.
 constexpr float kMargin = 0.15f, kOff = 0.06f;
 
 /// Eight probes a metre apart, of which the last stands at (0, 0, 0).
@@ -93,7 +93,7 @@ TEST(Relocation, LooksThroughWhatMoves) {
   EXPECT_EQ(relocated(wall, moving), vec3(0.0f));
 }
 
-/// Boxes of all sizes strewn through each other: no place is good.
+/// Random boxes of all sizes that intersect each other, so that no place is good.
 Scene clutter() {
   RandomStream random = make_random_stream(7, 8, 9);
   std::vector<Mesh> boxes;
@@ -135,7 +135,7 @@ TEST(Relocation, ComesToRestWithinItsCellTheSameOnAnyNumberOfThreads) {
   EXPECT_GT(moved, 20);
 }
 
-/// A ray tracer that likes large batches, as devices do, and counts how many it is given.
+/// A ray tracer that prefers large batches, like devices, and counts its batches.
 class FarTracer final : public RayTracer {
  public:
   explicit FarTracer(const RayTracer& near) : near_(near) {}
@@ -169,8 +169,8 @@ TEST(Relocation, ComesToTheSamePlacesInBatchesOfAnySize) {
     return std::vector<uint>(store.offset_words().begin(), store.offset_words().end());
   };
   EXPECT_EQ(offsets(far), offsets(tracer_of(stage.world)));
-  // As many as the steps of the probe that takes most, and a few more each for what moves in the
-  // way
+  // The number of batches is about the number of steps of the probe that takes most, and a few more
+  // per step for moving instances in the rays' way
   EXPECT_LT(far.batches, 300);
   EXPECT_GT(far.batches, 1);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which probes an update with a budget serves.
+// Which probes an update with a budget traces.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace lambent {
 namespace {
 
-/// Probes along the edges of a box, and what is known of them.
+/// The probes of a box, and their statuses.
 struct Crowd {
   Crowd()
       : store(still_grid({vec3(0.0f), vec3(1.0f), ivec3(20, 7, 5)}), settings),
@@ -19,7 +19,7 @@ struct Crowd {
     for (ProbeStatus& record : records) record.state = ProbeState::vigilant;
   }
 
-  /// All traced, each with a variance of its own.
+  /// Marks all probes as traced, each with a variance of its own.
   void serve(std::uint32_t update) {
     RandomStream random = make_random_stream(1, 2, 3);
     for (ProbeStatus& record : records) {

@@ -19,7 +19,7 @@ using test::look_up;
 using test::make_field;
 using test::Stage;
 
-/// One update's transport operator over a scene, made as the field makes it.
+/// The transport operator of an update in a scene, made as the field makes it.
 class Transport {
  public:
   Transport(const Stage& stage, const FieldSettings& settings)
@@ -49,7 +49,7 @@ class Transport {
     return WorkingIrradiance(static_cast<std::size_t>(store_.probes()) * texels_ * texels_,
                              vec4(0.0f));
   }
-  /// Takes all of a solution for every probe.
+  /// A blend weight of 1 for every probe.
   std::vector<float> all() const { return std::vector<float>(store_.probes(), 1.0f); }
   int tile_texels() const { return texels_ * texels_; }
 
@@ -73,7 +73,7 @@ FieldSettings few_probes() {
   return settings;
 }
 
-/// Rooms that light leaves slowly, which makes them hard to solve.
+/// Rooms in which light is absorbed slowly, which makes a solve converge slowly.
 const Stage& rooms() {
   static const Stage stage("two-rooms");
   return stage;
@@ -84,7 +84,7 @@ double relative_distance(WorkingIrradiance a, const WorkingIrradiance& b) {
   return norm(a) / norm(b);
 }
 
-/// So many plain applications of the operator to darkness: the Neumann sum.
+/// The Neumann sum: this many applications of the operator to darkness, without acceleration.
 WorkingIrradiance neumann_sum(const Transport& transport, int terms) {
   const TransportOperator op = transport.make_operator();
   WorkingIrradiance field = transport.darkness(), next = field;
@@ -104,7 +104,7 @@ TEST(Relight, AcceleratedSolutionEqualsTheNeumannSumToTheTolerance) {
     const SolveResult result = transport.solve_bounces({0.95f, tolerance, 200}, solution);
     EXPECT_LE(result.error, tolerance);
     EXPECT_LT(result.iterations, 200);
-    // The error is estimated, from how fast steps shrink
+    // The error is estimated from the contraction of the steps
     EXPECT_LE(relative_distance(solution, truth), 1.5f * tolerance);
   }
 }
@@ -114,7 +114,7 @@ TEST(Relight, AccelerationSavesIterations) {
   const WorkingIrradiance truth = neumann_sum(transport, 400);
   WorkingIrradiance solution = transport.darkness();
   const SolveResult result = transport.solve_bounces({0.95f, 1e-4f, 200}, solution);
-  // As many plain applications stay farther from the truth
+  // The same number of applications without acceleration is farther from the truth
   EXPECT_GT(relative_distance(neumann_sum(transport, result.iterations), truth),
             3.0 * relative_distance(solution, truth));
 }
@@ -164,7 +164,7 @@ TEST(Relight, BouncesArePlainApplications) {
     const SolveResult result =
         solve_counted_bounces(transport.make_operator(), transport.all(), bounces, solution);
     EXPECT_EQ(result.iterations, bounces);
-    // There is no sky, so the sum starts from darkness; no texel keeps less than no light
+    // There is no sky, so that the sum starts from darkness; negative light is clamped to 0
     WorkingIrradiance expected = neumann_sum(transport, bounces);
     for (vec4& e : expected) e = max(e, vec4(0.0f));
     EXPECT_TRUE(solution == expected) << bounces;
@@ -214,7 +214,7 @@ TEST(IrradianceField, AllBouncesEqualVeryMany) {
   const std::vector<glm::vec3> all = look_up(make_field(rooms(), settings), queries);
   settings.max_bounces = 200;
   const std::vector<glm::vec3> many = look_up(make_field(rooms(), settings), queries);
-  // The tolerance is a share of all light: of what the lit room holds, in the dark room, too
+  // The tolerance is relative to all light: in the dark room, too, to the light of the lit room
   float brightest = 0.0f;
   for (const glm::vec3& e : many) brightest = std::max(brightest, glm::length(e));
   for (std::size_t i = 0; i < queries.size(); ++i) {

@@ -8,15 +8,15 @@
 //   uint fetch_refined(CorrectionsRef table, uint slot, int cell)
 //       encode_correction() of a cell's refined ratio and its number of samples
 
-/// What a cell adds to a mean: its ratio times its weight, and the weight.
+/// The term of a cell in a weighted mean: its ratio times its weight, and the weight.
 LAMBENT_FN vec2 weighed_cell(CorrectionsRef table, uint slot, int cell, float weight) {
   CorrectionCell held = decode_correction(fetch_refined(table, slot, cell));
   float samples = weight * (held.samples + kLeastCorrectionSamples);
   return vec2(samples * held.ratio, samples);
 }
 
-/// The sum of the eight cells around a point, which is given in the cells of a level; 0 where
-/// nothing is known.
+/// The sum of the terms (weighed_cell()) of the eight cells around a point, which is given in cells
+/// of a level. It is 0 where the table has none of them.
 LAMBENT_FN vec2 interpolated_cells(CorrectionsRef table, vec3 coords, uint axis, uint level,
                                    uint volume) {
   vec3 base = floor(coords - vec3(0.5f));
@@ -28,8 +28,9 @@ LAMBENT_FN vec2 interpolated_cells(CorrectionsRef table, vec3 coords, uint axis,
   int next = cell_of_block(lowest);
   int within = (kCellCorners - 1) & ~next;
   vec2 sum = vec2(0.0f);
-  // Of a block that is the next one along the directions b, the corners b and any of those within.
-  // (s - m) & m is what follows s among the sets of bits of m, in their order; 0 after the last one
+  // Visit the blocks, where `b` has the directions in which a block is the next one, and of each
+  // block the cells `b | rest`. (s - m) & m is the subset of the bits of m that follows the subset
+  // s, and 0 after the last one
   int b = 0;
   do {
     uint slot = find_block(table, correction_key(block + cell_corner(b), axis, level, volume));
@@ -46,9 +47,9 @@ LAMBENT_FN vec2 interpolated_cells(CorrectionsRef table, vec3 coords, uint axis,
   return sum;
 }
 
-/// The ratio by which the lookup in a volume is off at a point with a normal; 1 where nothing is
-/// known. Smooth to look at: the fewer samples a level has around the point, the more the coarser
-/// ones count.
+/// The factor that corrects the lookup in a volume at a point with a normal; 1 where none is known.
+/// It varies smoothly: the fewer samples a level has around the point, the larger is the weight of
+/// the coarser ones.
 LAMBENT_FN float correction_at(CorrectionsRef table, ProbeGrid grid, uint volume, vec3 position_ws,
                                vec3 normal_ws) {
   vec3 normal = normal_ws * grid.axes;
@@ -74,8 +75,8 @@ LAMBENT_FN float correction_at(CorrectionsRef table, ProbeGrid grid, uint volume
   return ratio + left * last;
 }
 
-/// As correction_at, from a single cell, picked at random by the position: for many lookups whose
-/// mean counts. Its expectation is about the same.
+/// Like correction_at(), but reads a single cell, which a hash of the position picks. For many
+/// lookups of which only the mean matters. Its expectation is about the same.
 LAMBENT_FN float picked_correction(CorrectionsRef table, ProbeGrid grid, uint volume,
                                    vec3 position_ws, vec3 normal_ws) {
   vec3 pick = correction_pick(grid, position_ws);
@@ -106,8 +107,8 @@ LAMBENT_FN float coarser_correction(CorrectionsRef table, ivec3 cell, uint axis,
   return 1.0f;
 }
 
-/// What lookups read from one of a block's cells that has learned `own`, once the ratios of coarser
-/// levels are known.
+/// The value that lookups read from a cell of a block. The cell has learned `own`. The cells of
+/// coarser levels must be refined already.
 LAMBENT_FN uint refined_cell(CorrectionsRef table, CorrectionKey key, int cell,
                              LearnedCorrection own) {
   float coarser = coarser_correction(table, 2 * block_of_key(key) + cell_corner(cell),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of corrections in a device's memory, and the arguments of the kernels that teach it.
+// The table of corrections in a device's memory, and the arguments of the kernels that update it.
 #ifndef LAMBENT_FIELD_CORRECTION_CORRECTION_RECORDS_H
 #define LAMBENT_FIELD_CORRECTION_CORRECTION_RECORDS_H
 
@@ -16,15 +16,15 @@ LAMBENT_DEVICE_ARRAY(CorrectionItemArray, CorrectionItem, 4)
 // do not exceed any device's limit.
 const uint kCorrectionRow = 1u << 20u;
 
-/// What is known beside a query of a point at which light is gathered.
+/// A point at which light is gathered; its position and normal are in a QueryRecord.
 struct TrainingPointRecord {
   vec3 geometric_normal_ws;
   float gi_share;  ///< 0: there is no point.
-  uint index;      ///< Picks its random numbers.
+  uint index;      ///< Seeds the point's random numbers.
 };
 LAMBENT_DEVICE_ARRAY(TrainingPointArray, TrainingPointRecord, 4)
 
-/// As struct CorrectionSample; with a looked-up irradiance of 0 it is none.
+/// Like struct CorrectionSample. Where `looked_up` is 0, there is no sample.
 struct CorrectionSampleRecord {
   vec3 position_ws;
   vec3 normal_ws;
@@ -36,7 +36,7 @@ struct CorrectionSampleRecord {
 };
 LAMBENT_DEVICE_ARRAY(CorrectionSampleArray, CorrectionSampleRecord, 4)
 
-/// A surfel that an update learns at: its place among all surfels, and the ray that found it.
+/// A surfel at which an update gathers light: its index among all surfels, and the ray that hit it.
 struct TrainedSurfelRecord {
   int probe;
   uint surfel;
@@ -45,7 +45,7 @@ struct TrainedSurfelRecord {
 };
 LAMBENT_DEVICE_ARRAY(TrainedSurfelArray, TrainedSurfelRecord, 4)
 
-/// Arguments of training_points, which makes points of surfels.
+/// Arguments of training_points, which makes a point from each surfel.
 struct TrainingPointsArguments {
   StoreArrays store;
   TrainedSurfelArray trained;
@@ -53,7 +53,7 @@ struct TrainingPointsArguments {
   RaySetArray sets;
   TrainingPointArray points;
   QueryArray queries;
-  uint first;  ///< Of the trained surfels.
+  uint first;  ///< Index of the first trained surfel.
   uint count;
 };
 
@@ -62,15 +62,15 @@ struct TrainingRaysArguments {
   TrainingPointArray points;
   QueryArray queries;
   RayArray rays;
-  UintArray first_indices;  ///< Of a point's rays among all rays of the update.
-  UintArray ray_count;      ///< Rays drawn so far: one number.
+  UintArray first_indices;  ///< Index of each point's first ray among all rays of the update.
+  UintArray ray_count;      ///< Number of rays drawn so far: one word.
   uint count;
   uint number;
   uint seed;
   uint unused;
 };
 
-/// Arguments of training_queries, which asks the field for light where the rays end.
+/// Arguments of training_queries, which writes field queries for the hits of the rays.
 struct TrainingQueriesArguments {
   LitPointArray hit_points;
   RayArray rays;
@@ -79,8 +79,8 @@ struct TrainingQueriesArguments {
   uint unused;
 };
 
-/// Arguments of training_samples, which compares what points gather with what lookups find there,
-/// and then replaces each point by one that its rays met.
+/// Arguments of training_samples, which compares the gathered irradiance of points with that of
+/// lookups, and then replaces each point by the hit of one of its rays.
 struct TrainingSamplesArguments {
   StoreArrays store;
   TrainingPointArray points;
@@ -89,22 +89,23 @@ struct TrainingSamplesArguments {
   LitPointArray hit_points;
   ShadedHitArray shaded;
   Vec3Array direct;
-  Vec3Array arrives;  ///< Of the field, at the rays' ends.
+  Vec3Array arrives;  ///< The field's irradiance at the rays' hits.
   LookupArray lookups;
-  CorrectionSampleArray samples;  ///< As many for each point as lookups.
+  CorrectionSampleArray samples;  ///< One for each lookup of each point.
   uint count;
   uint number;
   uint seed;
   uint unused;
 };
 
-// What an update's samples have in common, as numbers of an array: the mean of what lookups find, 0
-// where there are no samples, and how many samples each one counts as.
+// The indices, and the length, of an array of numbers that an update's samples share: the mean
+// irradiance of lookups, 0 where there are no samples; and the number of samples that each one
+// counts as.
 const uint kCorrectionMean = 0u;
 const uint kCorrectionWorth = 1u;
 const uint kCorrectionSummary = 2u;
 
-/// Arguments of correction_mean, which finds what the samples of an update have in common.
+/// Arguments of correction_mean, which computes the `summary` of an update's samples.
 struct CorrectionMeanArguments {
   CorrectionSampleArray samples;
   FloatArray summary;  ///< kCorrectionSummary numbers.
@@ -118,12 +119,12 @@ struct CorrectionItemsArguments {
   FloatArray summary;
   GridArray grids;
   CorrectionItemArray items;  ///< kCorrectionLevels for each sample.
-  UintArray first_items;      ///< By bucket: the place of its first item, from 1; 0: none.
+  UintArray first_items;      ///< For each bucket, the place of its first item, from 1; 0: none.
   uint buckets;
-  uint count;  ///< Of the samples.
+  uint count;  ///< Number of samples.
 };
 
-/// Arguments of merge_corrections, which takes listed samples into the table.
+/// Arguments of merge_corrections, which adds listed samples to the table.
 struct MergeCorrectionsArguments {
   CorrectionKeyArray keys;
   LearnedArray learned;
@@ -134,7 +135,8 @@ struct MergeCorrectionsArguments {
   float keep;
 };
 
-/// Arguments of refine_corrections, which finds what lookups read from the cells of one level.
+/// Arguments of refine_corrections, which computes the values that lookups read from the cells of
+/// one level.
 struct RefineCorrectionsArguments {
   CorrectionArrays table;
   LearnedArray learned;
@@ -142,12 +144,12 @@ struct RefineCorrectionsArguments {
   uint unused;
 };
 
-/// Arguments of forget_corrections.
+/// Arguments of forget_corrections, which reduces the weights of samples around probes.
 struct ForgetCorrectionsArguments {
   CorrectionKeyArray keys;
   LearnedArray learned;
   GridArray grids;
-  FloatArray kept;  ///< By probe: how much of what was learned still counts.
+  FloatArray kept;  ///< For each probe, the factor of the weights of the samples around it.
   uint slots;
   uint unused;
 };

@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kBucketsPerTask = 4096;
 
-/// What correction.inl.h reads.
+/// The table, as correction.inl.h reads it.
 struct Corrections {
   const CorrectionKey* keys;
   const std::array<uint, kCellCorners>* refined;
   uint buckets;
-  RecentBlocks* recent = nullptr;  // null: none are remembered
+  RecentBlocks* recent = nullptr;  // null: there is no cache
 };
 
 using CorrectionsRef = const Corrections&;
@@ -43,10 +43,10 @@ LAMBENT_FORCE_INLINE uint find_block(const Corrections& table, const CorrectionK
 
 #include "field/correction/correction.inl.h"
 
-/// What learn.inl.h works on.
+/// The table and the samples, as learn.inl.h uses them.
 struct Learning {
   CorrectionKey* keys;
-  std::size_t first_slot;  // of those that have learned cells here
+  std::size_t first_slot;  // the slot of the first entry of `learned`
   std::array<LearnedCorrection, kCellCorners>* learned;
   const CorrectionItem* items;
 };
@@ -73,7 +73,8 @@ LAMBENT_FORCE_INLINE const CorrectionItem& fetch_item(const Learning& table, uin
 
 #include "field/correction/learn.inl.h"
 
-/// How many samples one of an update counts as. `mean` is that of what lookups find.
+/// The number of samples that each sample of an update counts as. `mean` is the mean irradiance of
+/// all lookups.
 float worth_of(std::span<const CorrectionSample> samples, float mean) {
   double variances = 0.0, squares = 0.0;
   for (const CorrectionSample& sample : samples) {
@@ -150,7 +151,8 @@ std::size_t CorrectionTable::claim(const CorrectionKey& key) {
   return kNoCorrectionBlock;
 }
 
-/// Finds the ratios that lookups read from a block, once those of coarser levels are known.
+/// Computes the ratios that lookups read from a block. Those of coarser levels must be computed
+/// already.
 void CorrectionTable::refine(std::size_t slot) {
   const Corrections table = {keys_.data(), refined_.data(),
                              static_cast<uint>(keys_.size() / kCorrectionBucket)};
@@ -160,7 +162,8 @@ void CorrectionTable::refine(std::size_t slot) {
   }
 }
 
-/// Lists each sample in the buckets of its blocks. `mean` is that of what lookups find.
+/// Adds each sample to the lists of its blocks' buckets. `mean` is the mean irradiance of all
+/// lookups.
 void CorrectionTable::list_items(std::span<const ProbeGrid> grids,
                                  std::span<const CorrectionSample> samples, float mean) {
   const auto buckets = static_cast<uint>(keys_.size() / kCorrectionBucket);
@@ -206,7 +209,7 @@ void CorrectionTable::learn(std::span<const ProbeGrid> grids,
   refine_all();
 }
 
-/// Gives every rank what the others refined of a level: the next one reads it.
+/// Gives every rank the refined ratios of the others for a level, which the next level reads.
 void CorrectionTable::share_refined(uint level) {
   if (ranks_->count() == 1) return;
   struct Refined {
@@ -262,7 +265,7 @@ void CorrectionTable::restore(std::span<const CorrectionBlock> blocks, float wei
 }
 
 void CorrectionTable::forget(std::span<const ProbeGrid> grids, std::span<const float> kept) {
-  // Refining takes long, and most edits of a world that is edited without end change little light
+  // Refining takes long, and most edits of a world that is edited continually change little light
   if (std::all_of(kept.begin(), kept.end(), [](float share) { return share >= 1.0f; })) return;
   parallel_chunks(learned_.size(), kBucketsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t slot = first_slot_ + begin; slot < first_slot_ + end; ++slot) {

@@ -5,11 +5,11 @@
 
 namespace lambent {
 
-/// How lookups are corrected by what the field has learned of how far they are off.
+/// How lookups read the corrections that the field has learned.
 enum class CorrectionUse : std::uint8_t {
-  smooth,  ///< Interpolated between cells: for what is shown as it is.
-  picked,  ///< By one cell each, picked at random: for many lookups whose mean counts.
-  none,
+  smooth,  ///< Interpolates between cells, for lookups that are displayed.
+  picked,  ///< Reads one random cell, for many lookups of which only the mean matters.
+  none,    ///< Lookups are not corrected.
 };
 
 }  // namespace lambent

@@ -21,7 +21,7 @@ using LearnedCells = CorrectionTable::LearnedCells;
 static_assert(sizeof(CorrectionKey) == 8 && sizeof(CorrectionItem) == 24);
 static_assert(sizeof(LearnedCells) == kCellCorners * sizeof(LearnedCorrection));
 
-/// Runs a kernel over so many invocations, in rows of kCorrectionRow.
+/// Runs a kernel with `count` invocations, in rows of kCorrectionRow.
 template <class Arguments>
 void run_in_rows(vulkan::Recorder& to, const vulkan::Kernel& kernel, const Arguments& arguments,
                  std::uint32_t count) {

@@ -13,7 +13,7 @@
 
 namespace lambent {
 
-/// Kept by the device (Device::kept).
+/// The kernels of the table. The device owns one set (Device::kept).
 struct CorrectionKernels {
   explicit CorrectionKernels(const vulkan::Device& device);
   vulkan::Kernel mean, items, merge, refine, forget;
@@ -21,27 +21,27 @@ struct CorrectionKernels {
 
 class DeviceCorrections {
  public:
-  /// An empty table for a field of so many probes. It takes memory once there is something to know.
-  /// The device must outlive it.
+  /// Makes an empty table for a field of this many probes. It allocates memory when it is first
+  /// written or reserved. The device must outlive it.
   DeviceCorrections(const vulkan::Device& device, int probes);
 
-  /// What lookups read; none while the table is empty.
+  /// The arrays that lookups read; none while the table is empty.
   CorrectionArrays arrays(CorrectionUse use) const;
   bool empty() const { return keys_.empty(); }
   std::size_t bytes() const;
 
   // Transfers. None may be called while the device uses the table.
 
-  /// Takes over what the processor's table knows.
+  /// Uploads a table of the processor.
   void write(const CorrectionTable& table);
-  /// The table as one of the processor.
+  /// Reads the table back.
   CorrectionTable read() const;
-  /// Makes room for what `samples` samples teach. Must be called before that is recorded.
+  /// Reserves memory to learn from this many samples. Must be called before that is recorded.
   void reserve(std::size_t samples);
 
   // Passes. What they read must be visible before them, and what they write is visible after them.
 
-  /// Records CorrectionTable::learn() of as many samples as there is room for.
+  /// Records CorrectionTable::learn() of `count` samples, at most as many as reserve() was given.
   void record_learn(vulkan::Recorder& to, GridArray grids, CorrectionSampleArray samples,
                     std::uint32_t count, uint number) const;
   /// Records CorrectionTable::forget(). `kept` has an entry per probe.
@@ -56,9 +56,9 @@ class DeviceCorrections {
   const CorrectionKernels& kernels_;
   int probes_;
   uint buckets_;
-  // By slot; none until something is known
+  // By slot; empty until something is learned
   vulkan::Buffer keys_, learned_, refined_;
-  vulkan::Buffer items_, first_items_, summary_;  // while it learns
+  vulkan::Buffer items_, first_items_, summary_;  // used while the table learns
 };
 
 }  // namespace lambent

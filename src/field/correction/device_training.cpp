@@ -13,11 +13,12 @@ namespace {
 using vulkan::Memory;
 using vulkan::Recorder;
 
-// Points whose rays are in memory at a time: 65,536 rays fill any device, in about 15 MB.
+// The number of points whose rays are in memory at a time: 65,536 rays keep any device busy, and
+// take about 15 MB.
 constexpr std::uint32_t kPointsAtATime = 8192;
 constexpr std::uint32_t kRaysAtATime = kPointsAtATime * kTrainingRays;
 
-// Each surfel is a point, and another point follows it.
+// Each surfel is a point, and the hit of one of its rays is another point.
 constexpr std::size_t kPointsPerSurfel = 2;
 
 template <class T>
@@ -77,7 +78,7 @@ void DeviceTraining::begin(std::span<const TrainedSurfel> surfels, uint number) 
   field_.corrections().reserve(samples);
 }
 
-/// Traces the rays of the points that are at hand, and finds what light they bring.
+/// Records the gathers of the points in memory: their rays, and the light at the rays' hits.
 void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::uint32_t count) {
   const uint seed = field_.settings().seed;
   const std::uint32_t rays = count * kTrainingRays;
@@ -109,7 +110,8 @@ void DeviceTraining::record_gather(Recorder& to, const DeviceWorld& world, std::
                        field_.corrections().arrays(CorrectionUse::picked));
 }
 
-/// Makes samples of the points at hand, and replaces the points by those that follow.
+/// Records the samples of the points in memory, and the replacement of each point by the hit of one
+/// of its rays.
 void DeviceTraining::record_compare(Recorder& to, const DeviceWorld& world, std::uint32_t count,
                                     std::size_t first_sample) {
   field_.record_find_lookups(to, {queries_.address()}, count, {lookups_.address()},

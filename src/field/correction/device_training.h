@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers that teach a field in a device's memory how far its lookups are off: the twin of
+// Gathers from which a field in a device's memory learns corrections of its lookups: the twin of
 // train_corrections().
 #pragma once
 
@@ -19,10 +19,10 @@ class DeviceTraining {
   /// The field must outlive it.
   explicit DeviceTraining(FieldResources& field);
 
-  /// Takes the surfels that the next update learns at, and reserves memory. Must be called before
-  /// that is recorded, and once the field knows the rays of the update's probes.
+  /// Uploads the surfels at which the next update learns, and reserves memory. Must be called
+  /// before record(), and after FieldResources::set_rays() for the update's probes.
   void begin(std::span<const TrainedSurfel> surfels, uint number);
-  /// Records the gathers, and what the field learns from them.
+  /// Records the gathers, and the update of the field's corrections from them.
   void record(vulkan::Recorder& to, const DeviceWorld& world);
   /// The number of rays traced, once the recorded commands have run.
   std::uint64_t rays() const;
@@ -39,7 +39,7 @@ class DeviceTraining {
   uint number_ = 0;
   std::uint32_t surfel_count_ = 0;
   vulkan::Buffer trained_, samples_;
-  // Of the points that are worked on together, and of their rays
+  // Entries of the points that are processed together, and of their rays
   vulkan::Buffer points_, queries_, lookups_;
   vulkan::Buffer rays_, first_indices_, hits_, hit_points_, shaded_, direct_, hit_queries_,
       arrives_;

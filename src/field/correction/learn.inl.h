@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a bucket of the table of corrections takes in an update's samples, in the common subset of
-// C++ and GLSL. Buckets share nothing, and the result does not depend on the order of a bucket's
-// samples.
+// Adds an update's samples to a bucket of the table of corrections, in the common subset of C++ and
+// GLSL. Buckets are independent of each other, and the result does not depend on the order of a
+// bucket's samples.
 //
 // The includer provides the type
 //   LearningRef  the table and the samples
@@ -20,9 +20,9 @@ LAMBENT_FN bool holds_block(LearningRef table, uint first, uint used, Correction
   return false;
 }
 
-/// Gives free slots of a bucket to new blocks of its items, and returns how many are used then.
-/// Blocks that are there stay. Where room runs out, is_block_before() decides which ones are left
-/// out.
+/// Assigns free slots of a bucket to new blocks of its items, and returns the number of used slots.
+/// Blocks that have a slot keep it. If there are not enough slots, is_block_before() decides which
+/// new blocks get one.
 LAMBENT_FN uint claim_slots(LearningRef table, uint first, uint items) {
   uint used = 0u;
   while (used < kCorrectionBucket && fetch_key(table, first + used).rest != 0u) ++used;
@@ -42,8 +42,8 @@ LAMBENT_FN uint claim_slots(LearningRef table, uint first, uint items) {
   return used;
 }
 
-/// Adds the new samples of a slot's block, each of which counts as `worth`, to what its cells have
-/// learned, and stores that in the slot `into`. Returns how many samples that is.
+/// Adds the new samples of a slot's block, each of which counts as `worth`, to the sums of its
+/// cells, and stores the block in the slot `into`. Returns the block's number of samples.
 LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items, float keep,
                              float worth) {
   CorrectionKey key = fetch_key(table, slot);
@@ -74,9 +74,9 @@ LAMBENT_FN float merge_block(LearningRef table, uint slot, uint into, uint items
   return samples;
 }
 
-/// Takes the items from `items` on (0: none), each of which counts as `worth` samples, into the
-/// blocks of the bucket that begins at the slot `first`. Blocks of which nothing is known any more
-/// are forgotten.
+/// Adds the items of the list that begins at `items` (0: the list is empty), each of which counts
+/// as `worth` samples, to the blocks of the bucket that begins at the slot `first`. Removes blocks
+/// that have no samples left.
 LAMBENT_FN void merge_bucket(LearningRef table, uint first, uint items, float keep, float worth) {
   uint used = claim_slots(table, first, items);
   uint kept = 0u;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the table of corrections has a block, in the common subset of C++ and GLSL. The includer
-// provides the type
+// The search for a block in the table of corrections, in the common subset of C++ and GLSL. The
+// includer provides the type
 //   CorrectionsRef  the table
 // and
 //   uint bucket_count(CorrectionsRef table)
 //   CorrectionKey fetch_key(CorrectionsRef table, uint slot)
 
-/// The slot of a block; kNoCorrectionBlock where nothing is known of it.
+/// The slot of a block; kNoCorrectionBlock where the table does not have the block.
 LAMBENT_FN uint search_block(CorrectionsRef table, CorrectionKey key) {
   uint first = correction_bucket(key, bucket_count(table));
   for (uint slot = first; slot < first + kCorrectionBucket; ++slot) {

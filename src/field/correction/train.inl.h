@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the rays of a point tell at which corrections are learned, in the common subset of C++ and
-// GLSL. The includer provides the type
+// The irradiance that rays gather at a point at which corrections are learned, and the choice of
+// the next point, in the common subset of C++ and GLSL. The includer provides the type
 //   GathersRef  the rays of some points
 // and
 //   vec3 fetch_direction(GathersRef gathers, uint ray)
 //   ShadedHitRecord fetch_hit(GathersRef gathers, uint ray)
 //   vec3 fetch_radiance(GathersRef gathers, uint ray)
-//       gathered_radiance() of what the ray met
+//       gathered_radiance() of the ray's hit
 
-/// What a point's rays gather.
+/// The irradiance that a point's rays gather.
 struct GatheredLuminance {
-  float luminance;  ///< Of the irradiance.
-  float variance;   ///< Of that, as that of a mean of rays.
+  float luminance;  ///< Luminance of the irradiance [W/m^2].
+  float variance;   ///< Variance of `luminance`, estimated from its rays [(W/m^2)^2].
 };
 
-/// Irradiance that a point's rays, from `first` on, gather.
+/// Irradiance that the kTrainingRays rays of a point gather. `first` is the index of the first one.
 LAMBENT_FN GatheredLuminance gathered_luminance(GathersRef gathers, uint first, vec3 normal_ws,
                                                 vec3 geometric_normal_ws, float gi_share) {
   vec3 sum = vec3(0.0f);
@@ -35,8 +35,9 @@ LAMBENT_FN GatheredLuminance gathered_luminance(GathersRef gathers, uint first, 
   return gathered;
 }
 
-/// Picks one of a point's rays, from `first` on, that met a surface which reflects the field's
-/// light; each as likely as the others. Returns kNoTrainingRay where there is none.
+/// Picks one of a point's rays that hit a surface which reflects the field's light, each with the
+/// same probability. `first` is the index of the point's first ray. Returns kNoTrainingRay where
+/// there is none.
 LAMBENT_FN uint following_ray(GathersRef gathers, uint first, uint point, uint number, uint seed) {
   RandomStream random = make_random_stream(point, number, seed ^ kTrainingFollows);
   uint follows = kNoTrainingRay;

@@ -22,10 +22,10 @@ struct TrainingPoint {
   FieldQuery at;
   vec3 geometric_normal_ws;
   float gi_share = 0.0f;  ///< 0: there is no point.
-  uint index = 0;         ///< Picks its random numbers.
+  uint index = 0;         ///< Seeds the point's random numbers.
 };
 
-/// What all gathers of an update have in common.
+/// The data that all gathers of an update share.
 struct Training {
   const World& world;
   const ProbeData& data;
@@ -34,8 +34,8 @@ struct Training {
   uint number, seed;
 };
 
-/// The points at which this rank learns in an update: those of trained_surfels() that are here and
-/// reflect light.
+/// The points at which this rank learns in an update: those of trained_surfels() that belong to
+/// this rank and reflect light.
 std::vector<TrainingPoint> points_of(const Training& training, std::span<const int> probes) {
   std::vector<TrainingPoint> points;
   uint point = 0;
@@ -55,11 +55,11 @@ std::vector<TrainingPoint> points_of(const Training& training, std::span<const i
   return points;
 }
 
-/// The rays of points' gathers, and what they bring back.
+/// The rays of points' gathers, and their radiance.
 struct Gathers {
   std::vector<Ray> rays;
   std::vector<ShadedHit> shaded;
-  std::vector<vec3> arrives;  // of the field, at their hits
+  std::vector<vec3> arrives;  // the field's irradiance at the rays' hits
   std::uint64_t traced = 0;
 
   vec3 radiance(std::size_t ray) const {
@@ -91,7 +91,7 @@ void add_rays(const Training& training, const TrainingPoint& point, std::vector<
   }
 }
 
-/// Shades what the rays met; runs of points that follow one another are shaded together.
+/// Shades the hits of the rays. Points with consecutive indices are shaded together.
 std::uint64_t shade(const Training& training, std::span<const TrainingPoint> points,
                     std::span<const Hit> hits, Gathers& gathers) {
   ShadeHitsScratch scratch;
@@ -130,7 +130,7 @@ Gathers gather(const Training& training, std::span<const TrainingPoint> points) 
   return gathers;
 }
 
-/// One of the surfaces that a point's rays, from `first` on, met, as the next point.
+/// The hit of one of a point's rays as the next point. `first` is the index of the first ray.
 TrainingPoint following_point(const Training& training, const Gathers& gathers, uint first,
                               uint index) {
   const uint ray = following_ray(gathers, first, index, training.number, training.seed);
@@ -143,8 +143,8 @@ TrainingPoint following_point(const Training& training, const Gathers& gathers, 
           index | kFollowingPoint};
 }
 
-/// Compares what each point gathers with what the volumes that light it have there. Returns the
-/// number of visibility rays traced.
+/// Compares the gathered irradiance of each point with the lookups of the volumes that light it.
+/// Returns the number of visibility rays traced.
 std::uint64_t compare(const Training& training, std::span<const TrainingPoint> points,
                       const Gathers& gathers, std::vector<CorrectionSample>& samples) {
   std::vector<FieldQuery> queries(points.size());
@@ -155,7 +155,7 @@ std::uint64_t compare(const Training& training, std::span<const TrainingPoint> p
   for (std::size_t w = 0; w < weights.corners.size(); ++w) {
     const std::uint32_t i = weights.query[w];
     const TrainingPoint& point = points[i];
-    // Each volume's lookup is compared on its own: volumes may be off by different factors
+    // Compare each volume's lookup separately, since volumes may be off by different factors
     CornerWeights corners = weights.corners[w];
     normalize_weights(corners);
     vec3 irradiance(0.0f);
@@ -174,23 +174,23 @@ std::uint64_t compare(const Training& training, std::span<const TrainingPoint> p
   return traced;
 }
 
-/// How many points the ranks before this one have.
+/// The number of points of the ranks before this one, which has `own` points.
 std::size_t points_before(Ranks& ranks, std::size_t own) {
   const std::vector<std::uint64_t> each = gather_each<std::uint64_t>(ranks, own);
   return std::accumulate(each.begin(), each.begin() + ranks.own(), std::uint64_t{0});
 }
 
-/// Samples of a task's points, and of those that follow them.
+/// Samples of a task's points, and of the points at hits of their rays.
 using TaskSamples = std::array<std::vector<CorrectionSample>, 2>;
 
-/// Samples that follow one another among those of all ranks.
+/// Consecutive samples in the list of the samples of all ranks.
 struct SampleRun {
-  std::uint64_t order;  ///< Twice the task's number, and 1 more for points that follow.
+  std::uint64_t order;  ///< Twice the task's number, plus 1 for points at hits of other rays.
   std::uint64_t count;
 };
 
-/// The samples of all ranks, in the order in which a single rank has them: its sums have their
-/// bits. `tasks` are numbered from `first_task` on; neighbouring ranks may share one.
+/// The samples of all ranks, in the order in which a single rank has them, so that sums over them
+/// have the same bits. `tasks` are numbered from `first_task` on; neighbouring ranks may share one.
 std::vector<CorrectionSample> joined(Ranks& ranks, std::span<const TaskSamples> tasks,
                                      std::uint64_t first_task) {
   std::vector<CorrectionSample> own;
@@ -231,7 +231,7 @@ std::vector<TrainedSurfel> trained_surfels(const ProbeData& data, std::span<cons
   std::size_t all = 0;
   for (const int probe : probes) all += data.traces[probe].rays->directions.size();
   std::vector<TrainedSurfel> surfels(all / training_stride(number));
-  std::size_t k = 0, first = 0;  // the probe of a surfel, and its first one
+  std::size_t k = 0, first = 0;  // the place of a surfel's probe, and the probe's first surfel
   for (uint point = 0; point < surfels.size(); ++point) {
     const std::size_t at = trained_surfel(point, number, data.settings.seed);
     for (;; ++k) {
@@ -259,7 +259,7 @@ std::uint64_t train_corrections(const World& world, std::span<const int> probes,
       world, data, by, by, training_shading(data.settings, number), number, data.settings.seed};
   training.uncorrected.correction = nullptr;
   const std::vector<TrainingPoint> points = points_of(training, probes);
-  // Tasks are runs of the points of all ranks; this one's begin within its first task
+  // Tasks are consecutive points of all ranks; this rank's points may begin within a task
   const std::size_t before = points_before(data.share.ranks(), points.size());
   const std::size_t lead = before % kPointsPerTask, last = lead + points.size();
   std::vector<TaskSamples> samples((last + kPointsPerTask - 1) / kPointsPerTask);

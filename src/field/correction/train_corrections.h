@@ -17,20 +17,20 @@ struct TrainedSurfel {
   int ray;
 };
 
-/// The surfels at which update `number` of these probes learns, in each run of training_stride()
-/// one. Their places in the list pick their random numbers.
+/// The surfels of these probes at which update `number` learns: one of every training_stride()
+/// consecutive surfels. Their places in the list seed their random numbers.
 std::vector<TrainedSurfel> trained_surfels(const ProbeData& data, std::span<const int> probes,
                                            uint number);
 
-/// How what the gathers of update `number` meet is shaded.
+/// The settings with which the hits of the gathers of update `number` are shaded.
 ShadeHitsSettings training_shading(const FieldSettings& settings, uint number);
 
-/// Learns how far the field's lookups are off: gathers irradiance at a share of the surfels of
-/// `probes`, and at points that these gathers meet, and compares it with what lookups find there
-/// without corrections. The field holds the light of the update before update `number`, whose
-/// surfels are known already. `by` says how lookups see probes, with corrections. Where ranks share
-/// the field, each gathers at its own surfels, and all learn from all. Returns the number of rays
-/// that this one traced.
+/// Learns corrections of the field's lookups: gathers irradiance at a share of the surfels of
+/// `probes`, and at hits of these gathers, and compares it with the irradiance of lookups without
+/// corrections. The surfels are those of update `number`, and the field holds the light of the
+/// update before it. `by` has the visibility and the corrections with which the gathers look the
+/// field up. Where ranks share the field, each gathers at its own surfels, and all learn from all
+/// samples. Returns the number of rays that this rank traced.
 std::uint64_t train_corrections(const World& world, std::span<const int> probes,
                                 const VisibilityRays& by, uint number, ProbeData& data);
 

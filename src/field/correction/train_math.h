@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points corrections are learned at, and what a sample there is.
+// The choice of the points at which corrections are learned, and of their rays.
 #ifndef LAMBENT_FIELD_CORRECTION_TRAIN_MATH_H
 #define LAMBENT_FIELD_CORRECTION_TRAIN_MATH_H
 
@@ -13,28 +13,28 @@ LAMBENT_BEGIN
 // Rays of a gather. Fewer rays at more points cost more lookups for the same noise.
 const int kTrainingRays = 8;
 
-// A gather starts from one of so many of an update's surfels, and another one from one of the
-// points that its rays met: surfels alone leave out what no probe sees. The first updates fill the
-// coarse levels, and later ones only confirm what is known.
+// A gather starts at one in this many of an update's surfels, and a second one at the hit of one of
+// its rays, since surfels leave out surfaces that no probe ray reaches. The first updates fill the
+// coarse levels, and later ones only refine the estimates.
 const uint kFirstTrainingStride = 16u;
 const uint kTrainingStride = 32u;
 const uint kSettledTrainingStride = 128u;
 
-// From these updates on, the later strides hold.
+// The numbers of the updates from which kTrainingStride and kSettledTrainingStride apply.
 const uint kFilledTraining = 5u;
 const uint kSettledTraining = 24u;
 
-// What the random numbers of training are for. Each is a sequence of its own.
+// The purposes of the random numbers of training. Each purpose has a sequence of its own.
 const uint kTrainingPicks = 0x7261701u;
 const uint kTrainingShifts = 0x7261702u;
 const uint kTrainingFollows = 0x7261703u;
 const uint kTrainingAxes = 0x7261704u;
 
-// Points that follow others have numbers of their own: so much above those that they follow. The
-// numbers of all their rays still differ in 32 bits.
+// The index of a point at the hit of another point's ray is the other point's index plus this. The
+// indices of the rays of all points still differ in 32 bits.
 const uint kFollowingPoint = 1u << 28u;
 
-/// The name of no ray.
+/// The index that stands for no ray.
 const uint kNoTrainingRay = 0xFFFFFFFFu;
 
 /// A random number in [0, 1) for a point of update `number` and one of the purposes above.
@@ -43,14 +43,14 @@ LAMBENT_FN float training_random(uint point, uint number, uint what, uint seed) 
   return next_uniform(random);
 }
 
-/// How many surfels there are for each that update `number` learns at.
+/// Update `number` learns at one surfel in this many.
 LAMBENT_FN uint training_stride(uint number) {
   if (number < kFilledTraining) return kFirstTrainingStride;
   return number < kSettledTraining ? kTrainingStride : kSettledTrainingStride;
 }
 
-/// The surfel at which an update learns as its point number `point`; its index among the surfels of
-/// all its probes.
+/// The surfel at which update `number` places its point `point`, as an index among the surfels of
+/// all probes of the update.
 LAMBENT_FN uint trained_surfel(uint point, uint number, uint seed) {
   uint stride = training_stride(number);
   return point * stride +

@@ -2,17 +2,17 @@
 // The part of an update that applies edits of the world: exactly the probes whose light an edit
 // changes get new light.
 //
-// What averaging has gained over the rays of a single update is kept. Let H be the light that a
-// probe holds, and T E the estimate of its last rays from the light E of all probes at that time.
+// Edits preserve the noise reduction of averaging. Let H be the light that a probe holds, and T E
+// the estimate of its last rays from the light E of all probes at that time.
 // Each texel has the history ratio g = H / (T E). After the edit, with the new transport T_new, the
 // light solves
 //   +---------------------------+
 //   |  E_new = g (T_new E_new)  |
 //   +---------------------------+
 // Where nothing changed, the solution is H itself; where all light became k times as bright, it is
-// k H; where the light went out, it is 0; and nowhere is there more noise than in the change
-// itself. T E is stored when the light is solved for, so that g is right however long a probe stays
-// stale.
+// k H; where all light was switched off, it is 0; and only the change itself has the noise of a
+// single update. T E is stored when the light is solved for, so that g is right however long a
+// probe stays stale.
 //
 // Sleeping probes light open air only, and no surfel reads them. They are brought up to date after
 // the others have been solved for, some in each update.
@@ -34,19 +34,19 @@
 namespace lambent {
 namespace {
 
-// An update brings one in this many of the stale sleeping probes up to date. Open air lags behind
-// an edit by at most as many updates, and a scene that is edited in every update costs little more.
+// An update brings one in this many of the stale sleeping probes up to date. Light in open air lags
+// behind an edit by at most this many updates, and edits in every update cost little more.
 constexpr std::size_t kSleepingSlices = 8;
 
-// A probe that lags behind the world by more revisions than this is brought up to date before all
+// Probes that lag behind the world by more revisions than this are brought up to date before all
 // others.
 constexpr std::uint64_t kOverdueRevisions = 16;
 
-// While every update brings edits, corrections forget in one of so many updates: in a fraction of
-// the time in which they learned.
+// While the world is edited in every update, corrections forget in one of this many updates: a
+// fraction of the time in which they learn.
 constexpr int kForgetInterval = 16;
 
-/// The oldest revision for which the world's log still tells all later changes.
+/// The oldest revision for which the world's log still has all later changes.
 std::uint64_t oldest_known_revision(const World& world) {
   const std::uint64_t revision = world.revision();
   const std::uint64_t reach = std::min<std::uint64_t>(revision, World::kLogLength);
@@ -59,7 +59,7 @@ struct Slice {
   std::uint64_t oldest = 0;  ///< The oldest revision that any of them is up to date with.
 };
 
-/// Takes the first waiting probes: at least one, and no more than have `most_surfels` in all.
+/// Takes the first waiting probes: at least one, and otherwise at most `most_surfels` surfels.
 Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> traces,
                  std::span<const ProbeStatus> statuses, std::uint64_t most_surfels) {
   Slice slice;
@@ -76,7 +76,7 @@ Slice next_slice(std::span<const int> waiting, std::span<const ProbeTrace> trace
 }
 
 /// Lowers the sample counts of probes whose light the pending edits changed. Returns, for each
-/// probe of the field, the share that counts still of what its light taught.
+/// probe of the field, the factor by which samples of corrections around it count less.
 std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrradiance& light,
                                   int tile_texels, std::span<ProbeStatus> statuses,
                                   ProbeScheduler& scheduler) {
@@ -86,7 +86,7 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
     const TileLight held(&pending.before[probe * texels], texels),
         found(&light[probe * texels], texels);
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) continue;
-    // The more the distribution of the light changed, the fewer samples the average is worth
+    // The more the distribution of the light changed, the fewer samples the average counts as
     const float kept = likeness(found, held);
     counts[probe] = kept * kept;
     statuses[probe].samples = samples_after_edit(statuses[probe].samples, kept);
@@ -96,8 +96,8 @@ std::vector<float> reduce_history(const PendingEdits& pending, const WorkingIrra
 }
 
 /// Sorts stale probes by how urgently they must be brought up to date: overdue ones come first, so
-/// that a world that is edited without end leaves none stale for ever. Then come probes by their
-/// importance, or by their distance from the viewer.
+/// that no probe stays stale for ever in a world that is edited continually. Then come probes by
+/// their importance, or by their distance from the viewer.
 void order_stale_probes(std::uint64_t revision, const ProbeStore& store,
                         std::span<const ProbeStatus> statuses, std::span<const float> importance,
                         const std::optional<vec3>& viewer_ws, std::vector<int>& waiting) {
@@ -116,8 +116,8 @@ void order_stale_probes(std::uint64_t revision, const ProbeStore& store,
 
 }  // namespace
 
-/// Brings one slice of the probes up to date. Scales their light by the ratio in which direct light
-/// became brighter, which gives the solve a good start.
+/// Brings one slice of the probes up to date. Scales their light by the ratio of direct light after
+/// the edits to that before them, which gives the solve a good start.
 void IrradianceField::State::apply_edits_to_slice(const World& world,
                                                   std::span<const WorldChanges> changes,
                                                   std::span<const int> probes,
@@ -170,7 +170,7 @@ void IrradianceField::State::apply_edits_to_sleeping(const World& world, std::ui
   edits.stale_sleeping.erase(
       edits.stale_sleeping.begin(),
       edits.stale_sleeping.begin() + static_cast<std::ptrdiff_t>(probes.size()));
-  // Probes that woke up meanwhile have been traced since
+  // Probes that became awake or vigilant meanwhile have been traced since
   std::erase_if(probes, [&](int probe) { return statuses[probe].revision == world.revision(); });
   if (probes.empty()) return;
   std::sort(probes.begin(), probes.end());
@@ -205,7 +205,7 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
     vec4* now = &data.light[probe * texels];
     const TileLight held(&before[k * texels], texels), found(now, texels);
     if (relative_square(held, found) < kChangedFraction * kChangedFraction) {
-      // The last estimate stays as well, so that several changes too small to be seen add up
+      // The last estimate stays as well, so that several changes too small to be visible add up
       std::copy(held.begin(), held.end(), now);
       continue;
     }
@@ -220,7 +220,7 @@ int IrradianceField::State::store_edited_light(std::span<const int> probes,
   return static_cast<int>(touched.size());
 }
 
-/// Solves for the light of all probes that the pending edits have reached so far.
+/// Solves for the light of all probes to which the pending edits have been applied so far.
 void IrradianceField::State::solve_edited(UpdateStatistics& statistics) {
   const int texels = data.tile_texels();
   const WorkingIrradiance before = light_of(edits.pending.before, edits.pending.updated, texels);
@@ -256,16 +256,15 @@ StaleProbes IrradianceField::State::find_stale_probes(const World& world) {
       const bool sleeps = status.state == ProbeState::sleeping;
       (sleeps ? stale.sleeping : stale.waiting).push_back(probe);
     } else {
-      // The average is lost without surfels to compare, after more edits than the world's log
-      // holds, and where bounces are counted
+      // The average cannot be preserved without surfels to compare, after more edits than the
+      // world's log holds, and with an exact number of bounces
       reset_history(probe, revision, statuses, scheduling.scheduler);
     }
   }
   return stale;
 }
 
-/// Lets what averages and corrections have learned of light that the pending edits changed count
-/// less.
+/// Reduces the weight of averages and corrections whose light the pending edits changed.
 void IrradianceField::State::reduce_history() {
   std::vector<float> counts = lambent::reduce_history(edits.pending, data.light, data.tile_texels(),
                                                       statuses, scheduling.scheduler);
@@ -278,8 +277,8 @@ void IrradianceField::State::reduce_history() {
   }
 }
 
-/// Has corrections forget what edits made untrue: at once after an edit, and now and then in a
-/// world that is edited without end, since they are then all refined again.
+/// Reduces the weights of corrections that edits made wrong: at once after an edit, but only every
+/// kForgetInterval updates while edits go on, since all corrections are then refined again.
 void IrradianceField::State::forget_corrections(EditProgress progress) {
   const bool often = edits.forgot_at > 0 && updates - edits.forgot_at < kForgetInterval;
   if (edits.to_forget.empty() || (often && progress != EditProgress::none)) return;
@@ -288,7 +287,7 @@ void IrradianceField::State::forget_corrections(EditProgress progress) {
   edits.forgot_at = updates + 1;
 }
 
-/// Keeps the light before the edits, while light and surfels still belong to the same world.
+/// Stores the light before the edits, while light and surfels still belong to the same world.
 void IrradianceField::State::begin_edits(std::uint64_t revision, std::span<const int> traced) {
   if (!edits.pending.before.empty() && edits.pending.revision == revision) return;
   if (edits.pending.before.empty()) {
@@ -337,9 +336,9 @@ void IrradianceField::State::apply_edits_in_slices(const World& world, std::uint
   edits.pending.updated = std::move(merged);
 }
 
-/// Takes the light of sleeping probes that have not followed yet, once no other probe sees any
-/// direct light. Surfels that read them would bring it back, nothing would feed it, and its decay
-/// would be taken for what averaging has gained: a lamp that goes on again would be too bright.
+/// Removes the light of stale sleeping probes, when no other probe receives direct light any more.
+/// Surfels that read them would return that light, which would decay slowly. The decay would enter
+/// the history ratio, and light would be too bright when a lamp is switched on again.
 void IrradianceField::State::darken_sleeping() {
   const auto texels = static_cast<std::size_t>(data.tile_texels());
   for (const int probe : edits.stale_sleeping) {
@@ -355,7 +354,7 @@ EditProgress IrradianceField::State::apply_scene_edits(const World& world, std::
   const std::uint64_t revision = world.revision();
   if (edits.applied_revision == revision && edits.stale_sleeping.empty()) return EditProgress::none;
   if (edits.applied_revision > revision) {
-    // The world is another object than before, and its log says nothing about these probes
+    // The world is another object than before, and its log does not cover these probes
     for (const int probe : edits.stale_sleeping)
       reset_history(probe, revision, statuses, scheduling.scheduler);
     edits.stale_sleeping.clear();

@@ -46,7 +46,8 @@ std::size_t DeviceHistory::bytes() const {
                    &brighter_, &changed_});
 }
 
-/// Records the direct light that a list's probes receive. Texels that no ray counts for have none.
+/// Records the computation of the direct light that a list's probes receive. Texels for which no
+/// ray counts have none.
 void DeviceHistory::record_direct_light(Recorder& to, const DeviceProbes& list,
                                         const Buffer& direct) const {
   to.fill(direct, 0u);

@@ -9,8 +9,8 @@
 
 LAMBENT_BEGIN
 
-/// MoveDistancesArguments::blocked_before of a probe without history, which takes its new distances
-/// as they are, like one that came out of geometry.
+/// MoveDistancesArguments::blocked_before of a probe without history, whose stored distances are
+/// replaced by the new ones, like those of a probe that came out of geometry.
 const uint kNoDistancesBefore = 1u;
 
 /// Arguments of gather_tiles, which copies tiles of a list out of the arrays of all probes.
@@ -24,9 +24,9 @@ struct GatherTilesArguments {
   int unused;
 };
 
-/// Arguments of history_ratio, which computes the history ratios of a list. `estimate` holds what
-/// the last rays estimate from the light that all probes hold now; it counts for probes that were
-/// traced since the last edit only.
+/// Arguments of history_ratio, which computes the history ratios of a list. `estimate` holds the
+/// light that the last rays estimate from the current light of all probes. It replaces the last
+/// estimate of probes that were traced with new rays since the last edit.
 struct HistoryRatioArguments {
   ProbeStates probes;
   IntArray list;
@@ -40,8 +40,8 @@ struct HistoryRatioArguments {
 };
 
 // The steps of scale_light.
-const uint kSumDirectLight = 0u;  ///< One workgroup finds by how much direct light became brighter.
-const uint kScaleLight = 1u;      ///< Scales the list's light by that, one lane per texel.
+const uint kSumDirectLight = 0u;  ///< One workgroup computes `brighter`.
+const uint kScaleLight = 1u;      ///< Scales the list's light by `brighter`, one lane per texel.
 
 // The lanes of scale_light's workgroups.
 const int kSumDirectLanes = 256;
@@ -50,15 +50,15 @@ const int kSumDirectLanes = 256;
 struct ScaleLightArguments {
   IntArray list;
   Vec4Array light;          ///< Of all probes.
-  Vec4Array direct_before;  ///< Direct light that the list's probes received before the edit, ...
-  Vec4Array direct_after;   ///< ... and after it.
-  FloatArray brighter;      ///< One word.
+  Vec4Array direct_before;  ///< Direct light that the list's probes received before the edit.
+  Vec4Array direct_after;   ///< Direct light that the list's probes receive after the edit.
+  FloatArray brighter;      ///< The ratio of direct light after the edit to before: one word.
   int count;
   uint step;
 };
 
-/// Arguments of keep_unchanged, which gives those probes of a list their old light back that an
-/// edit did not change visibly, and lets the history of the others count less.
+/// Arguments of keep_unchanged, which restores the light of those probes of a list that an edit did
+/// not change visibly, and reduces the numbers of samples of the others.
 struct KeepUnchangedArguments {
   ProbeStates probes;
   IntArray list;

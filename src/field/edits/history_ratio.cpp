@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ratio of the averaged light of probes to what their last rays alone estimate. Edits keep this
-// ratio (apply_scene_edits.cpp), so that they do not lose what averaging has gained.
+// The ratio of the averaged light of probes to the light that their last rays alone estimate. Edits
+// preserve this ratio (apply_scene_edits.cpp), and with it the noise reduction of averaging.
 #include "field/edits/history_ratio.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 #include "field/probes/tile_light.h"
 
 namespace lambent {
-/// Computes by which factor averaging corrects each texel of the probes' last estimates.
+/// Computes the ratio of each texel's averaged light to the probe's last estimate.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data) {
   const int texels = data.tile_texels();
   WorkingIrradiance history_ratio = light_of(data.light, probes, texels);
@@ -29,10 +29,10 @@ void store_last_estimates(std::span<const int> probes, const WorkingIrradiance& 
   }
 }
 
-/// Computes the last estimates of probes that were traced since the last edit again, from the light
-/// that all probes hold now. In dark places the error of the solve that they come from is larger
-/// than the changes by edits that must be noticed. Other probes keep their estimates: otherwise a
-/// sequence of changes, each too small to be seen, would be lost.
+/// Computes the last estimates of those probes again that were traced since the last edit, from the
+/// current light of all probes. In dark places, the error of the solve that these estimates come
+/// from is larger than the smallest visible change by an edit. Other probes keep their estimates:
+/// otherwise a sequence of changes, each too small to be visible, would be lost.
 void refine_last_estimates(std::span<const int> probes, FieldBackend& backend, ProbeData& data) {
   std::vector<int> rough;
   for (const int probe : probes) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// By how much averaging over updates corrects what the last rays of a probe estimate alone.
+// The history ratio of a probe: the ratio of its light, which averages many updates, to the light
+// that its last rays alone estimate.
 #pragma once
 
 #include <span>
@@ -9,12 +10,15 @@
 
 namespace lambent {
 
-/// The ratio of the light that some probes hold to what their last rays estimate, texel by texel.
+/// The ratio of the light that some probes hold to the light that their last rays estimate, texel
+/// by texel.
 WorkingIrradiance history_ratio_of(std::span<const int> probes, const ProbeData& data);
-/// Stores what the last rays of some probes estimate, as a solve without history ratio found it.
+/// Stores the light that the last rays of some probes estimate: the solution of a solve without
+/// history ratio.
 void store_last_estimates(std::span<const int> probes, const WorkingIrradiance& solution,
                           ProbeData& data);
-/// Computes coarse last estimates again, from the light as it is held.
+/// Computes those last estimates again that are coarse (ProbeData::last_estimate_is_coarse), from
+/// the current light.
 void refine_last_estimates(std::span<const int> probes, FieldBackend& backend, ProbeData& data);
 
 }  // namespace lambent

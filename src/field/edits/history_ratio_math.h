@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// By how much averaging over updates corrects what the last rays of a probe estimate alone, and
-// which changes by edits are visible. See apply_scene_edits.cpp.
+// The history ratio of a probe: the ratio of its light, which averages many updates, to the light
+// that its last rays alone estimate. Also, which changes by edits are visible. See
+// apply_scene_edits.cpp.
 #ifndef LAMBENT_FIELD_EDITS_HISTORY_RATIO_MATH_H
 #define LAMBENT_FIELD_EDITS_HISTORY_RATIO_MATH_H
 
@@ -9,14 +10,14 @@
 LAMBENT_BEGIN
 
 // The estimate of one update's rays is corrected by at most this factor. Where it is further off,
-// the rays met too little light for a correction to make sense.
+// the rays hit too little light for a correction to make sense.
 const float kMaxHistoryRatio = 2.0f;
 
 // A probe whose light an edit changes by less than this fraction keeps its old light and its
 // history. It is half of the smallest visible difference.
 const float kChangedFraction = 0.005f;
 
-/// The factor that turns the last estimate of a texel into what the probe holds, within
+/// The factor from the last estimate of a texel to the light that the probe holds, limited by
 /// kMaxHistoryRatio.
 LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) {
   vec4 history_ratio = vec4(1.0f);
@@ -29,8 +30,8 @@ LAMBENT_FN vec4 history_ratio_between(vec4 last_irradiance_estimate, vec4 held) 
   return history_ratio;
 }
 
-/// The number of samples that an average is still worth after an edit changed its light. `likeness`
-/// is that of the light's distribution after the edit to the one before.
+/// The number of samples that an average counts as after an edit changed its light. `likeness` is
+/// the similarity, as of likeness_of(), of the light after the edit to the light before it.
 LAMBENT_FN float samples_after_edit(float samples, float likeness) {
   return max(samples * likeness * likeness, 1.0f);
 }

@@ -25,7 +25,7 @@ constexpr std::size_t kProbesPerTask = 8;
 // despite rounding.
 constexpr float kBoxSlack = 1e-4f;
 
-/// Everything that some edits name, in the form in which rays and surfels are tested against it.
+/// Everything that some edits changed, in the form in which rays and surfels are tested against it.
 struct Edits {
   Edits(const World& world, std::span<const WorldChanges> changes) {
     std::vector<std::uint8_t> differs(world.scene().materials.size(), 0);
@@ -80,7 +80,7 @@ bool may_change_light(const World& world, const Edits& edits, const LitPoint& po
   return false;
 }
 
-/// Brings the surfels of one probe after another up to date. Each task has its own.
+/// Brings the surfels of one probe after another up to date. Each task has its own object.
 class SurfelInvalidation {
  public:
   SurfelInvalidation(const World& world, const SolidSides& solid_sides, const Edits& edits,
@@ -94,7 +94,7 @@ class SurfelInvalidation {
     bool other_surfaces = false;  // some surfels now need other lookups
     bool moved = false;           // some rays have other hits, so that distances changed
   };
-  /// Traces and shades again what the edits may have changed.
+  /// Traces and shades those surfels of a probe again that the edits may have changed.
   Outcome update_probe(int probe, const vec3& origin, ProbeTrace& trace) {
     Outcome outcome;
     retraced_.assign(trace.surfels.size(), 0);
@@ -129,7 +129,7 @@ void SurfelInvalidation::retrace(int probe, const vec3& origin, ProbeTrace& trac
     Surfel& surfel = trace.surfels[i];
     const vec3& direction = trace.rays->directions[i];
     const bool sky = surfel.kind == SurfelKind::sky;
-    // The sky may be seen through glass, whose tint the surfel's light has
+    // The ray may have reached the sky through glass, which tints the surfel's light
     const bool other_sky = sky && edits_.sky;
     const bool tinted = other_sky && tracer_of(world_).has_glass();
     if (other_sky && !tinted) {
@@ -182,7 +182,7 @@ void SurfelInvalidation::reshade_direct(int probe, ProbeTrace& trace) {
   }
 }
 
-/// Computes the distances that a probe's rays saw from its surfels.
+/// Computes the distances of a probe's rays from its surfels.
 void seen_distances(const ProbeTrace& trace, const vec3& origin, std::vector<SeenDistance>& seen) {
   seen.resize(trace.surfels.size());
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
@@ -197,7 +197,7 @@ bool all_zero(std::span<const vec2> moments) {
   return std::all_of(moments.begin(), moments.end(), [](const vec2& m) { return m == vec2(0.0f); });
 }
 
-/// Moves a probe's stored moments by as much as the moments of its rays changed.
+/// Shifts a probe's stored moments by the change in the moments of its rays.
 void move_moments(int probe, std::span<const vec2> before, std::span<const vec2> after,
                   uint dither_seed, ProbeStore& store) {
   const int edge = store.distance_texels();
@@ -211,7 +211,7 @@ void move_moments(int probe, std::span<const vec2> before, std::span<const vec2>
   store.blend_moments(probe, moments, 1.0f, dither_seed);
 }
 
-/// A probe whose rays have other distances than before, and the distances before.
+/// A probe whose rays have other distances than before, and their distances before.
 struct MovedProbe {
   int probe;
   std::vector<SeenDistance> before;
@@ -256,7 +256,7 @@ void move_distances(const FieldSettings& settings, std::span<const MovedProbe> m
   });
 }
 
-/// The luminance of the direct and sky light that a probe's rays bring back, summed over the rays.
+/// The luminance of the direct and sky light along a probe's rays, summed over the rays.
 double direct_light_of(const ProbeTrace& trace) {
   double sum = 0.0;
   for (const Surfel& surfel : trace.surfels) {
@@ -267,8 +267,8 @@ double direct_light_of(const ProbeTrace& trace) {
   return sum;
 }
 
-/// Finds lookups again where they may have changed: of surfels that are other ones, and of those
-/// that read a probe with other distances. Returns the rays traced.
+/// Recomputes lookups that may have changed: those of changed surfels, and those that read a probe
+/// with other distances. Returns the number of rays traced.
 std::uint64_t renew_lookups(std::vector<OtherSurfaces> other_surfaces, std::span<const int> moved,
                             std::span<const int> all, const VisibilityRays& by,
                             const ProbeStore& store, std::span<ProbeTrace> traces) {
@@ -281,7 +281,7 @@ std::uint64_t renew_lookups(std::vector<OtherSurfaces> other_surfaces, std::span
   std::vector<int> asking;
   std::set_union(readers.begin(), readers.end(), others.begin(), others.end(),
                  std::back_inserter(asking));
-  // Where volumes blend into each other, what one knows decides how much others are asked
+  // Where volumes blend, the weight of one depends on the visibility of the probes of others
   if (store.volumes() > 1) return find_surfel_lookups(store, by, asking, traces);
   std::vector<SurfelFlags> flagged(asking.size());
   std::size_t next = 0;

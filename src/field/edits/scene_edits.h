@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which edits of the world have reached which probes.
+// The edits of the world that have been applied to some probes, and not yet to others.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace lambent {
 
-/// Edits of the world that have reached some probes and not yet others.
+/// Edits of the world that have been applied to some probes and not yet to others.
 struct PendingEdits {
   std::uint64_t revision = 0;  ///< The world's revision that the edits led to.
   /// The light of all probes before the edits. Empty where no edits are pending.
@@ -19,19 +19,19 @@ struct PendingEdits {
   /// For each texel of the updated probes, the ratio of the averaged light to what the last rays
   /// alone estimated (history_ratio.cpp).
   WorkingIrradiance history_ratio;
-  std::vector<int> updated;   ///< The probes that the edits have reached, in ascending order.
-  double direct_light = 0.0;  ///< Direct light that these see now, summed over their tiles.
+  std::vector<int> updated;   ///< Probes to which the edits have been applied, in ascending order.
+  double direct_light = 0.0;  ///< Direct light that `updated` receive now, see direct_light_of().
 };
 
 /// How far an update got with the edits of the world: no probe was stale, some stale probes are
 /// left, or all stale probes have been brought up to date.
 enum class EditProgress { none, partial, complete };
 
-// Testing a probe's surfels against edits costs about as much as tracing this many rays, even where
-// nothing has to be traced.
+// Testing a probe's surfels against edits costs about as much as tracing this many rays, even if no
+// ray has to be traced again.
 inline constexpr std::uint64_t kRaysPerInvalidation = 8;
 
-/// What the edits of an update took so far, in rays.
+/// The cost of applying edits in an update so far [rays].
 inline std::uint64_t edit_work(const UpdateStatistics& statistics) {
   return statistics.probe_rays + statistics.shadow_rays +
          kRaysPerInvalidation * static_cast<std::uint64_t>(statistics.probes_invalidated);
@@ -45,16 +45,16 @@ struct StaleProbes {
   std::vector<int> sleeping;  ///< The stale probes among them that sleep.
 };
 
-/// What a field knows of the edits of its world.
+/// The state of the edits of a field's world.
 struct SceneEdits {
   PendingEdits pending;
-  std::uint64_t applied_revision = 0;  ///< The revision that all but sleeping probes know.
+  std::uint64_t applied_revision = 0;  ///< Revision with which all but sleeping probes are current.
   std::vector<int> stale_sleeping;     ///< Stale sleeping probes, the oldest first.
-  std::size_t sleeping_per_slice = 0;  ///< How many of those an update brings up to date.
-  /// For each probe, the share that is left of what corrections have learned around it and have not
-  /// yet forgotten; empty: all of it.
+  std::size_t sleeping_per_slice = 0;  ///< The most stale sleeping probes that an update updates.
+  /// For each probe, the factor by which samples of corrections around it will count less, 0 to 1,
+  /// since corrections last forgot anything. Empty: all samples count fully.
   std::vector<float> to_forget;
-  int forgot_at = 0;          ///< The update in which corrections last forgot anything; 0: none.
+  int forgot_at = 0;          ///< Number of the update in which corrections last forgot; 0: none.
   bool applied_last = false;  ///< The last update applied edits and traced nothing else.
 };
 

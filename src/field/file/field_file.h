@@ -57,7 +57,7 @@ Expected<FieldFile> decode_field(const std::string& name, std::span<const std::b
 /// Reads and decodes a file.
 Expected<FieldFile> read_field_file(const std::string& path);
 
-/// Puts the probes of a file into a store that was made for its volumes.
+/// Copies the probes of a file into a store that was made for its volumes.
 void restore_store(const FieldFile& file, ProbeStore& store);
 
 /// Decodes the stored light of a probe into a tile without gutter, row after row.

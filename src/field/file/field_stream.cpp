@@ -8,7 +8,7 @@
 namespace lambent {
 namespace {
 
-// Blocks that ranks exchange at a time.
+// The number of blocks that ranks exchange at a time.
 constexpr std::size_t kBlocksOfPart = 1 << 14;
 
 /// Calls body(blocks) with the blocks of all ranks, in the order of their slots, part after part.
@@ -58,7 +58,7 @@ Expected<void> write_shared_field(const std::string& path, std::span<const std::
       result = tl::unexpected(opened.error());
     }
   }
-  // Where rank 0 failed, the others send all the same: they do not know yet
+  // If rank 0 has failed, the others do not know yet, and still send their blocks
   for_blocks_of_ranks(own, counts, ranks, [&](std::span<const CorrectionBlock> blocks) {
     if (stream && result) result = stream->write(blocks);
   });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Field files that are written part after part, without ever being in memory as a whole.
+// Writing of field files in parts, so that the whole file need not fit into memory.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,15 @@ namespace lambent {
 /// finish().
 class FieldStream {
  public:
-  /// Begins at the file's current position, `begin`. `file` must outlive it.
+  /// `begin` is the file's current position, at which the field begins. `file` must outlive this
+  /// object.
   FieldStream(AtomicFile& file, std::uint64_t begin) : file_(file), begin_(begin) {}
 
-  /// Writes all but the corrections, of which there will be so many; those of `field` are not
-  /// looked at.
+  /// Writes everything but the blocks of corrections. `corrections` is the number of blocks that
+  /// will follow; those of `field` are ignored.
   Expected<void> write_front(const FieldFile& field, std::uint32_t corrections);
   Expected<void> write(std::span<const CorrectionBlock> blocks);
-  /// Leaves the file's position somewhere.
+  /// Writes the size and the checksum. The file's position is unspecified afterwards.
   Expected<void> finish();
 
  private:
@@ -30,9 +31,9 @@ class FieldStream {
   std::uint32_t checksum_ = 0;
 };
 
-/// What a field of ranks writes: rank 0 opens the file and writes `before`, the field follows, and
-/// the file comes to be. All ranks call it together; on the others `field` holds nothing. Fails on
-/// all of them where rank 0 cannot write.
+/// Writes the file of a field that ranks share. Rank 0 opens the file, writes the bytes `before`,
+/// then the field, and commits the file. All ranks must call the function together; on the others,
+/// `field` is empty. Fails on all ranks where rank 0 cannot write.
 Expected<void> write_shared_field(const std::string& path, std::span<const std::byte> before,
                                   const FieldFile& field, const CorrectionTable& corrections,
                                   Ranks& ranks);

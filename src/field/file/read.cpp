@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reader trusts nothing: it checks sizes against the number of bytes before it allocates
-// anything, and numbers against the ranges that a field allows.
+// The reader does not trust files: it checks sizes against the number of bytes before it allocates
+// memory, and numbers against the ranges that a field allows.
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +16,7 @@ namespace {
 // The largest file that is read: a field of the most probes, in the largest formats, takes less.
 constexpr std::uint64_t kMaxFieldFileBytes = std::uint64_t{16} << 30;
 
-// The most updates: half a year at 60 Hz, and far from an overflow.
+// The largest number of updates: half a year at 60 Hz, and far from an overflow.
 constexpr std::uint32_t kMaxUpdates = 1u << 30u;
 
 constexpr auto kStates = static_cast<std::uint32_t>(ProbeState::vigilant) + 1;
@@ -34,8 +34,8 @@ vec3 read_vec3(ByteReader& in) {
   return v;
 }
 
-// Stored numbers beyond this are no field's: light is below 1e14 W/m^2 (that of the brightest sky,
-// after all bounces), and the square of a mean distance must be a float.
+// The largest valid stored number: light is below 1e14 W/m^2 (that of the brightest sky, after all
+// bounces), and the square of a mean distance must be a float.
 constexpr float kMaxStored = 1e18f;
 
 // Written so that NaN fails.

@@ -14,8 +14,8 @@
 namespace lambent {
 namespace {
 
-// What corrections count for that were learned under other light: they are mostly of the place, but
-// soon to be learned anew.
+// The factor of the weights of corrections that were learned with other light. Corrections depend
+// mostly on the place, but must adapt to the new light soon.
 constexpr float kOtherLightCorrections = 0.25f;
 
 std::string size_of(const SceneIdentity& scene) {
@@ -66,7 +66,7 @@ void IrradianceField::State::restore(const FieldFile& file, const World& world,
   }
   scheduling.mean_light = static_cast<float>(sum / data.store.probes());
   scheduling.warming_up = updates == 0 || never_traced;
-  // Compute what the first update finds out about the scene, if that update is in the past
+  // Compute the data that the first update computes from the scene, if that update is in the past
   if (updates == 0) return;
   std::vector<int> all(statuses.size());
   std::iota(all.begin(), all.end(), 0);
@@ -92,7 +92,7 @@ FieldVolume IrradianceField::State::volume_for_file(int volume, const World& wor
   for (int i = 0; i < probe_count(stored); ++i) {
     const int probe = probe_index(stored, probe_coords(result.grid, i));
     ProbeStatus& status = result.records.emplace_back(statuses[probe]);
-    // The average of a stale probe is of another light than the world's
+    // The average of a stale probe is of light before an edit
     if (status.revision != world.revision()) status.samples = 0.0f;
     result.offsets.push_back(data.store.offset_words()[probe]);
     const auto irradiance =
@@ -150,7 +150,7 @@ Expected<LoadedField> load_field(const std::string& path, const FieldSettings& s
 
   const bool same_light = file->scene.light == scene.light;
   if (!same_light) {
-    // The light is a start for updates, but no average of the light that they will find
+    // Updates start from the light of the file, but do not average it with the new light
     for (FieldVolume& volume : file->volumes) {
       for (ProbeStatus& status : volume.records) status.samples = 0.0f;
     }

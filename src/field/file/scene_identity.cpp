@@ -83,7 +83,7 @@ void add_material(const Material& material, Checksum& sum) {
   sum.add(material.double_sided);
   sum.add(material.unlit);
   sum.add(material.lambert);
-  // Files of scenes without layers are to be known by what they were known by before there were any
+  // The checksum of a scene without layers must be the same as before layers existed
   const bool layered = has_layers(material);
   if (layered) {
     sum.add(material.clearcoat);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a field file recognises its scene (docs/field-format.md).
+// Counts and checksums by which a field file recognises its scene (docs/field-format.md).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct SceneIdentity {
   std::uint64_t triangles = 0;  ///< Triangles of all instances.
   std::uint64_t vertices = 0;   ///< Vertices of all meshes.
   std::uint32_t instances = 0;
-  std::uint32_t geometry = 0;  ///< Checksum of static geometry and its places.
+  std::uint32_t geometry = 0;  ///< Checksum of static geometry and its positions.
   /// Checksum of everything else that light depends on: lights, materials, dynamic instances, and
   /// settings of light transport.
   std::uint32_t light = 0;

@@ -16,10 +16,10 @@ std::uint64_t volume_bytes(const FieldVolume& volume) {
          sizeof(uint) * (volume.irradiance.size() + volume.distance.size());
 }
 
-// What a stream holds back before it writes [bytes].
+// The size of the parts in which a stream writes [bytes].
 constexpr std::size_t kStreamPart = std::size_t{1} << 20;
 
-/// Sends numbers to a file, a part at a time, and finds their checksum.
+/// Writes numbers to a file, a part at a time, and computes their checksum.
 class PartWriter {
  public:
   PartWriter(AtomicFile& file, std::uint32_t& checksum) : file_(file), checksum_(checksum) {}
@@ -34,7 +34,7 @@ class PartWriter {
       send_if_full();
     }
   }
-  /// Sends what is left. Fails where anything could not be written.
+  /// Writes the last part. Fails if any part could not be written.
   Expected<void> finish() {
     send();
     return written_;
@@ -96,7 +96,7 @@ void write_volume(const FieldVolume& volume, Out& out) {
   out.u32s(volume.distance);
 }
 
-/// Writes what comes before the size.
+/// Writes the part of the header before the size.
 void write_start(ByteWriter& out) {
   out.raw(std::as_bytes(std::span(kFieldMagic)));
   out.u32(kFieldFileVersion);
@@ -104,7 +104,7 @@ void write_start(ByteWriter& out) {
   assert(out.size() == kSizeOffset);
 }
 
-/// Writes all that is between the size and the blocks of corrections.
+/// Writes everything between the size and the blocks of corrections.
 template <class Out>
 void write_front(const FieldFile& field, std::uint32_t corrections, Out& out) {
   out.u32(static_cast<std::uint32_t>(field.volumes.size()));

@@ -19,20 +19,22 @@ const float kViewBias = 0.8f;
 const float kBiasScale = 0.75f;
 const float kBias = 0.3f;
 
-// Towards a viewer who is near, the position goes at most this share of the way. A ray that gathers
-// light in a corner ends a few centimetres from where it began: the whole bias would lead through
-// the wall that it began at, to probes outdoors. At one half it is as far from either end.
+// The bias towards the viewer is at most this share of the distance to the viewer. A ray that
+// gathers light in a corner ends a few centimetres from its origin, so that the whole bias would
+// lead through the wall at the origin, to probes outdoors. With one half, the biased position is
+// equally far from both ends.
 const float kFreeShare = 0.5f;
 
-// Probes behind a surface count less, the larger the negative cosine, and nothing from this one on.
-// The published value is 1 (JCGT 8(2) 2019). Where probes stand just in front of both sides of a
-// thin wall, those of the far side then count too much: in the two rooms of `scripts/measure leaks`
-// with probes 1 m apart, the mean light behind the sealed wall is 1.0 % of that with the door open,
-// and 0.14 % with this value. A smaller value costs accuracy.
+// The weight of a probe falls with the cosine between the normal and the direction to the probe,
+// and is 0 where that cosine is below -kWrapCosine, behind the surface. The published value is 1
+// (JCGT 8(2) 2019). Where probes stand just in front of both sides of a thin wall, those of the far
+// side then count too much: in the two rooms of `scripts/measure leaks` with probes 1 m apart, the
+// mean light behind the sealed wall is 1.0 % of that with the door open, and 0.14 % with this
+// value. A smaller value costs accuracy.
 const float kWrapCosine = 0.5f;
 
-// Weights below this threshold fall off with the cube, so that nearly hidden probes fade out
-// instead of leaking light.
+// Weights below this threshold are replaced by their cube over its square, so that nearly hidden
+// probes fade out instead of leaking light.
 const float kCrushThreshold = 0.2f;
 
 // The least weight of a probe. Where every probe seems hidden, trilinear interpolation alone
@@ -48,7 +50,7 @@ const float kMinProbeDistance = 1e-6f;
 const float kTiniestLength = 1e-12f;
 const float kTiniestSquare = 1e-20f;
 
-// Where the volumes so far leave less than this weight, the rest is rounding.
+// A remaining weight below this, after some volumes have taken theirs, is a rounding error.
 const float kNothingLeft = 1e-6f;
 
 /// The point at which visibility is evaluated, seen by a viewer at this distance [m].
@@ -106,8 +108,8 @@ LAMBENT_FN float wrap_weight(float cos_probe) {
   return wrap * wrap;
 }
 
-/// A weight, or where it is small what it falls off to: `cube`, the weight's cube over the square
-/// of kCrushThreshold.
+/// The weight, or below kCrushThreshold its `cube`: the weight's cube over the square of
+/// kCrushThreshold.
 LAMBENT_FN float crushed_weight(float weight, float cube) {
   float chosen = weight < kCrushThreshold ? cube : weight;
   return chosen > kMinVisibilityWeight ? chosen : kMinVisibilityWeight;
@@ -179,8 +181,8 @@ LAMBENT_FN LookupCorner lookup_corner(LookupGrid volume, LookupCell cell, ivec3 
   return result;
 }
 
-/// The weight of a corner, from what its probe stores of distances [distance_unit]. A probe inside
-/// geometry holds a mean distance of 0. It has no light and no weight, even where all other probes
+/// The weight of a corner, from the moments that its probe stores [distance_unit]. A probe inside
+/// geometry stores a mean distance of 0. It has no light and no weight, even where all other probes
 /// are hidden.
 LAMBENT_FN float corner_weight(float wrap, float trilinear, float dist, vec2 moments) {
   float weight = combined_weight(wrap, chebyshev_visibility(moments, dist));

@@ -9,8 +9,8 @@
 //   vec3 fetch_irradiance(int probe, vec3 direction)
 //       linear irradiance [W/m^2], bilinear
 //   float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal_ws)
-//       by which factor the lookup in a volume is off at a point with a normal, correction_at() of
-//       field/correction/correction.inl.h; 1 where nothing is known of it
+//       the factor that corrects the lookup in a volume at a point with a normal, see
+//       correction_at() of field/correction/correction.inl.h; 1 where none is known
 // In C++, this file is included in the body of a struct that has these as members.
 
 /// The weight of a corner for a point with a normal.
@@ -47,8 +47,9 @@ LAMBENT_FN vec4 lookup_volume(ProbeGrid grid, int volume_index, float volume_wei
   return vec4(sum * (ratio * volume_weight / weight_sum), volume_weight);
 }
 
-/// Irradiance at a point with a normal from all volumes, in order: each volume takes its blend
-/// weight of the weight that the volumes before it have left, and the last one takes the rest.
+/// Irradiance at a point with a normal from all volumes, in order: each volume takes the share
+/// volume_blend_weight() of the weight that the volumes before it have left, and the last one takes
+/// the rest.
 LAMBENT_FN vec3 lookup_irradiance(int volumes, vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws,
                                   float viewer_distance) {
   vec4 answer = vec4(0.0f);

@@ -25,7 +25,7 @@ static_assert(kRgb9e5 == static_cast<uint>(IrradianceFormat::rgb9e5) &&
 
 constexpr int kCorners = kCellCorners;
 
-/// Everything that the lookups of a batch in one volume have in common.
+/// The data that all lookups of a batch in one volume share.
 struct Tables {
   Tables(const ProbeStore& store, int volume_index)
       : volume(lookup_grid(store.grid(volume_index))),
@@ -55,8 +55,8 @@ LAMBENT_FORCE_INLINE vec2 decode_moments(const uint* words, int texel) {
   }
 }
 
-/// The state of a lookup between its two halves: what is known of the eight corners before their
-/// moments are read.
+/// The state of a lookup between its two halves: the data of the eight corners before their moments
+/// are read.
 struct CornerFetch {
   int base;
   int wraps;            // cell_wrap()
@@ -64,7 +64,7 @@ struct CornerFetch {
   float fraction_x[kCorners], fraction_y[kCorners];
   float dist[kCorners];  // from the probe to the biased point [distance_unit]
   float trilinear[kCorners];
-  float wrap[kCorners];  // weight by the probe's side of the surface
+  float wrap[kCorners];  // wrap_weight()
 };
 
 /// First half of a lookup: computes which texels to read for each corner, and the weights that need
@@ -154,7 +154,7 @@ LAMBENT_LOOKUP_KERNEL void weigh_all_rg32f(const Tables& t, const FieldQuery* qu
   weigh_all<DistanceFormat::rg32f>(t, queries, result, count);
 }
 
-/// Everything that reads of irradiance have in common.
+/// The data that all fetches of irradiance share.
 struct IrradianceTables {
   explicit IrradianceTables(const ProbeStore& store)
       : offsets(store.corner_table().data()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lookups whose weights are known, as both languages read them.
+// Lookups with their weights, as C++ and GLSL both read them.
 #ifndef LAMBENT_FIELD_LOOKUP_LOOKUP_RECORDS_H
 #define LAMBENT_FIELD_LOOKUP_LOOKUP_RECORDS_H
 
@@ -14,14 +14,14 @@ struct CornerOffsets {
 
 /// The weights of the eight probes around a point. Corner k (bit 0 x, bit 1 y, bit 2 z) of the cell
 /// whose lowest probe is `base` has `weight[k]`. The weights sum to 1, or to the volume's weight in
-/// the lookup.
+/// the lookup, times the correction and the share of irradiance that the point receives.
 struct CornerWeights {
   int base;
   uint table;  ///< The cell's entry in ProbeStore::corner_table.
   float weight[kCellCorners];
 };
 
-/// Scales weights to a sum of 1, where any is above 0.
+/// Scales weights to a sum of 1. Leaves them as they are where all are 0.
 LAMBENT_FN void normalize_weights(LAMBENT_INOUT(CornerWeights) corners) {
   float sum = 0.0f;
   for (int k = 0; k < kCellCorners; ++k) sum += corners.weight[k];

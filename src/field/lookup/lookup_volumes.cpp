@@ -11,8 +11,8 @@
 namespace lambent {
 namespace {
 
-// Queries per batch: few enough that the weights stay in the first-level cache between the two
-// kernels.
+// The number of queries per batch: few enough that the weights stay in the first-level cache
+// between the two kernels.
 constexpr std::size_t kBatch = 256;
 
 bool knows_nothing(const CornerWeights& corners) {
@@ -76,7 +76,7 @@ std::uint64_t find_uncorrected(const ProbeStore& store, const VisibilityRays& by
   return visible_corner_weights(store, 0, by, queries, result.corners);
 }
 
-/// Multiplies the weights of lookups by how far lookups are off at their points.
+/// Multiplies the weights of lookups by the corrections at their points.
 void correct_weights(const ProbeStore& store, const VisibilityRays& by,
                      std::span<const FieldQuery> queries, QueryWeights& weights) {
   RecentBlocks blocks;

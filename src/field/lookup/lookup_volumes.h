@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup over all volumes of a field, in order: each volume takes its blend weight of the
-// weight that the volumes before it have left, and the last one takes the rest. This is a partition
-// of unity for any number of volumes that overlap in any way.
+// The lookup over all volumes of a field, in order: each volume takes the share
+// volume_blend_weight() of the weight that the volumes before it have left, and the last one takes
+// the rest. This is a partition of unity for any number of volumes that overlap in any way.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 namespace lambent {
 
 /// The weights of probes in the lookups of some queries: `corners[i]` belong to query `query[i]`. A
-/// query has an entry for each volume in which it has a weight. Its weights over all volumes sum to
-/// 1, or to 0 where all probes around it are inside geometry.
+/// query has an entry for each volume in which it has a weight. Before corrections, its weights
+/// over all volumes sum to 1, or to 0 where all probes around it are inside geometry.
 struct QueryWeights {
   std::vector<CornerWeights> corners;
   std::vector<std::uint32_t> query;

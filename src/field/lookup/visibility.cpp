@@ -18,7 +18,7 @@ Ray to_ray(const RayRecord& ray) {
   return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
 }
 
-/// Names the query and the corner that a visibility ray tests.
+/// The query and the corner that a visibility ray tests.
 struct CornerTest {
   std::size_t query;
   int corner;
@@ -30,7 +30,7 @@ class CornerRays {
   CornerRays(const ProbeStore& store, int volume)
       : store_(store), volume_(lookup_grid(store.grid(volume))) {}
 
-  /// Exact visibility: the weights of a query's corners if they are visible.
+  /// Exact visibility: the weights that a query's corners have if rays show that they are visible.
   CornerWeights weights_if_visible(const FieldQuery& query, const CornerWeights& corners) {
     return visible_corners(volume_, cell_of(query), corners, query.position_ws, query.normal_ws);
   }
@@ -74,7 +74,7 @@ class CornerRays {
   std::vector<std::uint8_t> occluded_;
 };
 
-/// Exact visibility: traces a ray to each corner that could count.
+/// Exact visibility: traces a ray to each corner that has a weight if it is visible.
 std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer& tracer,
                             std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   corner_weights(store, volume, queries, result);
@@ -94,8 +94,8 @@ std::uint64_t exact_weights(const ProbeStore& store, int volume, const RayTracer
   return traced;
 }
 
-/// Hybrid visibility: weights by distances, tested with rays where the heaviest corner of a cell
-/// does not see another corner that counts.
+/// Hybrid visibility: weights by distances, tested with rays where a corner with a weight is not
+/// visible from the heaviest corner of the cell.
 std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const VisibilityRays& by,
                              std::span<const FieldQuery> queries, std::span<CornerWeights> result) {
   corner_weights(store, volume, queries, result);
@@ -111,7 +111,7 @@ std::uint64_t hybrid_weights(const ProbeStore& store, int volume, const Visibili
   }
   const std::uint64_t traced = rays.trace(
       *by.tracer, [&](const CornerTest& test) { result[test.query].weight[test.corner] = 0.0f; });
-  // The heaviest corner always keeps its weight, so that a sum remains
+  // The heaviest corner always keeps its weight, so that the sum stays above 0
   for (const std::size_t i : checked) scale_weights(result[i], 1.0f);
   return traced;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility of the eight probes around a point: by their stored distances, by rays, or by both.
+// Visibility of the eight probes around a point, from their stored distances, from rays, or from
+// both.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +16,23 @@ namespace lambent {
 
 class CorrectionTable;
 
-/// Which probes of each cell see each other, found with rays. Where the probes that have a weight
-/// for a point see each other, no wall runs between them, and their stored distances can be
-/// trusted.
+/// Which probes of each cell are visible to each other, found with rays. Where the probes that have
+/// a weight for a point are visible to each other, no wall runs between them, and their stored
+/// distances can be trusted.
 class CellVisibility {
  public:
-  /// At first, every probe sees every other.
+  /// At first, all probes of a cell are visible to each other.
   explicit CellVisibility(int probes);
 
-  /// Traces rays in the cells whose lowest probes these are. Returns the number of rays traced.
+  /// Traces rays between the corners of the cells whose lowest probes are `probes`. Returns the
+  /// number of rays traced.
   std::uint64_t update(const RayTracer& tracer, const ProbeStore& store,
                        std::span<const int> probes);
 
-  /// Which corners of a cell see each other (all_visible). `base` is the cell's lowest probe.
+  /// Which corners of a cell are visible to each other, as the bits of all_visible(). `base` is the
+  /// cell's lowest probe.
   const uvec2& of_cell(int base) const { return cells_[base]; }
-  /// The same of all cells, by their lowest probes.
+  /// of_cell() of all cells, indexed by their lowest probes.
   std::span<uvec2> all_cells() { return cells_; }
 
  private:
@@ -39,7 +42,7 @@ class CellVisibility {
 /// The lowest probes of all cells that have one of the probes as a corner, in ascending order.
 std::vector<int> cells_around(const ProbeStore& store, std::span<const int> probes);
 
-/// What lookups determine visibility with, and what corrects them.
+/// The data by which lookups determine visibility, and by which they are corrected.
 struct VisibilityRays {
   Visibility mode = Visibility::moments;
   const RayTracer* tracer = nullptr;                ///< Null: visibility is by distances only.

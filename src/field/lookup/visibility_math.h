@@ -13,11 +13,11 @@ LAMBENT_BEGIN
 // The number of pairs of probes of a cell.
 const int kCellPairs = kCellCorners * (kCellCorners - 1) / 2;
 
-// Of the probes that the heaviest corner of a cell does not see, those with a smaller weight than
-// this count as hidden. Those with a larger weight are tested with a ray.
+// A probe that is not visible from the cell's heaviest corner is tested with a ray if its weight is
+// at least this share of the sum of weights, and counts as hidden otherwise.
 const float kMinTestedWeight = 0.05f;
 
-/// A ray that is occluded where two points do not see each other.
+/// A ray that is occluded where two points are not visible to each other.
 LAMBENT_FN RayRecord visibility_ray(vec3 from_ws, vec3 to_ws) {
   vec3 way = to_ws - from_ws;
   float distance = max(length(way), kMinProbeDistance);
@@ -25,7 +25,7 @@ LAMBENT_FN RayRecord visibility_ray(vec3 from_ws, vec3 to_ws) {
   return ray;
 }
 
-/// The corners of a cell's pair, the pairs numbered from 0.
+/// The two corners of one of the kCellPairs pairs of a cell, which are numbered from 0.
 LAMBENT_FN ivec2 cell_pair(int pair) {
   int corner = 0;
   int others = kCellCorners - 1;
@@ -37,13 +37,13 @@ LAMBENT_FN ivec2 cell_pair(int pair) {
   return ivec2(corner, corner + 1 + pair);
 }
 
-/// Which corners of a cell see each other: bit 8 i + k says whether corner i sees corner k. The
-/// first 32 bits are in x.
+/// All corners of a cell are visible to each other: bit 8 i + k is 1 where corner k is visible from
+/// corner i. The first 32 bits are in x.
 LAMBENT_FN uvec2 all_visible() {
   return uvec2(0xFFFFFFFFu, 0xFFFFFFFFu);
 }
 
-/// Notes that the corners of a pair do not see each other.
+/// Clears the bits of a pair of corners that are not visible to each other.
 LAMBENT_FN uvec2 without_pair(uvec2 cell_visibility, ivec2 pair) {
   for (int side = 0; side < 2; ++side) {
     int bit = kCellCorners * pair[side] + pair[1 - side];
@@ -52,7 +52,7 @@ LAMBENT_FN uvec2 without_pair(uvec2 cell_visibility, ivec2 pair) {
   return cell_visibility;
 }
 
-/// The corners that a corner sees, as the lowest bits.
+/// The corners that are visible from a corner, as the lowest bits.
 LAMBENT_FN uint corners_seen_by(uvec2 cell_visibility, int corner) {
   int bit = kCellCorners * corner;
   return cell_visibility[bit >> 5] >> uint(bit & 31);
@@ -123,8 +123,8 @@ LAMBENT_FN uint weighed_corners(CornerWeights corners) {
   return weighed;
 }
 
-/// Exact visibility: the weight of a corner if it is visible. A corner of weight 0 needs no ray.
-/// `wrap` is 0 for probes inside geometry.
+/// Exact visibility: the weight of a corner if a ray shows that it is visible. A corner of weight 0
+/// needs no ray. `wrap` is 0 for probes inside geometry.
 LAMBENT_FN float visible_weight(float trilinear, float wrap) {
   float cube = wrap * (wrap * wrap / (kCrushThreshold * kCrushThreshold));
   return trilinear * wrap > 0.0f ? trilinear * crushed_weight(wrap, cube) : 0.0f;

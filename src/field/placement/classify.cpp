@@ -11,8 +11,8 @@
 namespace lambent {
 namespace {
 
-// Surfaces up to this fraction of a cell beyond the eight cells count, too: points on them are
-// clamped into the grid, or rounding puts them into a neighbouring cell.
+// Surfaces up to this fraction of a cell beyond the eight cells count as inside: points on them are
+// clamped into the grid, or rounding moves them into a neighbouring cell.
 constexpr float kCellSlack = 1e-3f;
 
 bool is_vigilant(ProbeState state) {

@@ -12,7 +12,7 @@
 
 namespace lambent {
 
-/// What classification needs to know of the static geometry around a probe.
+/// The static geometry around a probe, as far as classification depends on it.
 struct ClassificationInput {
   bool inside_geometry = false;  ///< The probe stands inside geometry.
   bool lights_surface = false;   ///< A surface is within one of the eight cells around the probe.
@@ -24,8 +24,8 @@ ClassificationInput classification_input(std::span<const FixedRayHit> fixed_hits
                                          const vec3& position, const vec3& grid_position,
                                          const vec3& spacing);
 
-/// The next state of a probe. `near_moving` says whether it may light a dynamic instance. A state
-/// that is new to the probe is one of the newly_* states until the probe has been traced.
+/// The next state of a probe. `near_moving` is whether it may light a dynamic instance. A probe
+/// that becomes awake or vigilant is in one of the newly_* states until it has been traced.
 ProbeState next_state(ProbeState before, const ClassificationInput& input, bool near_moving);
 
 /// The state of a probe once it has been traced.
@@ -41,8 +41,8 @@ void classify_probes(const ProbeStore& store,
                      std::span<const ClassificationInput> classification_inputs,
                      std::span<const Bounds> moving, std::span<ProbeStatus> statuses);
 
-/// Sets the states of those probes only that may light something in this box. Returns the probes
-/// whose state changed.
+/// Sets the states of those probes that may light something in this box; the others keep theirs.
+/// Returns the probes whose state changed.
 std::vector<int> classify_probes_near(const Bounds& box, const ProbeStore& store,
                                       std::span<const ClassificationInput> classification_inputs,
                                       std::span<const Bounds> moving,

@@ -19,15 +19,16 @@ namespace {
 constexpr std::size_t kProbesPerTask = 16;
 
 // Probes near edited static geometry are relocated after this many updates without another edit
-// there. An instance that an engine moves every frame without calling it dynamic must not make
-// probes jump about.
+// there. Otherwise an instance that an engine moves in every frame, but does not mark as dynamic,
+// would relocate probes in every frame.
 constexpr int kRestUpdates = 8;
 
-// A box around everything [m]: large, but small enough that adding a cell's size is exact enough.
+// The extent of a box around everything [m]: large, but small enough that adding a cell's size is
+// exact enough.
 constexpr float kFar = 1e15f;
 const Bounds kEverywhere{vec3(-kFar), vec3(kFar)};
 
-/// Whether a lamp came to shine where no light could come before.
+/// Whether a change puts a light or an emissive surface inside what counts as solid matter.
 bool shines_in_the_dark(const World& world, std::span<const WorldChanges> changes,
                         const SolidSides& sides) {
   for (const WorldChanges& change : changes) {
@@ -58,12 +59,12 @@ void IrradianceField::State::find_solid_sides(const World& world) {
   if (made && changes && !shines_in_the_dark(world, *changes, data.solid_sides)) return;
   const std::vector<std::uint32_t> before = std::move(data.solid_sides.words);
   const std::vector<PlaceGrid> grids = place_grids(data.store);
-  // A box that reaches out of a room was asked to light its outside; volumes that follow the viewer
-  // reach out of everything
+  // A volume that extends out of a room is meant to light its outside, too. Volumes that follow the
+  // viewer always extend out of the scene, which means nothing
   const bool outside_counts = !follows_viewer() && reach_out_of_scene(world, grids);
   data.solid_sides = lambent::find_solid_sides(world, grids, outside_counts);
   backend->push_solid_sides();
-  // What was taken for solid matter was a dark room
+  // A dark room had counted as solid matter: place all probes again
   if (made && data.solid_sides.words != before) {
     placement.edited_places = {{kEverywhere, updates - kRestUpdates}};
   }
@@ -101,7 +102,7 @@ std::uint64_t IrradianceField::State::update_cell_visibility(const World& world,
 
 void IrradianceField::State::initialize_relocated(const World& world, std::span<const int> moved,
                                                   UpdateStatistics& statistics) {
-  // Without surfels, the relocated probes no longer belong to those that the pending edits reached
+  // The pending edits do not count as applied to relocated probes, which have no surfels
   std::vector<int> still_updated;
   std::set_difference(edits.pending.updated.begin(), edits.pending.updated.end(), moved.begin(),
                       moved.end(), std::back_inserter(still_updated));
@@ -153,13 +154,13 @@ void IrradianceField::State::relocate_edited(const World& world, UpdateStatistic
   for (const int probe : moved) inherit_history(probe, world);
 }
 
-/// Lets a relocated probe continue from the light that it holds. That light counts as many samples
+/// Keeps the light of a relocated probe as the start of its new average. It counts as many samples
 /// as the fixed rays would, so that the few rays of the probe's next update do not replace all of
 /// it.
 void IrradianceField::State::inherit_history(int probe, const World& world) {
   ProbeStatus& status = statuses[probe];
   status = {};
-  // A probe in open air keeps no samples, so that it is traced once in its new place
+  // A probe in open air gets no samples, so that it is traced once in its new place
   if (placement.classification_inputs[probe].lights_surface) {
     status.samples = static_cast<float>(fixed_ray_directions().size()) /
                      static_cast<float>(settings.rays_per_probe);
@@ -169,7 +170,7 @@ void IrradianceField::State::inherit_history(int probe, const World& world) {
   scheduling.scheduler.mark_changed(probe);
 }
 
-/// Drops what a probe knows of its surroundings. Its light stays until it is traced.
+/// Discards a probe's surfels, stored distances and samples. Its light stays until it is traced.
 void reset_probe(int probe, ProbeData& data, std::span<ProbeStatus> statuses,
                  ProbeScheduler& scheduler) {
   const std::vector<vec2> nothing(

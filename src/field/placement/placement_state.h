@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What relocation and classification remember between updates.
+// The state of relocation and classification between updates.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +16,24 @@ namespace lambent {
 /// A box in which static geometry was edited. Probes near it are relocated once edits there stop.
 struct EditedPlace {
   Bounds box;
-  int update;  ///< Number of the update that last saw an edit in the box.
+  int update;  ///< Number of the last update that found an edit in the box.
 };
 
 struct PlacementState {
   std::vector<ClassificationInput> classification_inputs;  ///< From the static part of the scene.
   std::vector<EditedPlace> edited_places = {};
-  std::uint64_t solid_revision = 0;   ///< The revision that ProbeData::solid_sides know.
+  std::uint64_t solid_revision = 0;   ///< Revision that ProbeData::solid_sides are up to date with.
   std::uint64_t placed_revision = 0;  ///< The revision that edited_places are up to date with.
   bool classified = false;  ///< The classification inputs have not changed since classify().
   std::vector<Bounds> moved_to = {};  ///< Bounds of the dynamic instances at the last classify().
 };
 
-/// Sets the state of each probe from its classification input and from where dynamic instances are
-/// now. Tells the scheduler which probes' states changed.
+/// Sets the state of each probe from its classification input and from the current bounds of the
+/// dynamic instances. Notifies the scheduler of the probes whose states changed.
 void classify(const World& world, const ProbeStore& store, PlacementState& placement,
               std::span<ProbeStatus> statuses, ProbeScheduler& scheduler);
 
-/// Drops a probe's surfels, stored distances and number of samples. Its light stays.
+/// Discards a probe's surfels, stored distances and number of samples. Its light stays.
 void reset_probe(int probe, ProbeData& data, std::span<ProbeStatus> statuses,
                  ProbeScheduler& scheduler);
 

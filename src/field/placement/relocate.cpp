@@ -17,7 +17,8 @@
 namespace lambent {
 namespace {
 
-// The number of fixed rays: several of them hit a wall half a cell away at a steep angle.
+// The number of fixed rays. It is large enough that several rays hit a wall half a cell away at a
+// steep angle.
 constexpr int kFixedRays = 128;
 constexpr std::size_t kProbesPerTask = 16;
 
@@ -30,8 +31,8 @@ bool is_moving(const Hit& hit, std::span<const std::uint8_t> moving) {
   return !hit.missed() && hit.instance < moving.size() && moving[hit.instance] != 0;
 }
 
-/// Continues rays that hit moving instances behind these, until they hit something static or
-/// nothing.
+/// Continues rays that hit moving instances behind them, until the rays hit static geometry or
+/// leave the scene.
 void pass_moving_surfaces(const RayTracer& tracer, std::span<const std::uint8_t> moving,
                           std::span<Ray> rays, std::span<Hit> hits) {
   std::vector<std::size_t> stopped;
@@ -93,7 +94,7 @@ class Relocation {
   int probe() const { return probe_; }
   bool converged() const { return relocation_.converged != 0; }
 
-  /// Takes one step, by the hits of the fixed rays from where the probe stands.
+  /// Takes one step, from the hits of the fixed rays at the probe's position.
   void step(std::span<const FixedRayHit> fixed_hits, ProbeStore& store) {
     const vec3 next =
         Surroundings(fixed_hits)

@@ -22,7 +22,7 @@ std::span<const vec3> fixed_ray_directions();
 /// Returns one flag per instance: 1 where it is dynamic.
 std::vector<std::uint8_t> moving_instances(const Scene& scene);
 
-/// What fixed rays meet: the static part of a scene.
+/// The static part of a scene, in which fixed rays are traced.
 struct StaticScene {
   const Scene& scene;
   const RayTracer& tracer;
@@ -51,8 +51,8 @@ void trace_fixed_rays(const StaticScene& stage, std::span<const Viewpoint> viewp
 /// get some.
 std::size_t viewpoints_of_batch(const RayTracer& tracer);
 
-/// Whether so many fixed rays hit sides that bound solid matter that the point must be inside
-/// geometry.
+/// Whether a point is inside geometry, by the fraction of its fixed rays that hit sides that bound
+/// solid matter.
 bool inside_geometry(std::span<const FixedRayHit> fixed_hits);
 
 /// A better position for a probe with these hits at `from`, or `from` itself where it should stay.
@@ -62,8 +62,8 @@ vec3 better_position(std::span<const FixedRayHit> fixed_hits, const vec3& from,
                      const vec3& grid_position, const vec3& spacing);
 
 /// Relocates some probes until they have converged. Returns those that moved, in the order of
-/// `probes`: what they hold belongs to their old places. Gives the same bits on any number of
-/// threads.
+/// `probes`; their tiles still hold light and distances of their old places. Gives the same bits on
+/// any number of threads.
 std::vector<int> relocate_probes(const StaticScene& stage, std::span<const int> probes,
                                  ProbeStore& store);
 

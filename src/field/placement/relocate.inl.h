@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The better position of a probe, from the hits of its fixed rays. The includer provides
+// Computes a better position of a probe from the hits of its fixed rays. The includer provides
 //   int hit_count();                 // how many hits the fixed rays have
 //   FixedRayHit hit_at(int index);
 //   int plane_count();               // how many planes of hits pass below the probe
 //   PlaneBelow plane_at(int rank);   // one of these planes; rank 0 is the nearest
 // Everything is in the frame of the probe's grid.
 
-/// The nearest place outside geometry: just behind the back face that is closest to the probe's
-/// place on the grid, among those that rays hit.
+/// The place outside geometry, just behind one of the back faces that rays hit, that is nearest to
+/// the probe's place on the grid. Returns `position` where none is within reach.
 LAMBENT_FN vec3 nearest_exit(vec3 position, vec3 grid_position, vec3 spacing, float margin) {
   vec3 best = position;
   float nearest = infinity();

@@ -9,7 +9,7 @@
 
 LAMBENT_BEGIN
 
-// Steps of a search before it ends. Most probes need two, those in corners four.
+// The most steps of a search. Most probes need two, those in corners four.
 const int kMaxRelocationSteps = 8;
 
 // Probes stand in front of surfaces by this fraction of the smallest spacing. With a smaller
@@ -30,12 +30,13 @@ const float kMinFacingCosine = 0.7f;
 // Surfaces whose normals' cosine is below this count as facing different ways, as in a corner.
 const float kMaxCornerCosine = 0.5f;
 
-// A corner's planes are at least this steep to each other, so that stepping along one's normal
-// without leaving the other divides by no less.
+// The least sine of the angle between a plane's normal and those of the planes that a probe already
+// stands in front of. Planes at a smaller angle are skipped, since a step towards a plane along the
+// others is divided by the sine.
 const float kMinSteepness = 0.5f;
 
-// The additional cost of standing inside geometry that can be left: more than that of any place
-// outside [margins].
+// The additional cost of a place inside geometry that the probe can leave [margins]. It exceeds the
+// cost of any place outside.
 const float kInsideGeometryCost = 100.0f;
 
 /// The hit of a probe's fixed ray on static geometry, in the frame of the probe's grid.
@@ -96,8 +97,8 @@ LAMBENT_FN RelocationState begin_relocation(vec3 offset) {
   return relocation;
 }
 
-/// Ends a search at the best offset so far. Begins another from there unless it is the first one.
-/// Returns the best offset.
+/// Ends a search at the best offset so far. Begins another search from there, unless the search
+/// began at the best offset: relocation has then converged. Returns the best offset.
 LAMBENT_FN vec3 end_relocation(LAMBENT_INOUT(RelocationState) relocation) {
   vec3 best = relocation.best;
   if (relocation.best == relocation.first) {

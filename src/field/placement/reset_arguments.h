@@ -7,8 +7,8 @@
 
 LAMBENT_BEGIN
 
-/// Arguments of reset_probes, which discards all that a recorded field knows of the probes of a
-/// list: their light, distances, offset, state, history and variability.
+/// Arguments of reset_probes, which resets all data of the probes of a list in a recorded field:
+/// their light, distances, offset, state, history and variability.
 struct ResetProbesArguments {
   ProbeStates probes;
   VariabilityArray variability;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scrolling of volumes that follow the viewer: the probes of the slab that is left behind are
-// recycled for the slab that comes into range, and start from the light that the coarser volumes
-// hold there. How far volumes scroll and which probes they recycle is in probes/volumes.cpp.
+// recycled for the slab that comes into range, and start from the light of the coarser volumes
+// there. probes/volumes.cpp computes how far volumes scroll and which probes they recycle.
 #include <algorithm>
 #include <vector>
 

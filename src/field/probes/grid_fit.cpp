@@ -23,8 +23,8 @@ constexpr int kMinProbes = kMinProbesPerAxis * kMinProbesPerAxis * kMinProbesPer
 constexpr float kCellRounding = 1e-4f;
 // This many cells along an axis are more than any budget allows, and still fit into an int.
 constexpr float kUncountableCells = 1e6f;
-// No side of the volume is thinner than this fraction of the longest, so that flat scenes get one,
-// too.
+// No side of the volume is shorter than this fraction of the longest, so that flat scenes get a
+// volume, too.
 constexpr float kMinThickness = 1e-2f;
 // A scene without extent gets a cell of this size [m].
 constexpr float kSmallestScene = 1e-3f;

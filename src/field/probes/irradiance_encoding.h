@@ -11,8 +11,8 @@
 
 LAMBENT_BEGIN
 
-// Irradiance is stored to the power 1/5, so that the few bits of R11G11B10F are spent evenly to the
-// eye.
+// Irradiance is stored to the power of 1/5, so that the few bits of R11G11B10F give steps that are
+// about equally visible at all levels.
 LAMBENT_FN float perceptual_from_linear(float linear) {
   return pow(linear, 0.2f);
 }
@@ -22,7 +22,7 @@ LAMBENT_FN float linear_from_perceptual(float encoded) {
 }
 
 /// The code of one channel. Chooses between the two codes around `linear` with the probabilities
-/// that keep the mean of the *decoded* light right. `u` is uniform in [0, 1).
+/// for which the mean of the *decoded* light is `linear`. `u` is uniform in [0, 1).
 LAMBENT_FN uint encode_perceptual_channel(float linear, int mantissa_bits, float u) {
   uint down = encode_small_float_down(perceptual_from_linear(max(linear, 0.0f)), mantissa_bits);
   uint up = next_small_float(down, mantissa_bits);
@@ -38,7 +38,7 @@ LAMBENT_FN uint encode_r11g11b10f(vec3 irradiance, vec3 u) {
 }
 
 /// The random numbers with which a texel is stored. `index` is the texel's index in the store.
-/// Fewer bits would bias R11G11B10F, whose steps are wide, by some per mille.
+/// Random numbers of fewer bits would bias R11G11B10F, whose steps are wide, by some per mille.
 LAMBENT_FN vec3 irradiance_dither(uint index, uint dither_seed) {
   uvec3 bits = hash_pcg3d(uvec3(index, dither_seed, 0u));
   return vec3(uniform_from_bits(bits.x), uniform_from_bits(bits.y), uniform_from_bits(bits.z));
@@ -50,14 +50,14 @@ LAMBENT_FN vec3 decode_r11g11b10f(uint word) {
               linear_from_perceptual(decode_small_float(word >> 22u, 5)));
 }
 
-// The formats of irradiance, and how many there are. Their numbers are those of IrradianceFormat,
+// The formats of irradiance, and the number of formats. The values are those of IrradianceFormat
 // and of field files.
 const uint kRgb9e5 = 0u;
 const uint kR11g11b10f = 1u;
 const uint kIrradianceFloat32 = 2u;
 const uint kIrradianceFormatCount = 3u;
 
-/// The 32-bit words of a texel: one, or three that hold the light as it is.
+/// The number of 32-bit words of a texel: one, or three floats that hold the light unencoded.
 LAMBENT_FN int words_of_irradiance(uint format) {
   return format == kIrradianceFloat32 ? 3 : 1;
 }

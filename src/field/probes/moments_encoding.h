@@ -25,11 +25,11 @@ LAMBENT_FN uint blended_halves(uint word, vec2 now, float blend_weight, float sc
   return encode_small_float(moments.x, 10, u) | (encode_small_float(moments.y, 10, v) << 16u);
 }
 
-/// Stored moments, moved by as much as the moments of a probe's rays changed. Stored moments
-/// average the rays of many updates; moving them keeps what did not change. Where the result is not
-/// possible for any distances, because of rounding or noise, the rays' moments replace it, and
-/// where `has_history` is false: what a probe saw before it came out of geometry, or went into it,
-/// is not worth keeping.
+/// Stored moments, shifted by the change in the moments of a probe's rays. Stored moments average
+/// the rays of many updates, and a shift preserves what did not change. Where no distances can have
+/// the result, because of rounding or noise, the rays' moments replace it. They also do where
+/// `has_history` is false: distances from before a probe came out of geometry, or went into it, are
+/// useless.
 LAMBENT_FN vec2 moved_moments(vec2 held, vec2 before, vec2 after, bool has_history) {
   if (!has_history) return after;
   if (before == after) return held;

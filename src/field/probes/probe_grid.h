@@ -26,7 +26,7 @@ struct ProbeGrid {
   ivec3 count;       ///< >= 2 along each axis
   ivec3 scroll;      ///< Probe c is stored as the one of coordinates (c + scroll) mod count; >= 0.
   int first;         ///< Index of the probe stored first, among the probes of all volumes.
-  vec3 fade_centre;  ///< Centre of the box in which the volume counts [cells from probe 0].
+  vec3 fade_centre;  ///< Centre of the box in which it has a weight [cells from probe 0].
   vec3 fade_half;    ///< Half the size of that box [cells]; > 0.
   vec3 fade_cells;   ///< The weight falls to 0 across this many cells within the box's faces; > 0.
 };
@@ -111,8 +111,9 @@ LAMBENT_FN int cell_wrap(ProbeGrid grid, ivec3 base) {
          (c.z + 1 == grid.count.z ? 4 : 0);
 }
 
-/// The blend weight of a volume at a point: 1 well inside the box in which the volume counts,
-/// falling to 0 at the box's faces. In a thin box it falls all the way from the middle.
+/// The blend weight of a volume at a point: 1 well inside the box in which the volume has a weight,
+/// falling to 0 at the box's faces. In a box thinner than twice fade_cells, it falls from the
+/// middle on.
 LAMBENT_FN float volume_blend_weight(ProbeGrid grid, vec3 position_ws) {
   vec3 inside = grid.fade_half - abs(grid_coords(grid, position_ws) - grid.fade_centre);
   vec3 weight = inside / min(grid.fade_half, grid.fade_cells);
@@ -126,9 +127,9 @@ LAMBENT_FN ivec3 cell_corner(int corner) {
   return ivec3(corner & 1, (corner >> 1) & 1, (corner >> 2) & 1);
 }
 
-// Stored distances are compared only with distances to points of the cells around a probe, at most
-// a cell's diagonal away. Longer ones are clamped to this many diagonals, so that far surfaces do
-// not dominate the variance.
+// Stored distances are compared only with distances to points of the cells around a probe, which
+// are at most a cell's diagonal away. Stored distances are clamped to this many diagonals, so that
+// far surfaces do not dominate the variance.
 const float kMaxDistanceDiagonals = 1.5f;
 
 /// The longest distance that a probe stores [m].
@@ -144,8 +145,8 @@ LAMBENT_FN float distance_unit(ProbeGrid grid) {
   return power_of_two(exponent - kDistanceUnitBits);
 }
 
-// The largest offset of a probe from its place on the grid, along each axis [cells]: probes never
-// pass each other. JCGT 10(2) 2021, sec. 4.
+// The largest offset of a probe from its place on the grid, along each axis [cells]. It is below
+// 0.5, so that probes never pass each other. JCGT 10(2) 2021, sec. 4.
 const float kMaxProbeOffset = 0.45f;
 
 // Offsets are stored as three signed numbers of 10 bits; 511 stands for kMaxProbeOffset.

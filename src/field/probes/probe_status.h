@@ -16,12 +16,12 @@ enum class ProbeState : std::uint8_t {
   vigilant,        ///< Lights static surfaces.
 };
 
-/// Everything that is known of a probe besides its tiles and surfels.
+/// The state and history of a probe: all that is stored of it besides its tiles and surfels.
 struct ProbeStatus {
   /// Number of updates with FieldSettings::rays_per_probe rays that its tiles average, >= 0.
   float samples = 0.0f;
-  /// Relative variance of the light that one such update estimates, and the number of updates from
-  /// which that was learned.
+  /// Relative variance of the light that an update with FieldSettings::rays_per_probe rays
+  /// estimates, and the number of updates from which the variance was learned.
   float variance = 1.0f;
   std::uint16_t variance_samples = 0;
   ProbeState state = ProbeState::newly_vigilant;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The store of a field: the encoded octahedral tiles that probes keep between updates, with
-// gutters.
+// The store of a field: the encoded octahedral tiles of its probes, with gutters.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +34,7 @@ class ProbeStore {
   /// The volume that a probe belongs to.
   int volume_of(int probe) const;
   const ProbeGrid& grid_of(int probe) const { return grids_[volume_of(probe)]; }
-  /// Replaces the grid of a volume by one of the same count and spacing. Its place in memory stays.
+  /// Replaces the grid of a volume by one of the same count and spacing. ProbeGrid::first stays.
   void move_volume(int volume, const ProbeGrid& grid);
 
   /// The relative indices of cells' corners. Entry kCellWraps v + w is for the cells of volume v
@@ -80,12 +79,13 @@ class ProbeStore {
   /// Encodes a probe's interior texels, row after row, and fills the gutter. Calls with different
   /// dither seeds dither independently.
   void store_irradiance(int probe, std::span<const vec3> interior, uint dither_seed);
-  /// Blends a probe's moments with new ones of this weight, 0 to 1, and fills the gutter.
+  /// Blends a probe's moments with new ones, whose weight is `blend_weight`, 0 to 1, and fills the
+  /// gutter.
   void blend_moments(int probe, std::span<const vec2> interior, float blend_weight,
                      uint dither_seed);
 
-  /// The encoded words, for kernels: `words_per_*_texel` words per texel. Distances are in units of
-  /// distance_unit() of the volume.
+  /// The encoded words, for kernels: words_per_irradiance_texel() or words_per_distance_texel()
+  /// words per texel. Distances are in units of distance_unit() of the volume.
   std::span<const uint> irradiance_words() const { return irradiance_; }
   std::span<const uint> distance_words() const { return distance_; }
   std::span<uint> irradiance_words() { return irradiance_; }

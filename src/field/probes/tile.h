@@ -15,8 +15,8 @@ LAMBENT_FN vec3 tile_direction(ivec2 texel, int texels) {
   return octahedral_decode(p);
 }
 
-/// A bilinear fetch from a tile: the texel with the lowest coordinates of the four, from 0 to
-/// texels with the gutter included, and the weights of the texels beyond it.
+/// A bilinear fetch from a tile: the lowest coordinates of its four texels, from 0 to `texels` with
+/// the gutter included, and the weights of the texels at the next coordinate along each axis.
 struct TileFetch {
   ivec2 corner;
   vec2 fraction;
@@ -36,8 +36,8 @@ LAMBENT_FN int gutter_texels(int texels) {
   return 4 * (texels + 1);
 }
 
-/// A texel of the gutter (coordinates with gutter). The order is the top row, the bottom row, both
-/// sides.
+/// A texel of the gutter (coordinates with gutter). Indices run over the top row, then the bottom
+/// row, then both sides.
 LAMBENT_FN ivec2 gutter_texel(int index, int texels) {
   int width = texels + 2;
   if (index < width) return ivec2(index, 0);
@@ -46,8 +46,8 @@ LAMBENT_FN ivec2 gutter_texel(int index, int texels) {
   return ivec2((i & 1) * (width - 1), 1 + (i >> 1));
 }
 
-/// The interior texel (coordinates without gutter) whose value a texel of the whole tile has
-/// (coordinates with gutter, 0 to texels + 1): itself, or the texel across the fold.
+/// The interior texel (coordinates without gutter) that has the same value as a texel of the whole
+/// tile (coordinates with gutter, 0 to texels + 1): itself, or the texel across the fold.
 LAMBENT_FN ivec2 tile_source(ivec2 with_gutter, int texels) {
   ivec2 t = with_gutter - ivec2(1);
   bool beyond_x = t.x < 0 || t.x >= texels;

@@ -31,7 +31,7 @@ inline LightChange light_change(TileLight before, TileLight now) {
   return Tiles{before, now}.light_change(static_cast<int>(now.size()));
 }
 
-/// The mean square of a change of light over the square of the mean before.
+/// The mean square of the change between two tiles, divided by the square of the mean before.
 inline float relative_square(TileLight before, TileLight now) {
   const LightChange change = light_change(before, now);
   return mean_relative_square(change.squares, static_cast<int>(now.size()), change.before);

@@ -17,13 +17,13 @@ struct LightChange {
   float now;      ///< Mean luminance after it.
 };
 
-/// The mean square of a difference over the square of `mean`, from the sum of its squares over all
-/// texels.
+/// The mean square of a difference, divided by the square of `mean`. `squares` is the sum of the
+/// difference's squares over all texels.
 LAMBENT_FN float mean_relative_square(float squares, int texels, float mean) {
   return squares / (float(texels) * max(mean * mean, kTiniestLight));
 }
 
-/// Sums over the texels of two tiles, from which their likeness follows.
+/// Sums over the texels of two tiles, from which likeness_of() computes their similarity.
 struct LikenessSums {
   float intersection;
   float united;

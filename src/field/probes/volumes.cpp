@@ -12,28 +12,29 @@
 namespace lambent {
 namespace {
 
-// Wide rather than high, as most places are (McGuire, "Dynamic diffuse global illumination with
-// ray-traced irradiance fields", GDC 2019).
+// The default number of probes of a cascade. It is wide rather than high, as most scenes are
+// (McGuire, "Dynamic diffuse global illumination with ray-traced irradiance fields", GDC 2019).
 const ivec3 kCascadeProbes(32, 4, 32);
 constexpr float kFinestSpacing = 1.0f;  // [m]
 
-// A volume scrolls when the viewer is more than this many cells off its middle: more than half a
-// cell, so that small movements to and fro do not scroll it each time.
+// A volume scrolls when the viewer is more than this many cells off its middle. This is more than
+// half a cell, so that small movements back and forth do not scroll the volume each time.
 constexpr float kScrollSlack = 0.75f;
-// A viewer this far off [cells] was teleported, and the volume is moved at once.
+// A viewer this far off [cells] was teleported, and the volume is moved in one step.
 constexpr float kCarriedAway = 2.0f;
-// Along axes with fewer probes, kScrollSlack would leave too small a box in which the volume
-// counts.
+// Along axes with fewer probes, kScrollSlack would make the box in which the volume has a weight
+// too small.
 constexpr int kLongAxis = 8;
-// How far the sides of the box in which a volume counts move per update [cells], where they do not
-// move with the viewer: a cell takes half a second at 60 Hz.
+// How far the sides of the box in which a volume has a weight move per update [cells], where they
+// do not move with the viewer: a cell takes half a second at 60 Hz.
 constexpr float kFadeRate = 1.0f / 32.0f;
-// The sides move faster by this factor for each cell that the viewer is beyond kScrollSlack.
+// For each cell that the viewer is off beyond kScrollSlack, the rate grows by this many times
+// kFadeRate.
 constexpr float kHaste = 8.0f;
 
 // The farthest place of a probe from the world's origin [cells]: floats count cells up to there.
 constexpr float kFarthestCell = 4194304.0f;
-// With fewer probes along an axis, nothing is left of the box in which a cascade counts.
+// With fewer probes along an axis, the box in which a cascade has a weight would be empty.
 constexpr int kMinCascadeProbes = 4;
 
 // The most probes of a volume for which neither count nor spacing is given.
@@ -105,7 +106,7 @@ Expected<void> check_cascades(const FieldSettings& settings) {
   return {};
 }
 
-/// The range along one axis in which a volume counts [cells from probe 0].
+/// The range along one axis in which a volume has a weight [cells from probe 0].
 struct Range {
   float low, high;
 };
@@ -115,7 +116,8 @@ float approach(float value, float target, float rate) {
   return std::abs(way) <= rate ? target : value + std::copysign(rate, way);
 }
 
-/// How many cells a volume scrolls along one axis, and the range in which it counts afterwards.
+/// How many cells a volume scrolls along one axis, and the range in which it has a weight
+/// afterwards.
 struct Step {
   int cells;
   Range counts;
@@ -125,9 +127,9 @@ struct Step {
 /// middle [cells].
 ///
 /// Along a long axis, the range is centred on the viewer and excludes the slabs that are recycled.
-/// Along a short axis that would leave too little. There the range extends a cell beyond the
-/// probes, as that of a volume that stays, and excludes a slab only when the volume is about to
-/// scroll.
+/// Along a short axis, such a range would be too small. There the range extends a cell beyond the
+/// probes, like that of a volume that does not scroll, and excludes a slab only when the volume is
+/// about to scroll.
 Step scroll_along(float off, const Range& counts, int count) {
   const float last = static_cast<float>(count - 1);
   const int cells = static_cast<int>(std::round(off));
@@ -139,7 +141,7 @@ Step scroll_along(float off, const Range& counts, int count) {
   const Range whole = {-kFadeCells, last + kFadeCells};
   if (std::abs(off) > kCarriedAway) return {cells, whole};
 
-  // Neither the slab that is about to be recycled nor its new place may count
+  // Neither the slab that is about to be recycled nor its new place may have a weight
   const int wants = std::abs(off) <= kScrollSlack ? 0 : off > 0.0f ? 1 : -1;
   const Range target = wants == 0  ? whole
                        : wants > 0 ? Range{1.0f, last}
@@ -208,7 +210,7 @@ bool can_scroll(const ProbeGrid& grid) {
 }
 
 ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws) {
-  // Scroll from so far away that the volume moves at once
+  // Scroll from so far away that the volume moves in one step
   ProbeGrid away = grid;
   const vec3 viewer = clamp(viewer_ws / grid.spacing, vec3(-kFarthestCell), vec3(kFarthestCell));
   away.origin_ws = (floor(viewer) - 2.0f * vec3(grid.count)) * grid.spacing;

@@ -21,8 +21,8 @@ inline constexpr std::uint32_t kMaxVolumes = 64;
 // wide as the range of coordinates.
 inline constexpr float kMinSpacing = 1e-15f, kMaxSpacing = kMaxCoordinate;
 
-// No volume starts farther from the world's origin along an axis [m]: some millions of the widest
-// cells, which is how far cascades scroll with a viewer.
+// The largest distance of a volume from the world's origin along an axis [m]: some millions of the
+// widest cells, which is how far cascades scroll with a viewer.
 inline constexpr float kMaxOrigin = 1e16f;
 
 /// Whether all three coordinates are numbers.
@@ -38,7 +38,7 @@ struct VolumeRole {
       0;  ///< Cascade level, 0 the finest. Volumes of level L are updated every 2^L updates.
 };
 
-/// A volume as the settings ask for it.
+/// A volume that the settings request.
 struct Volume {
   ProbeGrid grid;
   VolumeRole role;
@@ -54,7 +54,7 @@ ProbeGrid still_grid(const FieldGrid& grid);
 /// The grid of a volume, for the public interface.
 FieldGrid field_grid(const ProbeGrid& grid);
 
-/// The volumes that the settings ask for, in the order in which lookups use them. Cascades are
+/// The volumes that the settings request, in the order in which lookups use them. Cascades are
 /// centred on the bounds. Fails as IrradianceField::make does.
 Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
                                            const Bounds& scene_bounds);
@@ -62,16 +62,17 @@ Expected<std::vector<Volume>> plan_volumes(const FieldSettings& settings,
 /// Checks the settings, except those of volumes, against the ranges that FieldSettings states.
 Expected<void> check_settings(const FieldSettings& settings);
 
-/// Whether a volume can scroll: it is axis-aligned, has enough probes, and stands on whole cells.
+/// Whether a volume can scroll: it is axis-aligned, has enough probes, and its origin is a whole
+/// number of cells from the world's origin.
 bool can_scroll(const ProbeGrid& grid);
 
-/// The volume moved at once so that it is centred on the viewer.
+/// The volume, moved in one step so that it is centred on the viewer.
 ProbeGrid centred(const ProbeGrid& grid, const vec3& viewer_ws);
 
-/// The volume after an update's scrolling. It scrolls in whole cells, and only once the viewer is
-/// most of a cell off its middle. A walking viewer does not see this: the box in which the volume
-/// counts changes smoothly, and contains neither slabs that are about to be recycled nor slabs that
-/// just were.
+/// The volume after an update's scrolling. It scrolls in whole cells, and only when the viewer is
+/// most of a cell off its middle. A walking viewer does not notice this: the box in which the
+/// volume has a weight changes smoothly, and contains neither slabs that are about to be recycled
+/// nor slabs that have just been recycled.
 ProbeGrid scrolled(const ProbeGrid& grid, const vec3& viewer_ws);
 
 /// The probes of `next` whose places are outside `before`, the same volume before scrolling.

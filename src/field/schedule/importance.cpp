@@ -13,8 +13,8 @@ namespace {
 // about equally.
 constexpr int kBounces = 2;
 
-// Probes below this fraction of the largest importance do not scatter theirs: it is too little to
-// matter.
+// Probes below this fraction of the largest importance do not scatter their importance, which would
+// make no visible difference.
 constexpr float kMinScattered = 1e-3f;
 
 void add_weights(const ProbeStore& store, const CornerWeights& corners, float importance,
@@ -25,8 +25,8 @@ void add_weights(const ProbeStore& store, const CornerWeights& corners, float im
   }
 }
 
-/// Adds to each probe what the surfels that a probe sees pass on of its importance: in proportion
-/// to the light that they reflect towards it.
+/// Adds to the probes in `sum` the importance that the surfels of a probe pass on to them, in
+/// proportion to the light that they reflect towards the probe.
 void scatter_importance(const ProbeStore& store, const ProbeTrace& trace, float importance,
                         std::vector<float>& sum) {
   const auto surfels = static_cast<int>(trace.surfels.size());
@@ -72,7 +72,7 @@ std::vector<float> probe_importance(const ProbeStore& store, std::span<const Fie
   find_weights(store, {}, points, weights);
   for (const CornerWeights& corners : weights.corners) add_weights(store, corners, 1.0f, received);
 
-  // Scatter it to the probes whose light those receive
+  // Scatter the importance to the probes whose light those receive
   std::vector<float> total = received;
   for (int bounce = 0; bounce < kBounces; ++bounce) {
     const float least = kMinScattered * *std::max_element(received.begin(), received.end());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of a probe's importance that its surfels scatter.
+// The share of a probe's importance that each of its surfels scatters.
 #ifndef LAMBENT_FIELD_SCHEDULE_IMPORTANCE_MATH_H
 #define LAMBENT_FIELD_SCHEDULE_IMPORTANCE_MATH_H
 
@@ -8,11 +8,11 @@
 
 LAMBENT_BEGIN
 
-// Only one in this many of a probe's surfels scatters importance, for those around it as well.
+// One in this many of a probe's surfels scatters importance, with this many times its weight.
 const uint kSurfelsPerScatter = 4u;
 
-/// What each scattering surfel passes on of a probe's importance, where the probe has this many
-/// surfels.
+/// The importance that a scattering surfel passes on from a probe of importance `received`, which
+/// has this many surfels.
 LAMBENT_FN float scattered_importance(float received, int surfels, vec3 albedo_over_pi) {
   float fraction = float(kSurfelsPerScatter) / float(surfels);
   return received * fraction * (kPi * luminance(albedo_over_pi));

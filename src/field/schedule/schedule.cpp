@@ -8,13 +8,13 @@
 namespace lambent {
 namespace {
 
-// Numbers of rays up to this factor above a class belong to it: the square root of the classes'
-// ratio.
+// Numbers of rays up to this factor above a class belong to the class. It is the square root of the
+// ratio of two classes.
 constexpr float kBetweenClasses = 1.41421356f;
 
 // Weight of the newest measurement in the moving average of the cost of a ray.
 constexpr double kCostShare = 0.2;
-// The cost of a ray before any was timed [ms]: that of a slow processor.
+// The assumed cost of a ray before any was timed [ms], as on a slow processor.
 constexpr double kFirstGuessMs = 1e-3;
 
 }  // namespace

@@ -35,7 +35,8 @@ inline float longest_average(const FieldSettings& settings) {
   return 1.0f / (1.0f - settings.hysteresis);
 }
 
-/// Whether a probe may be traced.
+/// Whether a probe takes part in the schedule. Probes that are off do not, nor do sleeping ones
+/// that have been traced and hold samples.
 bool is_live(const ProbeStatus& status);
 
 /// Measures the cost of a ray, and converts time budgets into ray budgets.
@@ -64,10 +65,10 @@ Schedule schedule_all(const ProbeStore& store, std::span<const VolumeRole> roles
                       std::span<const ProbeStatus> statuses, const FieldSettings& settings,
                       std::uint32_t update);
 
-/// Chooses the probes of updates with a budget. It keeps what it needs of each probe, and for
-/// blocks of probes the largest error reduction and age among them. An update so looks only at
-/// probes that changed and at urgent ones, however many have converged. Whoever changes a probe's
-/// status must call mark_changed().
+/// Chooses the probes of updates with a budget. It stores the numbers that a probe's urgency
+/// depends on, and for each block of probes the largest error reduction and age among them, so that
+/// an update visits only probes that changed and urgent ones, however many have converged. Code
+/// that changes a probe's status must call mark_changed().
 class ProbeScheduler {
  public:
   /// `roles` has one entry per volume.
@@ -78,7 +79,8 @@ class ProbeScheduler {
   /// Notes that any status may have changed.
   void mark_all_changed() { all_changed_ = true; }
 
-  /// Updates what depends on changed statuses. `statuses` has one entry per probe.
+  /// Updates the stored numbers of the probes whose status changed. `statuses` has one entry per
+  /// probe.
   void refresh(const ProbeStore& store, std::span<const ProbeStatus> statuses);
 
   /// The number of probes in each state at the last refresh().
@@ -87,15 +89,15 @@ class ProbeScheduler {
   /// The number of live probes that have never been traced, sleeping ones not included.
   int never_traced() const { return never_traced_; }
 
-  /// The most urgent probes within a budget of rays, as of the last refresh(). `update` counts
-  /// from 1. `importance` has one number per probe, 0 to 1; if it is empty, the distance from the
-  /// viewer decides.
+  /// The most urgent probes within a budget of rays, by the statuses at the last refresh().
+  /// `update` counts from 1. `importance` has one number per probe, 0 to 1; if it is empty, probes
+  /// are weighted by their distance from the viewer.
   Schedule choose(const ProbeStore& store, std::uint64_t ray_budget, std::uint32_t update,
                   const std::optional<glm::vec3>& viewer_ws,
                   std::span<const float> importance = {}) const;
 
  private:
-  /// What the urgency of a probe depends on.
+  /// The numbers that a probe's urgency depends on.
   struct Entry {
     float deviation = 0.0f;                ///< probe_deviation() of the probe and its neighbours.
     float reduction = 0.0f;                ///< error_reduction() of the probe; 0: it has converged.
@@ -104,13 +106,13 @@ class ProbeScheduler {
     std::uint32_t last_traced = 0;
     ProbeState state = ProbeState::off;
   };
-  /// What an upper bound on the urgency of a block of consecutive probes depends on.
+  /// The numbers that an upper bound on the urgency of a block of consecutive probes depends on.
   struct Block {
     float reduction = 0.0f;                ///< The largest of its probes.
     float reduction_per_deviation = 0.0f;  ///< The largest of its probes.
     std::uint32_t last_traced = 0;         ///< The smallest of its probes.
     float deviation_sum = 0.0f;  ///< Sum of the deviations of those that have not converged.
-    int unsettled = 0;           ///< The number of those.
+    int unsettled = 0;           ///< The number of probes that have not converged.
   };
 
   float view_weight(const ProbeStore& store, int probe, const std::optional<glm::vec3>& viewer_ws,
@@ -136,10 +138,11 @@ class ProbeScheduler {
 std::vector<TraceGroup> group_by_rays(const Schedule& schedule, const FieldSettings& settings,
                                       uint update);
 
-/// Learns a probe's variance from the difference between what its rays estimated and what it held:
-/// `relative_square` is the mean square of that difference over the square of the mean. The
-/// estimate is of `weight` updates' worth of rays, and the probe held an average of
-/// `status.samples` updates. Then adds `weight` to the samples.
+/// Learns a probe's variance from the difference between the light that its rays estimated and the
+/// light that it held: `relative_square` is the mean square of that difference, divided by the
+/// square of the mean. The rays amount to `weight` updates with FieldSettings::rays_per_probe rays,
+/// and the probe held an average of `status.samples` such updates. Then adds `weight` to the
+/// samples.
 void learn_variance(float relative_square, float weight, ProbeStatus& status);
 
 }  // namespace lambent

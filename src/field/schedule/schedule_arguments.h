@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The schedule of a recorded field on its device: its data, and the arguments of its kernels.
 //
-// Probes are sorted into bins by their priority. The probes of the highest bins are traced, and of
-// the bin in which the budget ends those with the lowest indices. Only integers decide, so that the
-// result is the same on every run. An update traces whole blocks of kBlockProbes, because kernels
-// work on eight probes per group; the last block is filled up with the next probes.
+// Probes are sorted into bins by their priority. An update traces the probes of the highest bins,
+// and in the bin in which the budget ends those with the lowest indices. The choice depends on
+// integers only, so that it is the same on every run. An update traces whole blocks of
+// kBlockProbes, because kernels work on eight probes per group; the last block is filled up with
+// the next probes.
 #ifndef LAMBENT_FIELD_SCHEDULE_SCHEDULE_ARGUMENTS_H
 #define LAMBENT_FIELD_SCHEDULE_SCHEDULE_ARGUMENTS_H
 
@@ -14,13 +15,14 @@
 
 LAMBENT_BEGIN
 
-// The bins: probes that are left out; converged ones; bins by error reduction, four per octave;
-// bins by age; probes that were never traced.
+// The bins, in ascending priority: probes that are left out; converged ones; bins by error
+// reduction, four per octave; bins by age; probes that were never traced. The bins by error
+// reduction reach from 2^-14, below the reduction at which a probe with the longest memory
+// converges, to 2^10.
 const int kNoPartBin = 0;
 const int kRestBin = 1;
 const int kFirstReductionBin = 2;
-const int kReductionBins =
-    96;  // from 2^-14 on, a settled probe's of the longest memory, up to 2^10
+const int kReductionBins = 96;
 const int kFirstOldBin = 98;
 const int kOldBins = 16;
 const int kNeverBin = 114;
@@ -31,12 +33,12 @@ const int kPriorityBins = 115;
 const uint kReductionShift = 21u;
 const int kMinReductionStep = (127 - 14) << 2;
 
-/// The bin of a probe that is not left out, by its probe_urgency(): a more urgent one is in no
-/// lower bin.
+/// The bin of a probe that is not left out, by its probe_urgency(). Never decreases with the
+/// urgency.
 LAMBENT_FN int priority_bin(float urgency) {
   if (urgency >= kNeverUrgency) return kNeverBin;
   if (urgency >= kOldUrgency) {
-    // Of probes that wait too long, the urgency is above kOldUrgency by 0.5 to 1
+    // The urgency of probes that wait too long exceeds kOldUrgency by 0.5 to 1
     int old = int((urgency - kOldUrgency - 0.5f) * (2.0f * float(kOldBins)));
     return kFirstOldBin + clamp(old, 0, kOldBins - 1);
   }
@@ -59,26 +61,26 @@ LAMBENT_FN ProbeVariability new_variability() {
   return variability;
 }
 
-/// The device's decision about an update, and what it keeps for the next one.
+/// The device's decision about an update, and the state that the next one starts from.
 struct ScheduleState {
   ListState list;
   uint live;             ///< The number of probes that are not left out.
-  float mean_light;      ///< Their mean luminance.
-  float mean_deviation;  ///< Mean deviation of those that had not converged before it.
+  float mean_light;      ///< Mean luminance of the probes that are not left out.
+  float mean_deviation;  ///< Mean deviation of the probes that had not converged before the update.
   int last_bin;          ///< The bin in which the budget ends.
-  int of_last_bin;       ///< The number of probes of this bin that are traced.
+  int of_last_bin;       ///< The number of probes of `last_bin` that are traced.
 };
 LAMBENT_DEVICE_ARRAY(ScheduleStateArray, ScheduleState, 4)
 
-// Probes of a chunk, on which one workgroup works: all devices with ray tracing support this group
-// size.
+// The number of probes of a chunk, and the size of the workgroup that works on it. All devices with
+// ray tracing support this size.
 const int kChunkProbes = 256;
 
 /// Sums over consecutive probes.
 struct ScheduleChunk {
   uint bins[kPriorityBins];  ///< The number of probes in each bin.
-  float deviation_sum;       ///< Sum of the deviations of those that have not converged.
-  uint unsettled;            ///< The number of those.
+  float deviation_sum;       ///< Sum of the deviations of the probes that have not converged.
+  uint unsettled;            ///< The number of probes that have not converged.
   int higher;   ///< The number of probes in higher bins than the last one that is traced.
   int of_last;  ///< The number of probes in the last bin that is traced.
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the schedule depends on (schedule.h), on the processor and on devices: the variance of a
+// The formulas of the schedule (schedule.h), on the processor and on devices: the variance of a
 // probe's light, how much another ray would reduce its error, and how long it has waited.
 #ifndef LAMBENT_FIELD_SCHEDULE_SCHEDULE_MATH_H
 #define LAMBENT_FIELD_SCHEDULE_SCHEDULE_MATH_H
@@ -16,25 +16,27 @@ const uint kMaxProbeAge = 128u;
 // The variance of a probe is an average over about this many of its updates. A shorter memory would
 // forget bright light that few rays hit.
 const float kVarianceMemory = 32.0f;
-// The least variance of a probe: one that has not hit bright light yet may seem to have less.
+// The least variance of a probe. The estimate is too low for a probe whose rays have not hit bright
+// light yet.
 const float kMinVariance = 1e-4f;
 // The number of updates from which a variance was learned is counted up to this.
 const uint kMaxVarianceSamples = 0xFFFFu;
 
-// Probes darker than this fraction of the mean light count as this bright where noise is judged: an
-// eye that is adapted to the scene sees no more noise than that.
+// Where the visibility of noise is estimated, probes darker than this fraction of the mean light
+// count as this bright: an eye that is adapted to the scene does not see more noise in darker
+// light.
 const float kDarkShare = 0.02f;
 
 // A probe with this relative standard error has converged, and waits until its age makes it urgent.
 // Surfaces average the errors of eight probes.
 const float kSettledError = 0.01f;
 
-// For its priority, no probe's deviation counts as less than this fraction of the mean deviation.
-// Otherwise light would become too dark where few rays hit what is bright.
+// A probe's priority is computed from at least this fraction of the mean deviation. Otherwise light
+// would become too dark where few rays hit bright surfaces.
 const float kMinDeviationOfMean = 0.5f;
 
-// The least number of samples that counts. It keeps the error reduction of probes without history
-// finite, and is about what the smallest ray class amounts to.
+// The least number of samples that a probe counts as having. It keeps the error reduction of probes
+// without history finite, and is about the number of samples of the smallest ray class.
 const float kFewestSamples = 0.1f;
 
 /// The relative variance of the light that an update estimates for a probe, and the number of
@@ -45,7 +47,7 @@ struct VarianceEstimate {
 };
 
 /// The variance after an update of this `weight`. `relative_square` is the relative square of the
-/// difference between what it estimated and the average of the `averaged` updates before it.
+/// difference between the update's estimate and the average of the `averaged` updates before it.
 LAMBENT_FN VarianceEstimate learned_variance(VarianceEstimate known, float relative_square,
                                              float weight, float averaged) {
   if (averaged <= 0.0f) return known;
@@ -61,7 +63,7 @@ LAMBENT_FN VarianceEstimate learned_variance(VarianceEstimate known, float relat
 /// held. It follows from the `change` of the light of a tile of `texels` texels by blending the
 /// estimate in with `blend_weight`. The visibility of noise is taken to be proportional to the
 /// square root of the light (Rose, "The Sensitivity Performance of the Human Eye on an Absolute
-/// Scale", J. Opt. Soc. Am. 38(2), 1948). `mean_light` is the luminance of all probes.
+/// Scale", J. Opt. Soc. Am. 38(2), 1948). `mean_light` is the mean luminance of all probes.
 LAMBENT_FN float estimate_relative_square(LightChange change, int texels, float blend_weight,
                                           float mean_light) {
   float before = max(change.before, kDarkShare * mean_light);
@@ -78,15 +80,16 @@ LAMBENT_FN float learned_light(float mean_light, float now, float count, float l
 }
 
 /// The standard deviation by which a probe is scheduled. Its square is at least the mean variance
-/// of the probe and its neighbours. A probe's own variance is the lower, the less bright light its
-/// rays have hit so far; a probe that converged by it would stay too dark for good.
+/// of the probe and its neighbours. A probe's own variance is too low while its rays have hit
+/// little bright light; if it alone decided that the probe has converged, the probe would stay too
+/// dark.
 LAMBENT_FN float probe_deviation(float own, float mean_around) {
   return sqrt(max(own, mean_around));
 }
 
-/// How much a further sample reduces a probe's error, up to a constant factor: a squared error of
-/// deviation^2 / samples falls by deviation^2 / samples^2. Returns 0 for a probe that has
-/// converged. `longest` is the most updates that an average remembers.
+/// How much a further sample reduces a probe's error: a squared error of deviation^2 / samples
+/// falls by about deviation^2 / samples^2, of which this is the square root. Returns 0 for a probe
+/// that has converged. `longest` is the most updates that an average remembers.
 LAMBENT_FN float error_reduction(float deviation, float samples, float longest) {
   float counted = max(samples, kFewestSamples);
   if (samples >= longest || deviation < kSettledError * sqrt(counted)) return 0.0f;
@@ -104,7 +107,7 @@ LAMBENT_FN float scheduled_reduction(float reduction, float per_deviation, float
   return max(reduction, kMinDeviationOfMean * mean_deviation * per_deviation);
 }
 
-/// The neighbours of a probe along the axes of its grid: their greatest number.
+/// The greatest number of a probe's neighbours along the axes of its grid.
 const int kNeighbours = 6;
 
 /// The index of a neighbour, 0 to kNeighbours - 1, of the probe with these coordinates; -1 where
@@ -116,7 +119,7 @@ LAMBENT_FN int neighbour_of(ProbeGrid grid, ivec3 coords, int neighbour) {
   return exists ? probe_index(grid, coords) : -1;
 }
 
-// The number of the last update of a probe that takes no part.
+// The value of `last_traced` for a probe that takes no part in the schedule.
 const uint kNotLive = 0xFFFFFFFFu;
 
 /// Whether a probe has waited for kMaxProbeAge. Updates are counted from 1; `last_traced` is 0 for
@@ -125,8 +128,8 @@ LAMBENT_FN bool waits_too_long(uint last_traced, uint update) {
   return last_traced != kNotLive && (last_traced == 0u || update - last_traced >= kMaxProbeAge);
 }
 
-/// The weight of probes by the level of their cascade: those of level L are traced 2^L times as
-/// seldom.
+/// The weight of probes by the level of their cascade: those of level L are traced 2^-L times as
+/// often as those of level 0.
 LAMBENT_FN float level_weight(int level) {
   return power_of_two(-level);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Choice of the most urgent probes, without looking at those that are not urgent.
+// The choice of the most urgent probes, without visiting those that are not urgent.
 #include <algorithm>
 
 #include "core/parallel.h"
@@ -8,20 +8,20 @@
 namespace lambent {
 namespace {
 
-// Probes of a block. With this number, looking at all blocks and looking into the urgent ones cost
-// about the same in a field of some 100,000 probes.
+// The number of probes of a block. With this number, visiting all blocks and visiting the probes of
+// the urgent ones take about the same time in a field of some 100,000 probes.
 constexpr std::size_t kBlock = 64;
 constexpr std::size_t kBlocksPerTask = 64;
 
-// The error reduction that a sleeping probe's first update counts as. Other probes come first until
-// their error is hardly visible.
+// The error reduction that a sleeping probe is scheduled with for its first update. Other probes
+// have priority until their error is hardly visible.
 constexpr float kSleepingReduction = 0.02f;
 
-// A probe counts half as much at this distance from the camera [cells].
+// The distance from the camera at which a probe's weight is one half [cells].
 constexpr float kHalfWeightCells = 16.0f;
 
-// Probes that do not matter to the visible points count this much all the same, because the camera
-// will turn.
+// The least weight of probes that are not important to the visible points, because the camera will
+// turn.
 constexpr float kUnseenWeight = 0.02f;
 
 /// Calls body(neighbour) for the probes next to one in its grid.
@@ -45,7 +45,7 @@ bool comes_before(const Candidate& a, const Candidate& b) {
   return a.urgency != b.urgency ? a.urgency > b.urgency : a.probe < b.probe;
 }
 
-/// Keeps the most urgent of many candidates.
+/// Selects the most urgent of many candidates.
 class Best {
  public:
   explicit Best(std::size_t most) : most_(most) {}
@@ -61,7 +61,7 @@ class Best {
     std::push_heap(heap_.begin(), heap_.end(), comes_before);
   }
 
-  /// Whether a candidate of this urgency cannot be among them any more.
+  /// Whether a candidate of this urgency can no longer be among the most urgent ones.
   bool beyond(float urgency) const {
     return heap_.size() == most_ && heap_.front().urgency > urgency;
   }
@@ -88,7 +88,7 @@ float largest_spacing(const ProbeGrid& grid) {
 /// A lower bound on the distance of the probes from `first` to `last` from the viewer [cells].
 float least_cells_away(const ProbeStore& store, int first, int last, const vec3& viewer_ws) {
   const ProbeGrid& grid = store.grid_of(first);
-  // Nothing is known of probes of two volumes, or of a scrolled volume, whose order wraps around
+  // There is no bound for probes of two volumes, or of a scrolled volume, whose order wraps around
   if (last >= grid.first + probe_count(grid) || grid.scroll != ivec3(0)) return 0.0f;
   vec3 low = vec3(probe_coords(grid, first)), high = vec3(probe_coords(grid, last));
   const bool layers = low.z != high.z, rows = layers || low.y != high.y;
@@ -130,13 +130,14 @@ void ProbeScheduler::refresh_status(std::span<const ProbeStatus> statuses, int p
   ++count_of(states_, entry.state);
   if (entry.last_traced == 0) --never_traced_;
   entry.last_traced = is_live(status) ? status.last_traced : kNotLive;
-  // Only open air needs the light of a sleeping probe: it counts as traced once, and so comes after
-  // all other probes that have never been traced
+  // Only lookups in open air read sleeping probes: they count as traced once, so that they come
+  // after all other probes that have never been traced
   if (status.state == ProbeState::sleeping) entry.last_traced = std::max(entry.last_traced, 1u);
   if (entry.last_traced == 0) ++never_traced_;
 }
 
-/// Updates what depends on the variance of a probe and its neighbours; see probe_deviation().
+/// Updates the numbers that depend on the variance of a probe and its neighbours; see
+/// probe_deviation().
 void ProbeScheduler::refresh_deviation(const ProbeStore& store,
                                        std::span<const ProbeStatus> statuses, int probe) {
   Entry& entry = entries_[probe];
@@ -205,8 +206,8 @@ void ProbeScheduler::refresh(const ProbeStore& store, std::span<const ProbeStatu
   all_changed_ = false;
 }
 
-/// A probe gets rays in proportion to its deviation. The first time it gets few, so that all probes
-/// hold some light soon.
+/// The number of rays of a probe: in proportion to its deviation. A probe that was never traced
+/// gets few, so that all probes hold some light soon.
 int ProbeScheduler::rays_of(const Entry& entry, float mean_deviation) const {
   if (entry.last_traced == 0) return kRayClasses.front();
   const bool unknown = entry.state == ProbeState::sleeping || mean_deviation <= 0.0f;
@@ -245,7 +246,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
   const float deviation = mean_deviation();
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     const Block& block = blocks_[b];
-    // Only the oldest probe of a block matters here: if it is not old, none is
+    // Use the age of the block's oldest probe: if it does not wait too long, no other probe does
     const std::uint32_t last_traced =
         waits_too_long(block.last_traced, update) ? block.last_traced : kNotLive;
     float weight = 1.0f;
@@ -262,7 +263,7 @@ Schedule ProbeScheduler::choose(const ProbeStore& store, std::uint64_t ray_budge
   const auto later = [](const Candidate& a, const Candidate& b) { return comes_before(b, a); };
   std::make_heap(blocks.begin(), blocks.end(), later);
 
-  // Look into blocks until no other can hold a probe within the budget
+  // Visit blocks until no other can contain a probe within the budget
   Best best(ray_budget / kRayClasses.front() + 1);
   while (!blocks.empty() && !best.beyond(blocks.front().urgency)) {
     const std::size_t first = blocks.front().probe * kBlock;

@@ -30,12 +30,13 @@ void for_each_part(std::size_t first, std::size_t last, Body body) {
   }
 }
 
-/// Whether a part of a chunk of `size` texels is all of it.
+/// Whether the part from `begin` to `end` of `size` texels is a whole chunk.
 bool is_whole(std::size_t begin, std::size_t end, std::size_t size) {
   return begin % kTexelsPerTask == 0 && (end % kTexelsPerTask == 0 || end == size);
 }
 
-/// How many numbers a part of a chunk is summed up in: see SharedTexels::inner_product().
+/// How many numbers SharedTexels::inner_product() exchanges for a part of a chunk: the sum of a
+/// whole chunk, or else all products.
 std::size_t numbers_of(std::size_t begin, std::size_t end, std::size_t size) {
   return is_whole(begin, end, size) ? 1 : end - begin;
 }
@@ -66,8 +67,9 @@ SharedTexels::SharedTexels(Ranks& ranks, std::vector<std::size_t> firsts)
   }
 }
 
-/// Every chunk is summed up where all of it is, and all ranks add the chunks' sums in their order.
-/// Of chunks that ranks share, they exchange all products: the sum has the bits of a single rank's.
+/// A rank sums the chunks that it has as a whole. Of chunks that several ranks share, they exchange
+/// all products. Every rank then adds all numbers in their order, so that the sum has the same bits
+/// as on a single rank.
 double SharedTexels::inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b) const {
   if (ranks_->count() == 1) return lambent::inner_product(a, b);
   const auto own = static_cast<std::size_t>(ranks_->own());

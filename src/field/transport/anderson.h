@@ -14,32 +14,34 @@
 
 namespace lambent {
 
-/// Irradiance of probes' interior texels, probe after probe, four floats a texel (the fourth is 0).
+/// Irradiance of probes' interior texels, probe after probe, four floats per texel (the fourth is
+/// 0).
 using WorkingIrradiance = std::vector<glm::vec4, LargePages<glm::vec4>>;
 
 /// Inner product and norm over all texels. Both give the same bits on any number of threads.
 double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b);
 double norm(const WorkingIrradiance& a);
 
-/// Texels that ranks part among them, rank after rank.
+/// The division of texels among ranks, rank after rank.
 class SharedTexels {
  public:
-  /// All of them are this process's.
+  /// All texels belong to this process.
   SharedTexels() = default;
-  /// Those of rank r are [firsts[r], firsts[r + 1]). `ranks` must outlive it.
+  /// Rank r has the texels from firsts[r] to firsts[r + 1] - 1. `ranks` must outlive this object.
   SharedTexels(Ranks& ranks, std::vector<std::size_t> firsts);
 
-  /// Whether no rank has any, where this one has `own`.
+  /// Whether no rank has any texels. `own` is the number of this process's texels.
   bool empty(std::size_t own) const { return firsts_.empty() ? own == 0 : firsts_.back() == 0; }
-  /// Inner product and norm over the texels of all ranks, with the bits that a single rank finds.
-  /// The arguments are this rank's texels; all ranks call it together.
+  /// Inner product and norm over the texels of all ranks, with the same bits as on a single rank.
+  /// The arguments are this rank's texels; all ranks must call the function together.
   double inner_product(const WorkingIrradiance& a, const WorkingIrradiance& b) const;
   double norm(const WorkingIrradiance& a) const;
 
  private:
   Ranks* ranks_ = &one_rank();
-  std::vector<std::size_t> firsts_;         // empty: this process is alone
-  std::vector<std::size_t> first_numbers_;  // of each rank's, among those that are exchanged
+  std::vector<std::size_t> firsts_;  // empty: this process is alone
+  // The first of each rank's numbers among those that ranks exchange for an inner product
+  std::vector<std::size_t> first_numbers_;
 };
 
 /// result = a + scale * b

@@ -21,8 +21,8 @@ const float kAndersonRidge = 1e-10f;
 // suggest.
 const float kMinContraction = 0.1f;
 
-/// The contraction to assume of a transport whose iteration showed the factor `observed`, and that
-/// is known not to exceed `bound`.
+/// The contraction factor to assume for a transport: `observed` is the largest factor that its
+/// iteration has shown, and `bound` an upper bound.
 LAMBENT_FN float assumed_contraction(float observed, float bound) {
   return min(bound, max(observed, kMinContraction));
 }

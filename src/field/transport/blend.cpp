@@ -14,7 +14,7 @@
 namespace lambent {
 namespace {
 
-// The number of texels that the kernel keeps in registers at a time, as one vector. The compiler
+// The number of texels that the kernel holds in registers at a time, as one vector. The compiler
 // splits it into vectors of the processor's width.
 constexpr int kBlock = 16;
 typedef float Block __attribute__((vector_size(kBlock * sizeof(float))));

@@ -4,8 +4,8 @@
 // In an update all probes use the same ray directions w_i, so the weight of ray i in texel t (unit
 // direction n_t) is the same for all of them: max(0, n_t . w_i)^e, with e = 1 for irradiance and a
 // high exponent for distances. With W the texels x rays matrix of these weights and V the rays x
-// channels matrix of a probe's values, the probe's texels are W V, divided by the weights of the
-// rays that count.
+// channels matrix of a probe's values, the probe's texels are W V, divided by each texel's sum of
+// the weights of the rays that count.
 //
 // Based on: Majercik et al., "Dynamic Diffuse Global Illumination with Ray-Traced Irradiance
 // Fields", JCGT 8(2), 2019.
@@ -31,7 +31,7 @@ class BlendMatrix {
   /// Any texels x rays matrix, given column (ray) after column.
   BlendMatrix(int texel_count, int ray_count, std::span<const float> columns);
 
-  int texels() const { return texel_count_; }  ///< Of a tile, without gutter.
+  int texels() const { return texel_count_; }  ///< Texels of a tile, without gutter.
   int rays() const { return ray_count_; }
 
   /// Computes the weighted sums over the rays of 2 or 4 channels. `values` has rays x channels
@@ -48,7 +48,7 @@ class BlendMatrix {
   int texel_count_;
   int padded_texels_;  // rounded up to whole blocks of the kernel
   int ray_count_;
-  std::vector<float> weights_;  // ray after ray, so that a ray's value meets consecutive texels
+  std::vector<float> weights_;  // ray after ray; a ray's weights are consecutive for vector code
 };
 
 }  // namespace lambent

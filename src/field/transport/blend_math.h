@@ -32,15 +32,16 @@ const float kDistanceExponent = 100.0f;
 // that a probe inside something has little weight in its surroundings. JCGT 10(2) 2021, sec. 4.
 const float kBackFaceDistanceScale = 0.2f;
 
-/// The distance that a ray counts as [m]. `seen` is the distance to its hit, infinite for a miss.
+/// The distance that a ray counts as in a blend [m]. `seen` is the distance to its hit, infinite
+/// for a miss.
 LAMBENT_FN float counted_distance(float seen, uint back_face, float farthest) {
   float cut = min(seen, farthest);
   return back_face != 0u ? cut * kBackFaceDistanceScale : cut;
 }
 
-// A texel whose mean ray weight is below this received too few rays to be known.
+// A texel whose mean ray weight is below this received too few rays for an estimate.
 const float kMinKnownWeight = 1e-4f;
-// Keeps the division by the weights of a texel finite for which no ray counts.
+// Keeps the division by the sum of weights finite for a texel for which no ray counts.
 const float kTiniestWeight = 1e-20f;
 
 /// The irradiance at a texel's centre: pi times the mean radiance, weighted by the cosine. `sums`
@@ -50,9 +51,9 @@ LAMBENT_FN vec3 irradiance_at_centre(vec4 sums) {
   return vec3(sums) * (kPi / max(sums.w, kTiniestWeight));
 }
 
-/// The weight in the blend with a probe's history of rays that amount to `weight` updates. The
-/// history is of `samples` updates, and the average remembers `longest` at most: see
-/// longest_average() in schedule/schedule.h, which follows from the hysteresis.
+/// The weight of new rays in the blend with a probe's history. The new rays amount to `weight`
+/// updates, the history to `samples` updates, and the average remembers at most `longest` updates
+/// (longest_average() in schedule/schedule.h, which depends on the hysteresis).
 LAMBENT_FN float history_blend_weight(float samples, float weight, float longest) {
   float held = min(samples, max(longest - weight, 0.0f));
   return weight / (held + weight);

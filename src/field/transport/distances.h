@@ -27,7 +27,7 @@ class DistanceBlend {
   void moments(std::span<const SeenDistance> seen, float farthest, std::span<vec2> moments) const;
 
   int rays() const { return blend_.rays(); }
-  int texels() const { return blend_.texels(); }  ///< Of a tile, without gutter.
+  int texels() const { return blend_.texels(); }  ///< Texels of a tile, without gutter.
 
  private:
   BlendMatrix blend_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The numbers of workgroups of kernels that work on a list of probes. The host or the device
-// computes them, whichever knows the length of the list.
+// computes them, depending on which of them decides the length of the list.
 #ifndef LAMBENT_FIELD_TRANSPORT_LIST_SIZES_H
 #define LAMBENT_FIELD_TRANSPORT_LIST_SIZES_H
 
@@ -15,9 +15,9 @@ struct GroupCounts {
   uint z;
 };
 
-// What the invocations of a kernel work on: the rays, texels or gutter texels of each probe, in
-// groups of eight by eight; one lane group per probe; columns of a matrix product times blocks of
-// probes; one lane per probe; one workgroup per probe; a launch of rays.
+// Shapes of a kernel's dispatch over a list of probes: over the rays, texels or gutter texels of
+// each probe, in workgroups of eight by eight; one lane group per probe; over columns of a matrix
+// product and blocks of probes; one lane per probe; one workgroup per probe; a launch of rays.
 const uint kOverRays = 0u;
 const uint kOverTexels = 1u;
 const uint kOverIrradianceGutters = 2u;
@@ -34,15 +34,15 @@ const int kListShapes = 10;
 struct ListState {
   GroupCounts over[kListShapes];  ///< Workgroups of the kernels that work on it, by shape.
   uint probes;
-  uint texels;                ///< Irradiance texels of all its probes.
-  uint largest_blend_weight;  ///< Bits of the largest blend weight of its probes.
+  uint texels;                ///< Irradiance texels of all probes of the list.
+  uint largest_blend_weight;  ///< Bits of the largest blend weight of the list's probes.
 };
 
-/// How many workgroups work on a list: `across` along x, and along y one for `each` of its probes
-/// or blocks.
+/// From which list_groups() computes the workgroups for a list: `across` of them along x, and along
+/// y one per `each` probes or blocks.
 struct ListSize {
-  uint across;  ///< 0: the list is along x instead.
-  uint each;
+  uint across;  ///< Workgroups along x. 0: the list is along x instead, with one workgroup along y.
+  uint each;    ///< Number of probes or blocks per workgroup.
   uint blocks;  ///< 1: `each` counts blocks; 0: it counts probes.
 };
 

@@ -21,7 +21,7 @@ constexpr std::size_t kProbesPerCopy = 512;
 constexpr std::size_t kTexelsPerTask = 16384;
 
 /// Calls body(k, i, j) for each of the operator's probes: k is its place among them, i the index of
-/// its first texel in the field, and j that in arrays of the operator's probes alone.
+/// its first texel in the field, and j the index of that texel in arrays of the operator's probes.
 template <class Body>
 void for_each_probe(const TransportOperator& transport, Body body) {
   const std::span<const int> probes = transport.probes();
@@ -70,7 +70,7 @@ struct GatherInput {
   int texels;  // of a tile
 };
 
-// What gather.inl.h asks for.
+// The types and functions that gather.inl.h requires.
 using FieldRef = const GatherInput&;
 using SurfelLookupRef = const SurfelLookup&;
 using CornerOffsetsRef = const CornerOffsets&;
@@ -97,7 +97,7 @@ LAMBENT_FORCE_INLINE void store(const vec4& value, float* out) {
 }
 
 /// Gathers the radiance along a probe's rays without light from the field: that of the sky and, if
-/// `reflected`, of direct light on surfels. Four floats per ray, here and below.
+/// `reflected`, of direct light on surfels. `radiance` has four floats per ray.
 void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
   for (std::size_t i = 0; i < trace.surfels.size(); ++i) {
     const Surfel& surfel = trace.surfels[i];
@@ -107,7 +107,7 @@ void gather_unlit(const ProbeTrace& trace, bool reflected, float* radiance) {
   }
 }
 
-/// Gathers the radiance along a probe's rays.
+/// Gathers the radiance along a probe's rays. `radiance` has four floats per ray.
 LAMBENT_SIMD_CLONES __attribute__((flatten)) void gather_radiance(const GatherInput& in,
                                                                   float* radiance) {
   for (std::size_t i = 0; i < in.trace.surfels.size(); ++i) {
@@ -195,7 +195,7 @@ void TransportOperator::receive(Gather gather, const WorkingIrradiance& fallback
         continue;
       }
 
-      // Where rays count for some texels only, the fit is left out: the other texels keep their
+      // If rays count for only some texels, the fit is left out, and the other texels keep their
       // light
       for (int t = 0; t < texels_; ++t) {
         out[t] = sums[t].w > enough ? at_centres[t] : fallback[k * texels_ + t];
@@ -284,7 +284,7 @@ SolveResult solve_bounces(const TransportOperator& transport, std::span<const fl
     add_scaled(image, -1.0f, solution, residual);
 
     // Compute the contraction: the ratio of the change of the image to the change of its argument.
-    // After a single step, only the largest albedo bounds it
+    // In the first iteration, only its bound by the largest albedo and blend weight is known
     if (result.iterations > 1) {
       WorkingIrradiance residual_change(size), image_change(size), change(size);
       add_scaled(residual, -1.0f, previous_residual, residual_change);

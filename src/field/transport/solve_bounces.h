@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light transport as a linear operator on the field.
 //
-// What probes receive is linear in what they hold: E' = W (albedo/pi (direct + S E) + sky), with W
-// the blend matrix and S the surfels' lookups. Solving E = E' gives the light of all bounces at
-// once, without tracing a ray. A solve may be for some of the probes only; the others keep their
-// light.
+// The irradiance that probes receive is linear in the irradiance that they hold:
+// E' = W (albedo/pi (direct + S E) + sky), with W the blend matrix and S the surfels' lookups.
+// Solving E = E' gives the light of all bounces at once, without tracing a ray. A solve may be for
+// some of the probes only; the others keep their light.
 //
 // With the blend weight w, surfels read (1 - w) * history + w * E, the field as it will be once E
-// is blended in, so that the solution is consistent with what is stored.
+// is blended in, so that the solution is consistent with the stored light.
 #pragma once
 
 #include <array>
@@ -30,19 +30,19 @@ class TransportOperator {
   TransportOperator(std::span<const CornerOffsets> corner_table, std::span<const ProbeTrace> traces,
                     std::span<const int> probes, const BlendMatrix& fit, int texels);
 
-  /// One bounce: what the probes receive if `field` and direct light illuminate their surfels.
-  /// Texels that no ray counts for take their value from `fallback`.
+  /// One bounce: computes the irradiance that the probes receive if `field` and direct light
+  /// illuminate their surfels. Texels for which no ray counts take their value from `fallback`.
   void apply(const WorkingIrradiance& field, const WorkingIrradiance& fallback,
              WorkingIrradiance& received) const;
 
-  /// What the probes receive from the sky, and from surfels that reflect direct light only.
+  /// Computes the irradiance from the sky, and from surfels that reflect direct light only.
   void apply_direct(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
-  /// No bounce: what the probes receive from the sky only.
+  /// No bounce: computes the irradiance from the sky only.
   void apply_sky(const WorkingIrradiance& fallback, WorkingIrradiance& received) const;
 
   std::span<const int> probes() const { return probes_; }
-  int texels() const { return texels_; }  ///< Of a tile, without gutter.
+  int texels() const { return texels_; }  ///< Texels of a tile, without gutter.
 
  private:
   void gather_probe_radiance(const WorkingIrradiance& field, const ProbeTrace& trace,
@@ -61,7 +61,7 @@ class TransportOperator {
 
 /// When a solve stops.
 struct SolveSettings {
-  float max_albedo = 0.95f;  ///< No surfel reflects more, 0 to 0.99.
+  float max_albedo = 0.95f;  ///< Upper bound of the surfels' albedos, 0 to 0.99.
   float tolerance = 0.002f;  ///< Estimated relative error of the blended light to stop at.
   int max_iterations = 32;   ///< The solve stops after this many iterations in any case.
 };
@@ -83,30 +83,31 @@ void multiply(WorkingIrradiance& a, const WorkingIrradiance& b);
 /// Copies the texels of some probes from a field.
 WorkingIrradiance light_of(const WorkingIrradiance& field, std::span<const int> probes, int texels);
 
-/// How ranks part a solve: each has an operator for its own probes.
+/// The division of a solve among ranks: each has an operator for its own probes.
 struct SolveShare {
-  /// All probes are this process's.
+  /// All probes belong to this process.
   SolveShare() = default;
-  /// `all` are the probes of all ranks' operators, in ascending order. `parted` must outlive it.
+  /// `all` are the probes of all ranks' operators, in ascending order. `parted` must outlive this
+  /// object.
   SolveShare(const ProbeShare& parted, std::span<const int> all, int texels_of_tile);
 
-  const ProbeShare* probes = nullptr;  ///< Null: all are this process's.
+  const ProbeShare* probes = nullptr;  ///< Null: all probes belong to this process.
   SharedTexels texels;
 
-  /// Gives every rank the others' light.
+  /// Gives every rank the light of the others' probes.
   void gather(WorkingIrradiance& field) const;
-  /// The largest number >= 0 that any rank has.
+  /// The largest of the numbers of all ranks, which are >= 0; 0 where there are none.
   float largest(std::span<const float> own) const;
 };
 
 /// Solves for the light of the operator's probes, starting from what `field` holds, and blends the
-/// solution into `field` with the weight `blend_weights[k]` for the k-th probe. What the probes
-/// receive is multiplied by `history_ratio`, texel by texel, unless that is empty. Where ranks
-/// share the solve, `field` holds the light of all their probes afterwards.
+/// solution into `field` with the weight `blend_weights[k]` for the k-th probe. The received
+/// irradiance is multiplied by `history_ratio`, texel by texel, unless that is empty. Where ranks
+/// share the solve, `field` holds the light of the probes of all ranks afterwards.
 SolveResult solve_bounces(const TransportOperator& transport, std::span<const float> blend_weights,
                           const WorkingIrradiance& history_ratio, const SolveSettings& settings,
                           const SolveShare& share, WorkingIrradiance& field);
-/// Does so for probes that are all this process's.
+/// Does so where all probes belong to this process.
 inline SolveResult solve_bounces(const TransportOperator& transport,
                                  std::span<const float> blend_weights,
                                  const WorkingIrradiance& history_ratio,
@@ -119,7 +120,7 @@ inline SolveResult solve_bounces(const TransportOperator& transport,
 SolveResult solve_counted_bounces(const TransportOperator& transport,
                                   std::span<const float> blend_weights, int bounces,
                                   const SolveShare& share, WorkingIrradiance& field);
-/// Does so for probes that are all this process's.
+/// Does so where all probes belong to this process.
 inline SolveResult solve_counted_bounces(const TransportOperator& transport,
                                          std::span<const float> blend_weights, int bounces,
                                          WorkingIrradiance& field) {

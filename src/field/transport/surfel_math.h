@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a shaded hit to a surfel.
+// The conversion of a shaded hit to a surfel.
 #ifndef LAMBENT_FIELD_TRANSPORT_SURFEL_MATH_H
 #define LAMBENT_FIELD_TRANSPORT_SURFEL_MATH_H
 
@@ -25,8 +25,8 @@ struct SurfelRecord {
   float gi_share;
 };
 
-/// The surfel of a ray that ended at a point and brought back `hit`. `irradiance` is the direct
-/// light there.
+/// The surfel of a ray that ended at a point, with the shaded `hit`. `irradiance` is the direct
+/// light at the point.
 LAMBENT_FN SurfelRecord surfel_record(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
                                       ShadedHitRecord hit, vec3 irradiance) {
   bool sky = (hit.flags & kSurfaceMissed) != 0u;

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t kProbesPerTask = 8;
 
-// No probe has more rays than this. It gives each ray of each probe an index of its own, for its
-// random numbers.
+// The most rays of a probe. It gives each ray of each probe an index of its own, for its random
+// numbers.
 constexpr std::size_t kMaxRays = 4096;
 
-/// Tells which lookups read some probes.
+/// Tests whether a lookup reads one of some probes.
 class ReadsOne {
  public:
   ReadsOne(std::span<const int> read, const ProbeStore& store)
@@ -89,7 +89,7 @@ void trace_probe_rays(const RayTracer& tracer, const ProbeStore& store, TraceGro
 ShadeHitsSettings surfel_shading(const FieldSettings& settings, const RaySet& rays,
                                  const SolidSides* solid_sides) {
   ShadeHitsSettings shading;
-  // Compute the width of a ray's cone per metre, from its part of the sphere
+  // Compute the width of a ray's cone per metre, from its share of the solid angle of the sphere
   shading.cone_width =
       2.0f * sqrt(4.0f / static_cast<float>(rays.rays())) * exp2(settings.texture_lod_bias);
   shading.max_albedo = settings.max_albedo;

@@ -33,8 +33,8 @@ struct Surfel {
   vec3 light;                ///< Direct irradiance [W/m^2], or the sky's radiance [W/(m^2 sr)].
   uint geometric_normal_ws;  ///< Packed, towards the probe.
   SurfelKind kind;
-  float gi_share;  ///< Share of the field's irradiance that it receives, 0 to 1; as in Surface.
-  uint albedo_shape = 0;  ///< As of LitPoint.
+  float gi_share;  ///< Share of the field's irradiance that it receives, 0 to 1; see Surface.
+  uint albedo_shape = 0;  ///< See LitPoint.
 
   bool operator==(const Surfel&) const = default;
   bool reflects() const { return albedo_over_pi != vec3(0.0f); }
@@ -102,16 +102,17 @@ std::uint64_t shade_surfels(const World& world, const SolidSides& solid_sides,
 std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
                                   std::span<const int> probes, std::span<ProbeTrace> traces);
 
-/// Of a probe's surfels, by ray, 1 for those that are meant.
+/// One flag per surfel of a probe, by ray: 1 for the selected surfels, else 0.
 using SurfelFlags = std::vector<std::uint8_t>;
 
-/// The same for the surfels that are flagged, of each of the `probes`, in a field of one volume.
+/// Finds the lookups of the flagged surfels only, in a field of one volume. `flagged` has an entry
+/// for each of the `probes`. Returns the number of visibility rays traced.
 std::uint64_t find_surfel_lookups(const ProbeStore& store, const VisibilityRays& by,
                                   std::span<const int> probes, std::span<const SurfelFlags> flagged,
                                   std::span<ProbeTrace> traces);
 
-/// Flags surfels of the `probes` that may read one of the probes `read`, besides those that are
-/// flagged already; an empty entry flags none yet.
+/// Flags the surfels of `probes` that may read one of the probes `read`. Surfels that are flagged
+/// already stay flagged. An empty entry of `flagged` has no flagged surfels.
 void flag_readers(std::span<const int> read, std::span<const int> probes, const ProbeStore& store,
                   std::span<const ProbeTrace> traces, std::span<SurfelFlags> flagged);
 

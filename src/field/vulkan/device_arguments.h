@@ -12,12 +12,13 @@
 
 LAMBENT_BEGIN
 
-// Lanes of a lane group, which share what they load in matrix products and sums. Every subgroup
-// holds whole lane groups.
+// The number of lanes of a lane group. They share loaded values in matrix products and sums. Every
+// subgroup holds whole lane groups. kGroupLanes is the number of lanes of a workgroup.
 const int kLaneGroupSize = 8;
 const int kGroupLanes = 64;
-// Probes and vectors of texels that a lane group's matrix product keeps in registers, and the
-// texels that these vectors have. A matrix's rows have whole blocks of texels.
+// The number of probes, and of vectors of texels, that a lane group's matrix product holds in
+// registers, and the number of texels of these vectors together (a block). Rows of a matrix are
+// padded to whole blocks of texels.
 const int kBlockProbes = 8;
 const int kIrradianceVectors = 2;
 const int kIrradianceBlock = 16;
@@ -35,13 +36,14 @@ struct ProbeRaysArguments {
   int rays_per_probe;
 };
 
-/// Arguments of make_surfels, which makes the surfels of such probes from their shaded hits.
+/// Arguments of make_surfels, which makes surfels from shaded hits, for probes that trace the same
+/// ray set.
 struct MakeSurfelsArguments {
   IntArray probes;
   LitPointArray points;
   ShadedHitArray shaded;
   Vec3Array irradiance;
-  SurfelArray surfels;  ///< `stride` entries for each of all probes.
+  SurfelArray surfels;  ///< `stride` entries for each probe of the field.
   int count;
   int rays_per_probe;
   int stride;
@@ -63,8 +65,8 @@ struct HitDistancesArguments {
   int distance_stride;
 };
 
-/// Arguments of blend_distances, which blends these distances into the store. `blend_weights` are
-/// of the list.
+/// Arguments of blend_distances, which blends the distances of hit_distances or surfel_distances
+/// into the store. `blend_weights` are of the list.
 struct BlendDistancesArguments {
   StoreArrays store;
   ProbeList list;
@@ -77,8 +79,8 @@ struct BlendDistancesArguments {
   uint dither_seed;
 };
 
-/// Arguments of surfel_distances, which computes the distances and flags of hit_distances from
-/// surfels.
+/// Arguments of surfel_distances, which computes `distances` and `blocked` as hit_distances does,
+/// but from surfels.
 struct SurfelDistancesArguments {
   StoreArrays store;
   ProbeList list;
@@ -90,7 +92,7 @@ struct SurfelDistancesArguments {
   int distance_stride;
 };
 
-/// Arguments of move_distances, which moves stored moments by as much as the rays' moments changed.
+/// Arguments of move_distances, which shifts stored moments by the change in the rays' moments.
 struct MoveDistancesArguments {
   StoreArrays store;
   ProbeList list;
@@ -146,9 +148,9 @@ struct GuttersArguments {
 };
 
 /// Points at which the field is looked up, in rows. They are either the surfels of a list's probes,
-/// one row per probe, or queries, `stride` of them per row. Each point has kLookups lookups. The
-/// lookups of a surfel are those of index probe x stride + ray, and the lookups of a query those of
-/// its index in the array.
+/// one row per probe, or queries, `stride` of them per row. Each point has kLookups consecutive
+/// lookups. Those of a surfel begin at the index kLookups x (probe x stride + ray), and those of a
+/// query at kLookups x its index in the array.
 struct LookupPoints {
   ProbeList list;
   SurfelArray surfels;
@@ -159,7 +161,7 @@ struct LookupPoints {
   uint exact;  ///< 1: all corners are tested with rays; 0: only those in doubt.
 };
 
-/// Arguments of find_lookups, which finds the lookups of points by distances.
+/// Arguments of find_lookups, which finds the lookups of points, with visibility by distances.
 struct FindLookupsArguments {
   StoreArrays store;
   LookupPoints points;
@@ -199,8 +201,8 @@ struct CornerTests {
 };
 LAMBENT_DEVICE_ARRAY(CornerTestArray, CornerTests, 4)
 
-/// Arguments of test_corners, which makes visibility rays for corners of lookups that were found by
-/// distances. `tests` has rows x stride entries.
+/// Arguments of test_corners, which makes visibility rays for corners of lookups that find_lookups
+/// found. `tests` has rows x stride entries.
 struct TestCornersArguments {
   StoreArrays store;
   LookupPoints points;
@@ -211,8 +213,8 @@ struct TestCornersArguments {
   RayArray rays;
 };
 
-/// Arguments of apply_corner_tests, which computes the lookups' weights from the results of these
-/// rays.
+/// Arguments of apply_corner_tests, which computes the lookups' weights from the results of the
+/// rays of test_corners.
 struct ApplyCornerTestsArguments {
   StoreArrays store;
   LookupPoints points;
@@ -251,8 +253,9 @@ struct GatherArguments {
   uint light;
 };
 
-/// Arguments of receive, which computes the irradiance at texels' centres from radiance. The fourth
-/// channel is 1 for texels for which enough rays count, else 0. Arrays have the texels of the list.
+/// Arguments of receive, which computes the irradiance at texels' centres from the radiance along
+/// rays. The fourth channel is 1 for texels for which enough rays count, else 0. Arrays have the
+/// texels of the list.
 struct ReceiveArguments {
   ProbeList list;
   ProbeBlockArray blocks;
@@ -262,8 +265,8 @@ struct ReceiveArguments {
   int stride;
 };
 
-/// Arguments of fit, which computes what tiles store from the irradiance at texels' centres, times
-/// `history_ratio`. Arrays have the texels of the list.
+/// Arguments of fit, which computes the values that tiles store from the irradiance at texels'
+/// centres, and multiplies them by `history_ratio`. Arrays have the texels of the list.
 struct FitArguments {
   FloatArray fit;
   ProbeBlockArray blocks;
@@ -280,10 +283,10 @@ struct StoreIrradianceArguments {
   UintArray words;
   IntArray probes;
   Vec4Array light;
-  UintArray changed;  ///< Of the list: probes with 0 keep what is stored.
+  UintArray changed;  ///< One word per probe of the list; 0: its stored tile stays.
   int count;
   uint dither_seed;
-  uint has_changed;  ///< 0: there is no `changed`, and all are stored.
+  uint has_changed;  ///< 0: there is no `changed`, and all probes of the list are stored.
   uint unused;
 };
 

@@ -51,7 +51,7 @@ std::array<vulkan::Constant, 6> tile_constants(const FieldSettings& settings, in
 
 namespace {
 
-/// Keeps kernels by their specialisation constants.
+/// A cache of kernels by their specialisation constants.
 template <class Kernels>
 class KernelShelf {
  public:

@@ -9,8 +9,8 @@
 
 namespace lambent {
 
-// The most volumes that a surfel reads. Where more have a weight, the first ones take all of it.
-// More than two cascades overlap only within a cell or two.
+// The most volumes that a surfel reads. Where more have a weight, the first ones take all of the
+// weight. More than two cascades overlap only within a cell or two.
 inline constexpr int kMaxSurfelLookups = 4;
 
 /// The specialisation constants of probes/shaders/tiles.glsl.
@@ -45,7 +45,7 @@ struct VisibilityKernels {
       read_lookups;
 };
 
-/// The kernels by which fields that follow our own world learn corrections of lookups.
+/// The kernels with which fields that follow our own world learn corrections of lookups.
 struct TrainingKernels {
   /// The kernels for these settings. The device makes them once and keeps them.
   static const TrainingKernels& of(const vulkan::Device& device, const FieldSettings& settings,

@@ -9,7 +9,7 @@ namespace lambent {
 namespace {
 
 // Points per row of a lookup's dispatch: a multiple of the group size, and large enough that the
-// rows do not exceed any device's limit.
+// number of rows does not exceed any device's limit.
 constexpr std::uint32_t kLookupRow = 1u << 20;
 
 // Queries per row of LookupPoints: the width of a workgroup, so that its queries are consecutive.
@@ -188,8 +188,8 @@ GroupCounts FieldResources::groups_over(const DeviceProbes& list, uint shape) co
                      static_cast<uint>(list.block_count));
 }
 
-/// Records a kernel of transport over a list, or over the number of groups that a solve has
-/// decided.
+/// Records a kernel of transport over a list, or over the number of groups that the solve has
+/// written to `groups`.
 template <class Arguments>
 void FieldResources::run_transport(vulkan::Recorder& to, const vulkan::Kernel& kernel,
                                    const Arguments& arguments, const DeviceProbes& list, uint shape,

@@ -51,11 +51,11 @@ struct StoreArrays {
   UintArray distance;
 };
 
-/// What lookups read of the table of corrections.
+/// The arrays of the table of corrections that lookups read.
 struct CorrectionArrays {
   CorrectionKeyArray keys;  ///< By slot.
   UintArray refined;        ///< kCellCorners for each slot.
-  uint buckets;             ///< 0: nothing is known, and there are no arrays.
+  uint buckets;             ///< 0: the table is empty, and there are no arrays.
   uint picked;              ///< 1: lookups read single cells, as CorrectionUse::picked.
 };
 

@@ -18,8 +18,8 @@ class DeviceSchedule {
   DeviceSchedule(const FieldResources& field, std::span<const VolumeRole> roles, int most_probes,
                  int rays);
 
-  /// Takes over what is known of all probes: their variability, and the mean luminance of their
-  /// light. Must not be called while the device uses the schedule.
+  /// Uploads the variability of all probes, and the mean luminance of their light. Must not be
+  /// called while the device uses the schedule.
   void start_from(std::span<const ProbeVariability> variability, float mean_light);
 
   /// Records the choice of an update's probes. `update` counts from 0. With `look`, probes that are

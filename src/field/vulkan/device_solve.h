@@ -15,8 +15,8 @@ LAMBENT_BEGIN
 const int kSumLanes = 4096;
 
 // The sums that an iteration needs: the squares of the image, of the residual, and of the changes
-// of solution and image; the products of the residual's change with each stored one (Gram matrix),
-// and of each stored one with the residual (projection).
+// of solution and image; the products of the residual's change with each stored change (Gram
+// matrix), and of each stored change with the residual (projection).
 const int kImageSquare = 0;
 const int kResidualSquare = 1;
 const int kChangeSquare = 2;
@@ -25,13 +25,14 @@ const int kFirstGram = 4;
 const int kFirstProjection = 7;
 const int kSolveSums = 10;
 
-/// The state of a solve. The host sets the members above the line, the device the others.
+/// The state of a solve. The host sets the members above the line of dashes, and the device those
+/// below it.
 struct SolveState {
   int max_iterations;
   float tolerance;
   float largest_blend_weight;
   float max_albedo;
-  int texels;  ///< Texels of all its probes.
+  int texels;  ///< Irradiance texels of all probes of the solve.
   // Workgroups of an iteration's kernels. They become 0 once the solve is done, so that the
   // iterations that are still recorded do nothing.
   GroupCounts over_texels;
@@ -85,7 +86,7 @@ struct SolveSumsArguments {
   SolveArrays arrays;
   WideArray sums;   ///< kSumLanes x kSolveSums.
   int most_texels;  ///< Stride between the changes of two steps.
-  uint last;        ///< 1: sums the squares of the image and of the light's change by the solve.
+  uint last;        ///< 1: only sums squares of the image and of the light's change by the solve.
 };
 
 /// Arguments of solve_step.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The solve for the light of all bounces on a device, like solve_bounces.h. It records as many
-// iterations as there may be. Those after the last one that is needed do nothing. Nothing is read
+// The solve for the light of all bounces on a device, like solve_bounces.h. The largest number of
+// iterations is recorded, and those after the last one that is needed do nothing. Nothing is read
 // back in between.
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace lambent {
 
-/// What a solve came to.
+/// The outcome of a solve.
 struct DeviceSolve {
   int iterations = 0;
-  double error = 0.0;   ///< As SolveResult's.
-  double change = 0.0;  ///< As SolveResult's.
+  double error = 0.0;   ///< See SolveResult::error.
+  double change = 0.0;  ///< See SolveResult::change.
 };
 
 class DeviceSolver {
@@ -25,7 +25,7 @@ class DeviceSolver {
   /// Reserves memory for a solve for these probes. Must be called before the solve is recorded.
   void reserve(const DeviceProbes& list);
 
-  /// Records solve_bounces(), from the light that the field holds and into it. `blend_weights` and
+  /// Records solve_bounces(), which reads and replaces the field's light. `blend_weights` and
   /// `history_ratio` are of the list. There is no history ratio where its address is 0.
   void record(vulkan::Recorder& to, const DeviceProbes& list, const vulkan::Buffer& blend_weights,
               float largest_blend_weight, Vec4Array history_ratio, const SolveSettings& settings);

@@ -10,8 +10,8 @@
 namespace lambent {
 namespace {
 
-// The least number of rays that memory is reserved for: enough to fill any device, in 42 MB with
-// the results.
+// The least number of rays for which memory is reserved: enough to keep any device busy, in 42 MB
+// with the results.
 constexpr int kMaxCornerRays = 1 << 20;
 
 }  // namespace

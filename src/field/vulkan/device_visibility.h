@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Visibility by rays for lookups on a device, like visibility.h: which probes of each cell see each
-// other, and the visibility rays of lookups.
+// Visibility by rays for lookups on a device, like visibility.h: which probes of each cell are
+// visible to each other, and the visibility rays of lookups.
 #pragma once
 
 #include "field/vulkan/device_arguments.h"
@@ -13,14 +13,14 @@ namespace lambent {
 
 class DeviceVisibility {
  public:
-  /// At first, every probe sees every other. The device must outlive this object.
+  /// At first, all probes of a cell are visible to each other. The device must outlive this object.
   DeviceVisibility(const vulkan::Device& device, const FieldSettings& settings, int probes,
                    int volumes, int lookups);
 
   /// Reserves memory for at least this many points at a time. Must not be called while the device
   /// uses it.
   void reserve(int points);
-  /// The number of points whose lookups may be tested at a time.
+  /// The largest number of points whose lookups may be tested at a time.
   int points() const { return points_; }
   /// Memory for the lookups of points that are no surfels.
   LookupArray lookups() const { return {lookups_.address()}; }
@@ -32,12 +32,13 @@ class DeviceVisibility {
   /// Records CellVisibility::update() for cells that exist.
   void record_cell_visibility(vulkan::Recorder& to, const DeviceTracer& tracer,
                               const StoreArrays& store, IntArray cells, int count) const;
-  /// Records visibility rays for the corners that distances leave in doubt, and the lookups'
-  /// weights that result. Only the first `columns` points of each row exist.
+  /// Records visibility rays for the corners whose visibility is in doubt (VisibilityMask), or with
+  /// exact visibility for all corners with a weight, and the lookups' weights that result. Only the
+  /// first `columns` points of each row exist.
   void record_corner_tests(vulkan::Recorder& to, const DeviceTracer& tracer,
                            const StoreArrays& store, const LookupPoints& points,
                            LookupArray lookups, int columns) const;
-  /// Records the irradiance of queries from their lookups.
+  /// Records the computation of queries' irradiance from their lookups.
   void record_reading(vulkan::Recorder& to, const ReadLookupsArguments& arguments) const;
   /// Records a copy of the number of rays since the last call into a buffer of one word, and resets
   /// the count.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays of a recorded field's probes: what the device itself decides and an engine finds out.
+// The rays of a recorded field's probes, which the device makes and an engine traces and shades.
 #include <algorithm>
 #include <cassert>
 
@@ -11,7 +11,7 @@
 
 namespace lambent::vulkan {
 
-/// Moves volumes with the viewer. Probes that have new places know nothing of them yet.
+/// Uploads the grids of scrolled volumes, and resets the probes that have new places.
 void RecordedField::State::EngineRays::scroll(Recorder& to) {
   const UpdateMemory& m = s_.memory();
   to.copy(m.grids, s_.field.grids(), m.grids.bytes());
@@ -95,7 +95,7 @@ void RecordedField::State::EngineRays::trace(Recorder& to, int) {
   to.trace(s_.tracer.closest, arguments, count);
 }
 
-/// Turns the engine's results into surfels and computes the blend weights.
+/// Makes surfels from the engine's results, and computes the blend weights.
 void RecordedField::State::EngineRays::shade(Recorder& to, int) {
   const DeviceProbes& probes = s_.list();
   const ProbeBatch& update_batch = s_.batch;
@@ -122,7 +122,7 @@ void RecordedField::State::EngineRays::shade(Recorder& to, int) {
   s_.field.run_over(to, s_.kernels.blend_weights, blend_weight, probes, kOverLanes);
   s_.field.run_over(to, s_.kernels.surfels, surfel, probes, kOverRays);
   to.barrier();
-  // Of rays that are traced again, the distances before and after are compared
+  // For rays that were traced again, move_distances() computes the distances
   if (!update_batch.retraces) s_.field.record_seen_surfels(to, probes);
 }
 
@@ -132,7 +132,7 @@ void RecordedField::State::EngineRays::visibility(Recorder&) {
 
 void RecordedField::State::EngineRays::record(Recorder& to, const DeviceProbes& list,
                                               FloatArray weights, Vec4Array before) {
-  // Where probes take turns, nobody asks how variable their light is
+  // Without a schedule on the device, nothing depends on the variance of the probes' light
   if (s_.schedule)
     s_.schedule->record_update_variability(to, list, weights, before, s_.batch.update);
 }

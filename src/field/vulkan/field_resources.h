@@ -32,15 +32,15 @@ struct DeviceProbes {
   /// Where the device decides the length of the list, a buffer that begins with a ListState.
   /// count() and block_count are then upper bounds.
   const vulkan::Buffer* chosen = nullptr;
-  RaySetArray sets;  ///< What ray_sets index; the field's own sets where its address is 0.
+  RaySetArray sets;  ///< The sets that ray_sets index; the field's own where its address is 0.
 
   int count() const { return static_cast<int>(probes.size()); }
   IntArray index_array() const { return {indices.address()}; }
   ProbeBlockArray block_array() const { return {blocks.address()}; }
 };
 
-/// What transport reads and writes. `field` has the texels of all probes, the others those of the
-/// list.
+/// The arrays that transport reads and writes. `field` has the texels of all probes, and the others
+/// those of the list.
 struct DeviceTransport {
   Vec4Array field, fallback;
   Vec4Array history_ratio;  ///< There is none where its address is 0.
@@ -48,8 +48,8 @@ struct DeviceTransport {
   uint light = kGatherAll;  ///< kGatherAll, kGatherDirect or kGatherSky.
 };
 
-/// Where the workgroup counts of transport's kernels are read from if the device decides them: byte
-/// offsets into a buffer. Null where the host knows them.
+/// The buffer from which the workgroup counts of transport's kernels are read where the device
+/// decides them, and their byte offsets in it. Null where the host decides them.
 struct TransportGroups {
   const vulkan::Buffer* buffer = nullptr;
   std::size_t rays = 0, blocks = 0;
@@ -75,7 +75,7 @@ class FieldResources {
   int volumes() const { return volumes_; }
   int tile_texels() const { return settings_.irradiance_texels * settings_.irradiance_texels; }
   int lookups_per_surfel() const { return lookups_; }
-  /// Bytes of all that it holds but cell visibility.
+  /// Bytes of device memory of the field, without cell visibility.
   std::size_t bytes() const;
   std::size_t surfel_bytes() const { return surfels_.bytes() + lookup_records_.bytes(); }
 
@@ -109,10 +109,10 @@ class FieldResources {
   std::vector<SurfelRecord> read_surfels(int probe) const;
   /// The light of all probes before encoding.
   const vulkan::Buffer& light() const { return light_; }
-  /// What the last rays of each probe estimated.
+  /// The irradiance that the last rays of each probe estimated.
   const vulkan::Buffer& last_irradiance_estimate() const { return last_irradiance_estimate_; }
 
-  /// Assigns a ray set to probes; null drops their surfels.
+  /// Assigns a ray set to probes; null discards their surfels.
   void set_rays(std::span<const int> probes, const std::shared_ptr<const RaySet>& rays);
   /// The ray set of a probe's surfels; null where it has none.
   std::shared_ptr<const RaySet> rays_of(int probe) const;
@@ -120,7 +120,7 @@ class FieldResources {
   /// Makes a list of probes, all of which must have a ray set.
   DeviceProbes list(std::span<const int> probes) const;
 
-  // For callers that keep ray sets and lists themselves.
+  // For callers that manage ray sets and lists themselves.
 
   /// The field's corrections of lookups, which surfels and lookups read.
   DeviceCorrections& corrections() { return corrections_; }
@@ -161,20 +161,22 @@ class FieldResources {
   /// Records the surfels of a group's shaded hits. See make_surfel().
   void record_surfels(vulkan::Recorder& to, const DeviceProbes& list, const DeviceGroup& group,
                       LitPointArray points, ShadedHitArray shaded, Vec3Array irradiance) const;
-  /// The twin of blend_distances() in two parts. The first records the distances of each group's
-  /// rays, once the group has surfels. The second records the blending of the whole list's
-  /// distances into the store. `blend_weights` are of the list.
+  /// The twin of blend_distances() in two parts. record_seen_distances() records the distances of
+  /// the rays of a group, which must have surfels. record_blend_distances() records the blending of
+  /// the distances of the whole list into the store. `blend_weights` are of the list.
   void record_seen_distances(vulkan::Recorder& to, const DeviceProbes& list,
                              const DeviceGroup& group, HitArray hits);
   void record_blend_distances(vulkan::Recorder& to, const DeviceProbes& list,
                               FloatArray blend_weights, uint dither_seed);
-  /// Records the first part for all rays of a list, from their surfels.
+  /// Records what record_seen_distances() does, for all rays of a list, from their surfels.
   void record_seen_surfels(vulkan::Recorder& to, const DeviceProbes& list);
-  /// Reserves memory for the distances of a list's rays. Must be called before the functions above.
+  /// Reserves memory for the distances of a list's rays. Must be called before the functions above
+  /// that record or blend distances.
   void reserve_seen(const DeviceProbes& list);
-  /// Record that the stored distances of a list's probes move by as much as those of their surfels
-  /// change between the two calls, as in invalidate_surfels(). The first one also reserves memory,
-  /// where that has not been done before.
+  /// record_distances_before() and record_move_distances() shift the stored distances of a list's
+  /// probes by the change in the distances of their surfels between the two, like
+  /// invalidate_surfels(). The first one also reserves memory if reserve_distances_before() has not
+  /// been called.
   void record_distances_before(vulkan::Recorder& to, const DeviceProbes& list);
   void reserve_distances_before(const DeviceProbes& list);
   /// One word per probe of the list: 1 where it stood inside geometry before, or has no distances
@@ -189,42 +191,44 @@ class FieldResources {
   /// bound. Where it is null, visibility is by distances.
   void record_lookups(vulkan::Recorder& to, const DeviceProbes& list,
                       const DeviceTracer* tracer = nullptr) const;
-  /// Records a copy of the number of visibility rays since the last call into a buffer of one word.
-  /// Fields without visibility by rays leave the buffer as it is.
+  /// Records a copy of the number of visibility rays since the last call into a buffer of one word,
+  /// and resets the count. Leaves the buffer as it is in fields without visibility by rays.
   void take_ray_count(vulkan::Recorder& to, const vulkan::Buffer& count) const;
 
   /// Records TransportOperator::apply, apply_direct or apply_sky.
   void record_transport(vulkan::Recorder& to, const DeviceProbes& list,
                         const DeviceTransport& transport, const TransportGroups& groups = {}) const;
-  /// Records the second half of record_transport() only, from the radiance that was gathered last.
+  /// Records only the second half of record_transport(), after the gathering of radiance. It reads
+  /// the radiance that was gathered last.
   void record_receive(vulkan::Recorder& to, const DeviceProbes& list,
                       const DeviceTransport& transport, const TransportGroups& groups = {}) const;
-  /// Reserves memory for both. Must be called before they are recorded.
+  /// Reserves memory for the two functions above. Must be called before them.
   void reserve_transport(const DeviceProbes& list);
 
-  /// Records ProbeStore::store_irradiance() of the field's light. Where there is an array
-  /// `changed`, of those probes of the list only that it has a 1 for.
+  /// Records ProbeStore::store_irradiance() of the field's light for the list's probes. Where there
+  /// is an array `changed`, for those only that have a 1 in it.
   void record_store_light(vulkan::Recorder& to, const DeviceProbes& list, uint dither_seed,
                           UintArray changed = {}) const;
-  /// Records ImportanceScatter of importance.h for a list of those probes that scatter. `sent` must
-  /// be 0.
+  /// Records ImportanceScatter of importance.h for a list of the probes that scatter. `sent` must
+  /// be filled with 0.
   void record_scatter_importance(vulkan::Recorder& to, const DeviceProbes& list,
                                  FloatArray received, UintArray sent, float scale) const;
   /// Records that a solution becomes the last estimates of a list's probes. See
-  /// State::store_last_estimates.
+  /// store_last_estimates() in edits/history_ratio.h.
   void record_last_estimates(vulkan::Recorder& to, const DeviceProbes& list,
                              Vec4Array solution) const;
-  /// Records light_change() of tile_light.h, from the light that the list's probes held before to
-  /// what they hold.
+  /// Records light_change() of tile_light.h, from `before`, the earlier light of the list's probes,
+  /// to their current light.
   void record_compare_light(vulkan::Recorder& to, const DeviceProbes& list, Vec4Array before,
                             Vec3Array changes) const;
-  /// Records lookup_irradiance(). For `tracer`, see record_lookups(). `corrections`: how the
-  /// field's are read; none: lookups are not corrected.
+  /// Records lookup_irradiance(). For `tracer`, see record_lookups(). `corrections` is the table
+  /// that lookups read; none: lookups are not corrected.
   void record_lookup(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                      Vec3Array irradiance, const DeviceTracer* tracer = nullptr,
                      const CorrectionArrays& corrections = {}) const;
-  /// Records find_weights() of queries, lookups_per_surfel() lookups each. Fields with visibility
-  /// by rays take as many queries at a time as they have probes' rays in memory.
+  /// Records find_weights() of queries, lookups_per_surfel() lookups each. In fields with
+  /// visibility by rays, `count` is at most DeviceVisibility::points(), rounded down to a multiple
+  /// of 8.
   void record_find_lookups(vulkan::Recorder& to, QueryArray queries, std::uint32_t count,
                            LookupArray lookups, const DeviceTracer* tracer,
                            const CorrectionArrays& corrections = {}) const;
@@ -265,7 +269,7 @@ class FieldResources {
   std::vector<RaySlot> slots_;
   std::vector<int> slot_of_;  // one per probe; -1: it has no surfels
   vulkan::Buffer sets_;       // RaySetRecords of the slots
-  // Intermediate results that passes hand on to each other
+  // Intermediate results, from one pass to the next
   vulkan::Buffer ray_distances_, blocked_, radiance_, at_centres_;
   vulkan::Buffer ray_distances_before_, blocked_before_;
 };

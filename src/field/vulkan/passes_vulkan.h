@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of an update on a Vulkan device: each is recorded, none is waited for. Who submits
-// them is another's business: a field of our own at once, an engine with its frame.
+// The passes of an update on a Vulkan device. They record commands, and do not wait. The caller
+// submits the commands: VulkanFieldBackend at once, an engine with those of its frame.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@
 
 namespace lambent {
 
-/// The source of an update's rays and of their hits and shading: our world, or an engine. What its
-/// passes write is visible to the passes that are recorded afterwards.
+/// The source of an update's rays and of their hits and shading: our world, or an engine. The
+/// results of its passes are visible to the passes that are recorded afterwards.
 class RaySourceVulkan {
  public:
   virtual ~RaySourceVulkan() = default;
@@ -24,21 +24,21 @@ class RaySourceVulkan {
   virtual void scroll(vulkan::Recorder& to) = 0;
   virtual void schedule(vulkan::Recorder& to) = 0;
   virtual void trace(vulkan::Recorder& to, int batch) = 0;
-  /// Records what makes surfels, and what makes the distances that rays count as.
+  /// Records the making of surfels, and of the distances that rays count as.
   virtual void shade(vulkan::Recorder& to, int batch) = 0;
   virtual void visibility(vulkan::Recorder& to) = 0;
-  /// Whether the update learns how far lookups are off.
+  /// Whether the update learns corrections of lookups.
   virtual bool learns() const = 0;
-  /// Records gathers that tell how far lookups are off, and what the field learns from them.
+  /// Records gathers, and the update of the corrections from them.
   virtual void corrections(vulkan::Recorder& to) = 0;
-  /// The tracer of the rays that lookups ask for, whose textures are bound. Null where lookups
+  /// The tracer of the visibility rays of lookups, whose textures are bound. Null where lookups
   /// trace no rays.
   virtual const DeviceTracer* tracer() const = 0;
   virtual void placement(vulkan::Recorder& to) = 0;
 };
 
-/// Records what becomes of the changes of the probes' light. Where the host schedules, they are
-/// read back; where the device schedules, it learns the probes' variance from them.
+/// Records the use of the changes of the probes' light. Where the host schedules, they are read
+/// back; where the device schedules, it learns the probes' variance from them.
 class VariabilityVulkan {
  public:
   virtual ~VariabilityVulkan() = default;
@@ -47,7 +47,7 @@ class VariabilityVulkan {
                       Vec4Array before) = 0;
 };
 
-/// What the passes of an update work on.
+/// The objects and numbers that the passes of an update work with.
 struct UpdateVulkan {
   FieldResources& field;
   DeviceSolver& solver;
@@ -57,11 +57,11 @@ struct UpdateVulkan {
   const vulkan::Buffer& blend_weights;  ///< One per probe of the list.
   float largest_blend_weight = 1.0f;
   uint dither_seed = 0;  ///< Seed of the dither with which results are stored.
-  /// Keeps the history of the list's probes, whose last rays are traced again after edits, where
-  /// the device solves for their light. Else null.
+  /// The history over edits of the list's probes, if their last rays are traced again after edits
+  /// and the device solves for their light. Else null.
   DeviceHistory* history = nullptr;
-  /// The probes whose surfels may read one of the list. Null: their lookups stay, or they are the
-  /// list itself.
+  /// The probes whose surfels may read a probe of the list. Null: lookups of the list itself are
+  /// found.
   const DeviceProbes* readers = nullptr;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a recorded field keeps per probe on the device, and the arguments of the kernels that only
-// recorded fields run. Lists of probes are those of device_arguments.h.
+// The state of a recorded field's probes on the device, and the arguments of the kernels that only
+// recorded fields run. For lists of probes, see device_arguments.h.
 #ifndef LAMBENT_FIELD_VULKAN_RECORDED_ARGUMENTS_H
 #define LAMBENT_FIELD_VULKAN_RECORDED_ARGUMENTS_H
 
@@ -21,7 +21,7 @@ struct ProbeStanding {
   uint offset;    ///< Offset that applies from its next rays on (encode_probe_offset).
   RelocationState relocation;
   uint placed;  ///< Number of updates that took part in its placement so far.
-  uint coarse;  ///< 1: it was traced with new rays since the last edit.
+  uint coarse;  ///< 1: its last estimate is coarse, since new rays were traced after the last edit.
 };
 LAMBENT_DEVICE_ARRAY(StandingArray, ProbeStanding, 4)
 
@@ -37,7 +37,7 @@ LAMBENT_FN bool probe_rests(uint state, uint placed, uint placing_updates, uint 
   return state == kProbeOff && placed >= placing_updates && all == 0u;
 }
 
-/// Whether a probe's light and distances average something that an edit may keep.
+/// Whether a probe's light and distances are averages, which edits preserve in part.
 LAMBENT_FN bool has_history(uint state, float samples) {
   return state == kProbeOn && samples > 0.0f;
 }
@@ -76,9 +76,8 @@ struct FadeSamplesArguments {
   uint unused;
 };
 
-// What becomes of the earlier samples of an update's probes: new ones are added to them; they do
-// not count any more; or the probes' last rays have been traced again after an edit, which adds no
-// samples.
+// What an update does with the earlier samples of its probes: it adds new ones to them; it discards
+// them; or it has traced the probes' last rays again after an edit, which adds no samples.
 const uint kHistoryGrows = 0u;
 const uint kHistoryDiscarded = 1u;
 const uint kHistoryRetraced = 2u;
@@ -90,10 +89,10 @@ struct RecordedBlendWeightsArguments {
   UintArray offsets;  ///< The store's offsets, which become those that the rays started from.
   IntArray list;
   FloatArray blend_weights;
-  UintArray chosen;                ///< One word: the list's length where the device decided.
+  UintArray chosen;                ///< One word: the list's length where the device decides it.
   UintArray largest_blend_weight;  ///< One word: receives the bits of the largest blend weight.
   int count;
-  uint is_chosen;  ///< 1: the device decided.
+  uint is_chosen;  ///< 1: the device decides the list's length.
   float longest;   ///< The most updates that an average remembers.
   uint all;        ///< 1: probes that are off are traced, too.
   uint history;    ///< kHistoryGrows, kHistoryDiscarded or kHistoryRetraced.
@@ -113,15 +112,15 @@ struct RecordedSurfelsArguments {
   float max_albedo;
 };
 
-// What an update does to the place of a probe: nothing, one step of its relocation, its first step,
-// or its end, which moves it to the best place found.
+// What an update does to the place of a probe: nothing, one step of its relocation, the first step,
+// or the end of its relocation, which moves the probe to the best place found.
 const uint kPlaceLeave = 0u;
 const uint kPlaceStep = 1u;
 const uint kPlaceFirstStep = 2u;
 const uint kPlaceEnd = 3u;
 
-/// What the next update of a probe does to its place, when `placed` of its `placing_updates` are
-/// over.
+/// What the next update of a probe does to its place, after `placed` of the `placing_updates` that
+/// its placement takes.
 LAMBENT_FN uint placing_step(uint placed, uint placing_updates) {
   if (placed >= placing_updates) return kPlaceLeave;
   if (placed == 0u) return kPlaceFirstStep;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A field that an engine records: the parts of an update are recorded between the engine's own
+// The public functions of a field whose passes an engine records, in parts between the engine's own
 // commands.
 #include <algorithm>
 

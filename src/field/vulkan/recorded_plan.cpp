@@ -13,9 +13,8 @@
 namespace lambent::vulkan {
 namespace {
 
-// Where a round takes several updates, the probes of the first rounds receive light from probes
-// that hold none yet, or a part of its bounces only. What they receive in these rounds is not
-// averaged.
+// Where a round takes several updates, probes in the first rounds receive light from probes that
+// hold no light yet, or only part of its bounces. The light of these rounds is not averaged.
 constexpr int kWarmUpRounds = 2;
 
 // Probes inside geometry are traced once in this many rounds.
@@ -25,19 +24,20 @@ constexpr int kLookRounds = 8;
 // kMaxProbeAge.
 constexpr std::uint32_t kLookUpdates = 16;
 
-// Probes of coarser cascades than this are updated no less often, so that the last rays of all
-// probes stem from few updates.
+// Probes of coarser cascades than this are updated as often as those of this level, so that the
+// last rays of all probes come from few updates.
 constexpr int kMaxPeriodLevel = 5;
 
-// Ray sets that are kept besides those of the last 2^level updates: recycled probes draw new ones
-// in updates that follow edits, too.
+// The number of ray sets besides those of the last 2^level updates, since recycled probes also draw
+// new ray sets in updates that follow edits.
 constexpr int kRecycledSets = 8;
 
-// Probes are placed again this many updates after static geometry was rebuilt last. An object that
-// moves in every frame without being called dynamic must not make probes jump about.
+// Probes are placed again this many updates after static geometry was rebuilt last. Otherwise an
+// object that moves in every frame, but is not marked as dynamic, would relocate probes in every
+// frame.
 constexpr std::uint32_t kRestUpdates = 8;
 
-// Counts of a probe's updates end here: above kMaxPlacingUpdates of recorded_field.cpp.
+// The largest value of Known::traced, above kMaxPlacingUpdates of recorded_field.cpp.
 constexpr int kOften = 255;
 
 int most_probes_of(const FieldSettings& settings, const RecordedFieldSettings& recorded,
@@ -71,7 +71,7 @@ BatchPlan::BatchPlan(const FieldSettings& settings, const RecordedFieldSettings&
 void BatchPlan::start_from(std::uint32_t updates, std::span<const ProbeStatus> statuses) {
   assert(statuses.size() == known_.size());
   updates_ = updates;
-  // Rounds that warm up and those of placement are over
+  // The rounds that warm up the field and those that place probes are over
   round_ = kWarmUpRounds;
   placing_since_ = round_ - placing_updates_;
   for (int probe = 0; probe < probes(); ++probe) {
@@ -92,8 +92,8 @@ bool BatchPlan::rounds_are_over() const {
   return next_ == 0 && !warming_up() && round_ - placing_since_ >= placing_updates_;
 }
 
-/// Whether a probe is updated in this round: those of level L are in every 2^L-th, and in as many
-/// as their placement takes.
+/// Whether a probe is updated in this round. Probes of level L are updated in every 2^L-th round,
+/// and in every round while they are being placed.
 bool BatchPlan::takes_part(int probe) const {
   const Known& known = known_[probe];
   if (known.level == 0 || counts_bounces_ || warming_up()) return true;
@@ -106,7 +106,7 @@ void BatchPlan::begin_placement() {
   for (Known& known : known_) known.traced = 0;
 }
 
-/// Lets all averages start again, as at the start.
+/// Restarts all averages and the rounds, as at the start of the field.
 void BatchPlan::begin_anew() {
   placing_since_ -= round_;
   round_ = next_ = 0;
@@ -116,7 +116,8 @@ void BatchPlan::begin_anew() {
   }
 }
 
-/// Whether the last rays of all probes, and new ones of those that have none, fit into an update.
+/// Whether one update can trace the last rays of all probes again, and new rays for probes that
+/// have none.
 bool BatchPlan::can_retrace() const {
   if (!follows_edits_ || updates_ == 0) return false;
   std::set<std::uint32_t> drawn_in;
@@ -127,7 +128,7 @@ bool BatchPlan::can_retrace() const {
   return static_cast<int>(drawn_in.size()) <= most_sets_;
 }
 
-/// Lets probes be placed again once rebuilt geometry keeps still.
+/// Notes updates that rebuild static geometry, after which probes are placed again.
 void BatchPlan::note_rebuilt(const UpdatePlan& update) {
   for (const WorldChanges& change : update.changes) {
     if (change.rebuilt.empty()) continue;
@@ -176,13 +177,13 @@ ProbeBatch BatchPlan::next_of_device() {
   batch.all = updates_ % kLookUpdates == 0;
   batch.places = recycles_ && placing_updates_ > 0;
   ++updates_;
-  // From now on only the device knows
+  // From now on, only the device counts samples
   for (Known& known : known_) known.least_samples = 0.0f;
   recycled_.clear();
   return batch;
 }
 
-/// Chooses the probes of a batch: recycled ones first, then those whose turn it is.
+/// Chooses the probes of a batch: recycled ones first, then the next ones of the round.
 void BatchPlan::choose(ProbeBatch& batch) {
   const auto room = [&] { return static_cast<int>(batch.probes.size()) < most_; };
   const auto add = [&](int probe) {
@@ -194,7 +195,7 @@ void BatchPlan::choose(ProbeBatch& batch) {
   while (room() && served < recycled_.size()) add(recycled_[served++]);
   recycled_.erase(recycled_.begin(), recycled_.begin() + static_cast<std::ptrdiff_t>(served));
   do {
-    // A round may end with probes none of which takes part in it
+    // It may be that none of the last probes of a round takes part in it
     if (next_ == probes()) {
       next_ = 0;
       ++round_;
@@ -205,7 +206,7 @@ void BatchPlan::choose(ProbeBatch& batch) {
       if (takes_part(next_)) add(next_);
     }
   } while (batch.probes.empty());
-  // Consecutive probes are consecutive in memory
+  // Sort the probes, so that memory is read in order
   std::sort(batch.probes.begin(), batch.probes.end());
   batch.count = static_cast<int>(batch.probes.size());
 }
@@ -246,7 +247,7 @@ ProbeBatch BatchPlan::next(const UpdatePlan& update, std::span<const int> recycl
     }
   }
   const bool retraces = edited && can_retrace();
-  // Without the last rays of all probes, nobody knows how much of their averages an edit leaves
+  // Averages can be preserved over an edit only by tracing the last rays of all probes again
   const bool anew = edited && !retraces;
   if (anew) begin_anew();
   ProbeBatch batch;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order in which a recorded field updates its probes, and what the host knows about them
-// without reading anything back from the device.
+// The order in which a recorded field updates its probes. The host plans it without reading
+// anything back from the device.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "lambent/vulkan.h"
 #include "vulkan/api.h"
 
-// After Vulkan's headers without prototypes
+// Include this after Vulkan's headers without prototypes
 #include "lambent/vulkan_field.h"
 
 namespace lambent::vulkan {
@@ -23,12 +23,12 @@ inline constexpr int kMaxBatchProbes = 65535;
 /// The probes of one update, and what is done with them.
 struct ProbeBatch {
   std::vector<int> probes;        ///< Empty where the device chooses.
-  int count = 0;                  ///< Their number; an upper bound where the device chooses.
+  int count = 0;                  ///< Number of probes; an upper bound where the device chooses.
   std::uint32_t update = 0;       ///< Number of the update, counted from 0.
-  float history = 1.0f;           ///< Factor to the samples of all probes, 0 to 1.
+  float history = 1.0f;           ///< Factor of the numbers of samples of all probes, 0 to 1.
   bool discards_history = false;  ///< The batch's probes start their averages again.
   bool retraces = false;          ///< After edits, probes trace their last rays again.
-  /// The updates whose ray directions the probes trace, and for each probe which of these.
+  /// The updates whose ray directions the probes trace, and for each probe an index into them.
   std::vector<std::uint32_t> drawn_in;
   std::vector<int> ray_sets;
   bool on_device = false;             ///< The device chooses the probes.
@@ -38,20 +38,21 @@ struct ProbeBatch {
   float largest_blend_weight = 1.0f;  ///< Upper bound of the batch's blend weights.
 };
 
-/// Plans batches in rounds: each round updates every probe once, those of a coarse cascade less
-/// often. Probes that a cascade has given new places come first. Under a budget of rays, the device
-/// chooses the probes once the rounds are over that warm up the field or relocate probes.
+/// Plans batches in rounds. A round updates every probe once, except that probes of coarse cascades
+/// take part in fewer rounds. Probes that a scrolling cascade has recycled come first. With a
+/// budget of rays, the device chooses the probes after the rounds that warm up the field or
+/// relocate probes.
 class BatchPlan {
  public:
   /// `levels` has the cascade level of each probe, 0 to 15, the finest (and any other volume) 0.
   BatchPlan(const FieldSettings& settings, const RecordedFieldSettings& recorded,
             std::vector<std::uint8_t> levels);
 
-  /// Goes on after so many updates of another field, whose probes were these. They stay where they
-  /// stand, and those that average nothing come first.
+  /// Continues after this many updates of another field, whose probes had these statuses. The
+  /// probes are not relocated, and those without samples come first.
   void start_from(std::uint32_t updates, std::span<const ProbeStatus> statuses);
 
-  /// Plans an update before which the `recycled` probes have lost all that was known of them.
+  /// Plans the next update. The `recycled` probes have been reset before it.
   ProbeBatch next(const UpdatePlan& update, std::span<const int> recycled = {});
   std::uint32_t updates() const { return updates_; }
   /// The most probes and ray sets of a batch.
@@ -61,14 +62,16 @@ class BatchPlan {
   bool follows_edits() const { return follows_edits_; }
 
  private:
-  /// What the host knows of a probe.
+  /// The host's record of a probe.
   struct Known {
     std::uint8_t level = 0;
-    std::uint8_t traced = 0;     ///< How often, since it was placed anew; stays at kOften.
+    /// Number of updates that traced it since its placement began, at most kOften.
+    std::uint8_t traced = 0;
     bool chosen = false;         ///< It is in the batch that is being planned.
-    bool of_file = false;        ///< It averages rays of another field, and has traced none since.
+    bool of_file = false;        ///< It averages rays of another field only.
     std::uint32_t drawn_in = 0;  ///< Number of the update that drew its last rays, from 1; 0: none.
-    /// A lower bound on the updates that it has averaged: as if it moved whenever it may move.
+    /// A lower bound on the number of updates that it has averaged, which assumes that the probe
+    /// moved in every update in which it may move.
     float least_samples = 0.0f;
   };
 
@@ -99,8 +102,8 @@ class BatchPlan {
   int round_ = 0;          // counted from 0
   int placing_since_ = 0;  // the first round that takes part in placement with all probes
   bool recycles_ = false;  // some probes have been recycled
-  bool rebuilt_ = false;   // static geometry was rebuilt, near which probes are to be placed again
-  std::uint32_t rebuilt_in_ = 0;  // the last update in which that happened
+  bool rebuilt_ = false;   // static geometry was rebuilt, and probes have not been placed again yet
+  std::uint32_t rebuilt_in_ = 0;  // the last update in which static geometry was rebuilt
 };
 
 }  // namespace lambent::vulkan

@@ -10,8 +10,8 @@
 namespace lambent::vulkan {
 namespace {
 
-// Volumes of a file may differ from the planned ones by this much [cells]: engines and the programs
-// that bake round the bounds of a scene differently.
+// The largest difference between a file's volume and the planned one [cells]. Engines and baking
+// programs round the bounds of a scene differently.
 constexpr float kPlaceSlack = 1e-3f;
 
 std::string size_of(const ivec3& count) {
@@ -19,7 +19,7 @@ std::string size_of(const ivec3& count) {
          std::to_string(count.z);
 }
 
-/// Says what a file's tiles have that the settings do not ask for; empty: nothing.
+/// Describes how a file's tiles differ from those that the settings request; empty: not at all.
 std::string misfit_of_tiles(const FieldVolume& volume, const FieldSettings& settings) {
   if (volume.irradiance_format != settings.irradiance_format) {
     return "stores irradiance in another format than the settings ask for";
@@ -40,7 +40,7 @@ std::string misfit_of_tiles(const FieldVolume& volume, const FieldSettings& sett
   return "";
 }
 
-/// Whether both grids have their probes in the same places, once moved so that they begin in one.
+/// Whether both grids have their probes at the same places relative to probe 0.
 bool same_shape(const ProbeGrid& a, const ProbeGrid& b) {
   const vec3 cells = vec3(a.count - 1);
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,7 +51,7 @@ bool same_shape(const ProbeGrid& a, const ProbeGrid& b) {
   return true;
 }
 
-/// Says how a file's volume differs from the planned one; empty: not at all.
+/// Describes how a file's volume differs from the planned one; empty: not at all.
 std::string misfit_of_place(const FieldVolume& volume, const ProbeGrid& planned,
                             const VolumeRole& role) {
   const ProbeGrid& grid = volume.grid;
@@ -74,7 +74,7 @@ std::string misfit_of_place(const FieldVolume& volume, const ProbeGrid& planned,
   return "";
 }
 
-/// What a recorded field keeps of a probe that a file tells of. Its placement is over.
+/// The ProbeStanding of a probe of a file. Its placement is over.
 ProbeStanding standing_of(const ProbeStatus& status, uint offset, float longest, uint placed) {
   ProbeStanding standing{};
   standing.samples = std::min(status.samples, longest);

@@ -23,7 +23,7 @@
 namespace lambent::vulkan {
 namespace {
 
-// Parts that an engine records an update in, and passes of one, at most.
+// The most parts in which an engine records an update, and the most passes of a part.
 constexpr int kUpdateParts = 4;
 constexpr std::uint32_t kMaxPartPasses = 16;
 
@@ -42,7 +42,7 @@ std::vector<std::uint8_t> levels_of(const ProbeStore& shape, std::span<const Vol
   return levels;
 }
 
-/// A list of the largest possible length, by which memory is reserved.
+/// A list of the largest possible length, for which memory is reserved.
 DeviceProbes largest_list(const BatchPlan& plan, const FieldSettings& settings) {
   DeviceProbes list;
   list.probes.resize(plan.most_probes());

@@ -65,9 +65,9 @@ struct UpdateMemory {
   void write(const ProbeBatch& batch, const FieldSettings& settings);
   /// Writes the grids after scrolling, and the probes that it recycles.
   void write(const ScrolledVolumes& scrolling);
-  /// The passes of all parts that have finished, since the last call.
+  /// Returns the passes, with their times, of all parts that have finished since the last call.
   std::vector<PassTime> take_times();
-  /// Returns what times the next part of the update, or null where all parts have been recorded.
+  /// Returns the timestamps of the next part of the update, or null where all have been recorded.
   Timestamps* next_timer() { return parts < timers.size() ? timers[parts++].get() : nullptr; }
 
   std::size_t bytes() const;
@@ -90,13 +90,14 @@ struct RecordedField::State {
   State(std::shared_ptr<Device> on, const FieldSettings& of, const RecordedFieldSettings& recorded,
         std::span<const Volume> volumes, const ProbeStore& shape);
 
-  /// Whether the file's volumes are the planned ones, with tiles as the settings ask for. The error
-  /// names the file.
+  /// Checks that the file's volumes are the planned ones, with the tiles that the settings request.
+  /// The error contains the file's name.
   Expected<void> check_fit(const std::string& path, const FieldFile& file) const;
-  /// Takes over all that a fitting file holds. Submits to the device's queue, and waits.
+  /// Uploads the contents of a file that passed check_fit(). Submits to the device's queue, and
+  /// waits.
   void restore(const FieldFile& file);
 
-  /// Scrolls the volumes that follow the viewer. Returns the probes that this recycles.
+  /// The volumes after scrolling with the viewer, and the probes that this recycles.
   ScrolledVolumes scroll(const std::optional<vec3>& viewer_ws) const;
 
   UpdateMemory& memory() { return ring[batch.update % ring.size()]; }
@@ -107,7 +108,8 @@ struct RecordedField::State {
     return static_cast<std::uint32_t>(batch.count * settings.rays_per_probe);
   }
   ProbeStates probe_states() const { return {{standing.address()}, {states.address()}}; }
-  /// Address of a word of the device's decision; null where the host decides.
+  /// Address of the word at this byte offset of the device's ScheduleState; null where the host
+  /// schedules.
   UintArray chosen(std::size_t offset) const {
     return {schedule ? schedule->state().address() + offset : 0};
   }
@@ -122,7 +124,7 @@ struct RecordedField::State {
   std::uint32_t ray_mask;
   uint placing_updates;
   std::vector<VolumeRole> roles;  // one per volume
-  std::vector<ProbeGrid> grids;   // as the update that was planned last leaves them
+  std::vector<ProbeGrid> grids;   // the grids after the update that was planned last
   BatchPlan plan;
   FieldResources field;
   DeviceSolver solver;
@@ -140,8 +142,8 @@ struct RecordedField::State {
   std::vector<PassTime> times;  // of the last update that has finished
 };
 
-/// The rays of a recorded field. An engine traces and shades them; the device decides on the
-/// schedule and the placement from their results.
+/// The rays of a recorded field. An engine traces and shades them; the device computes the schedule
+/// and the placement from their results.
 class RecordedField::State::EngineRays final : public RaySourceVulkan, public VariabilityVulkan {
  public:
   explicit EngineRays(State& field) : s_(field) {}
@@ -155,7 +157,7 @@ class RecordedField::State::EngineRays final : public RaySourceVulkan, public Va
   void trace(Recorder& to, int batch) override;
   void shade(Recorder& to, int batch) override;
   void visibility(Recorder& to) override;
-  /// Engines shade hits of probe rays alone, and gathers would need more.
+  /// Returns false: engines shade hits of probe rays only, and not those of gathers.
   bool learns() const override { return false; }
   void corrections(Recorder& /*to*/) override {}
   const DeviceTracer* tracer() const override { return nullptr; }

@@ -18,11 +18,11 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// The sum of all importance, in the fixed-point numbers in which it is summed. Rounding each
-// summand to the nearest number adds less than the range that is left to 2^32.
+// The sum of all importance, in fixed-point numbers. The rest of the range up to 2^32 is more than
+// the sum of all errors of rounding terms to the nearest number.
 constexpr double kMaxScattered = 2147483648.0;
 
-// Passes of an update besides those of its batches, at most; and passes of a batch.
+// The most passes of an update besides those of its batches, and the number of passes of a batch.
 constexpr std::uint32_t kTimedPasses = 16;
 constexpr std::uint32_t kBatchPasses = 2;
 
@@ -37,7 +37,7 @@ std::vector<PassTime> pass_times(const vulkan::Timestamps& timestamps) {
   return times;
 }
 
-/// Brings the changes of light to where the host reads them, which schedules.
+/// Reads the changes of light back for the host, which schedules.
 class ChangesForHost final : public VariabilityVulkan {
  public:
   ChangesForHost(const FieldResources& field, std::size_t probes)
@@ -55,7 +55,7 @@ class ChangesForHost final : public VariabilityVulkan {
   const FieldResources& field_;
 };
 
-/// Of passes that change no light.
+/// Ignores the changes of light, for passes that do not change light.
 class Unchanged final : public VariabilityVulkan {
  public:
   void record(Recorder&, const DeviceProbes&, FloatArray, Vec4Array) override {
@@ -122,7 +122,7 @@ void VulkanFieldBackend::push_solid_sides() {
       host_buffer(*device_, std::span(std::as_const(data_.solid_sides.words)), "solid sides");
 }
 
-/// Takes over what the host may have changed, unless the device's is newer.
+/// Uploads the host's light, unless the device's is newer.
 void VulkanFieldBackend::upload_light() {
   if (!light_is_newer_) push_light();
 }
@@ -151,7 +151,7 @@ std::vector<T> VulkanFieldBackend::in_order_of(const DeviceProbes& list, std::sp
   return ordered;
 }
 
-/// Those that have been traced.
+/// Returns those of the probes that have been traced.
 std::vector<int> VulkanFieldBackend::traced_among(std::span<const int> probes) const {
   std::vector<int> traced;
   for (const int probe : probes) {
@@ -206,7 +206,7 @@ ProbeUpdateResult VulkanFieldBackend::update_probes(ProbeUpdate update) {
   return result;
 }
 
-/// Rays are cheap here and finding out which may differ is not: all are traced again.
+/// Traces all rays again: on a device this is cheaper than finding those that edits may affect.
 InvalidationResult VulkanFieldBackend::retrace(const World& world, std::span<const WorldChanges>,
                                                std::span<const int> probes,
                                                std::span<const int> among, uint dither_seed) {

@@ -68,7 +68,7 @@ class VulkanFieldBackend final : public FieldBackend, public DeviceLookups {
   DeviceSolver solver_;
   HitShading shading_;
   WorldRayBuffers ray_buffers_;
-  std::unique_ptr<DeviceTraining> training_;  // null: nothing has been learned here
+  std::unique_ptr<DeviceTraining> training_;  // null: no update has learned corrections yet
   bool corrections_are_newer_ = false;        // the device has newer ones than ProbeData
   bool light_is_newer_ = false;  // the device has newer light and estimates than ProbeData
   bool store_is_newer_ = false;  // the device has newer tiles than ProbeData

@@ -15,7 +15,8 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// The most queries of the host that are in memory at a time: enough to fill any device, in 48 MB.
+// The most queries of the host that are in memory at a time: enough to keep any device busy, in
+// 48 MB.
 constexpr std::size_t kQueriesAtATime = 1 << 20;
 
 }  // namespace
@@ -32,7 +33,7 @@ std::uint64_t VulkanFieldBackend::update_cell_visibility(const World& world,
   return cells.size() * kCellPairs;
 }
 
-/// Finding out which surfels read a probe that moved costs more than finding all lookups again.
+/// Finds all lookups again, which is cheaper than finding the surfels that read a moved probe.
 std::uint64_t VulkanFieldBackend::find_lookups(const World& world, std::span<const int>,
                                                std::span<const int> among) {
   const std::vector<int> traced = traced_among(among);

@@ -12,7 +12,7 @@ namespace {
 using vulkan::Buffer;
 using vulkan::Recorder;
 
-// The most rays that are in memory at a time: enough to fill any device, in about 40 MB.
+// The most rays that are in memory at a time: enough to keep any device busy, in about 40 MB.
 constexpr int kMaxBatchRays = 1 << 18;
 
 /// Splits a list into batches that trace the same ray set, each small enough for kMaxBatchRays.

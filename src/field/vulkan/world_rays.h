@@ -21,9 +21,9 @@ struct WorldRayBuffers {
 class WorldRaysVulkan final : public RaySourceVulkan {
  public:
   /// Reserves memory for the rays of a list's probes. `cells` are the cells that `visibility` works
-  /// on. With `sees`, `shade` records the distances that rays count as. `training` has begun the
-  /// update; null: it learns nothing. All arguments must outlive the execution of the recorded
-  /// commands.
+  /// on. With `sees`, shade() also records the distances that rays count as. `training` is that on
+  /// which DeviceTraining::begin() was called for the update; null: the update learns no
+  /// corrections. All arguments must outlive the execution of the recorded commands.
   WorldRaysVulkan(FieldResources& field, HitShading& shading, WorldRayBuffers& buffers,
                   const DeviceWorld& world, const DeviceProbes& list, std::span<const int> cells,
                   bool sees, DeviceTraining* training);

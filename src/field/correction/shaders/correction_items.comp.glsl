@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists samples in the buckets of their blocks, one lane per sample. The order of a list differs
-// from run to run; what becomes of it does not hang on that.
+// Adds samples to the linked lists of their blocks' buckets, one lane per sample. The order of a
+// list differs from run to run, but the result does not depend on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"

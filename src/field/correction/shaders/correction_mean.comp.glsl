@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds what an update's samples have in common, by one workgroup. Sums are made in one order, so
-// that they are the same on every run.
+// Computes the mean lookup of an update's samples, and the number of samples that each counts as.
+// One workgroup. The order of additions is fixed, so that sums are the same on every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
   CorrectionMeanArguments args;
 };
 
-// What the samples of each lane sum up to.
+// The sum over the samples of each lane.
 shared vec2 sums[kLanes];
 
 /// The sum over all lanes.

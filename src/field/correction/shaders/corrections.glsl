@@ -25,7 +25,7 @@ uint fetch_refined(CorrectionArrays table, uint slot, int cell) {
 
 #include "field/correction/correction.inl.h"
 
-/// As field/lookup/lookup.inl.h requires it.
+/// The fetch_correction() that field/lookup/lookup.inl.h requires, for this table.
 float correction_of(CorrectionArrays table, ProbeGrid grid, int volume, vec3 position_ws,
                     vec3 normal_ws) {
   if (table.buckets == 0u) return 1.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Forgets a part of what cells have learned of light that edits changed, one lane per block.
+// Reduces the weights of the samples of cells where edits changed light, one lane per block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"

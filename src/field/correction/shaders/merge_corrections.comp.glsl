@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes listed samples into the table of corrections, one lane per bucket.
+// Adds listed samples to the table of corrections, one lane per bucket.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -37,7 +37,7 @@ CorrectionItem fetch_item(MergeCorrectionsArguments table, uint item) {
 
 void main() {
   uint bucket = gl_GlobalInvocationID.y * kCorrectionRow + gl_GlobalInvocationID.x;
-  // Where no lookup found light, nothing is learned and nothing is forgotten
+  // Where no lookup found light, there are no samples, and the table stays as it is
   if (bucket >= args.buckets || !(args.summary.at[kCorrectionMean] > 0.0)) return;
   merge_bucket(args, bucket * kCorrectionBucket, args.first_items.at[bucket], args.keep,
                args.summary.at[kCorrectionWorth]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds what lookups read from the cells of one level, once those of coarser levels are known. One
-// lane per cell.
+// Computes the values that lookups read from the cells of one level. Those of coarser levels must
+// be computed already. One lane per cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"

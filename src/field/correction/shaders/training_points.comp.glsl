@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes points at which corrections are learned of surfels, one lane per point.
+// Makes the points at which corrections are learned from surfels, one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -19,7 +19,7 @@ void main() {
   SurfelRecord surfel = args.surfels.at[trained.surfel];
   vec3 direction = args.sets.at[trained.ray_set].directions.at[trained.ray];
   float gi_share = surfel.albedo_over_pi != vec3(0.0) ? surfel.gi_share : 0.0;
-  // A query without a normal is not answered
+  // Lookups skip a query with a normal of 0
   vec3 normal_ws = gi_share > 0.0 ? decode_unit_vector(surfel.normal_ws) : vec3(0.0);
   vec3 origin_ws =
       placed_position_of(args.store.grids, args.store.offsets, trained.probe);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Asks the field for light where the rays end by which corrections are learned, one lane per ray.
+// Writes field queries for the hits of the rays from which corrections are learned, one lane per
+// ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -15,7 +16,7 @@ void main() {
   if (i >= args.count) return;
   LitPointRecord point = args.hit_points.at[i];
   RayRecord ray = args.rays.at[i];
-  // A query without a normal is not answered
+  // Lookups skip a query with a normal of 0
   vec3 normal_ws = ray.mask != 0u ? point.normal_ws : vec3(0.0);
   args.queries.at[i] = QueryRecord(point.position_ws, normal_ws, -ray.direction_ws,
                                    distance(point.position_ws, ray.origin_ws));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the rays by which points gather light to learn corrections, one lane per point.
+// Draws the rays with which light is gathered at points to learn corrections, one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -22,7 +22,7 @@ void main() {
   args.first_indices.at[i] = point.index * uint(kTrainingRays);
   if (exists) atomicAdd(args.ray_count.at[0], uint(kTrainingRays));
 
-  // Where there is no point, the rays are not traced, but shaded as if they met nothing
+  // Where there is no point, the rays are not traced, but shaded as misses
   Frame frame = make_frame(exists ? query.normal_ws : vec3(0.0, 1.0, 0.0));
   vec3 origin_ws = offset_ray_origin(query.position_ws, point.geometric_normal_ws);
   for (int ray = 0; ray < kTrainingRays; ++ray) {

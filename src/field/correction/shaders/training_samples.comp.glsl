@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares what points gather with what the volumes that light them have there, and goes on to a
-// point that their rays met. One lane per point.
+// Compares the gathered irradiance of points with the lookups of the volumes that light them, and
+// replaces each point by the hit of one of its rays. One lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/correction/correction_records.h"
@@ -32,7 +32,7 @@ vec3 fetch_radiance(TrainingSamplesArguments gathers, uint ray) {
 
 #include "field/correction/train.inl.h"
 
-/// Irradiance that a volume's lookup alone finds; its luminance.
+/// Luminance of the irradiance that the lookup in a single volume finds.
 float looked_up_luminance(CornerWeights corners, vec3 normal) {
   normalize_weights(corners);
   ProbeGrid grid = args.store.grids.at[int(corners.table) / kCellWraps];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Multiplies the numbers of samples of all probes by a factor, so that their history counts less,
-// and lets their placement begin again where that is asked for. One lane per probe.
+// Multiplies the numbers of samples of all probes by a factor, so that their history has less
+// weight, and restarts their placement if `place_again` is set. One lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/recorded_arguments.h"

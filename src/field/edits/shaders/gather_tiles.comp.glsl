@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Copies what the probes of a list hold, and what their last rays estimated, one lane per texel.
+// Copies the light and the last estimates of the probes of a list out of the arrays of all probes,
+// one lane per texel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/edits/edit_arguments.h"

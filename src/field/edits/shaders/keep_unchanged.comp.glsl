@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives probes whose light an edit did not change visibly their old light back, and lets the
-// history of the others count less. One lane per probe.
+// Restores the light of probes that an edit did not change visibly, and reduces the numbers of
+// samples of the others. One lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/edits/edit_arguments.h"
@@ -28,7 +28,7 @@ void main() {
   in_field = probe * texels;
   LightChange change = light_change(texels);
 
-  // The last estimate stays as well, so that several changes too small to be seen add up
+  // The last estimate stays as well, so that several changes too small to be visible add up
   bool changed = mean_relative_square(change.squares, texels, change.before) >=
                  kChangedFraction * kChangedFraction;
   args.changed.at[k] = changed ? 1u : 0u;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Moves the stored moments by as much as the moments of the probes' rays changed, one lane per
-// texel. The stored moments average the rays of many updates; moving them keeps what did not
-// change.
+// Shifts the stored moments by the change in the moments of the probes' rays, one lane per texel.
+// The stored moments average the rays of many updates; a shift preserves what did not change.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/edits/edit_arguments.h"
@@ -23,7 +22,7 @@ void main() {
   const int texels = kDistanceTexels * kDistanceTexels;
   const int columns = (texels + kDistanceBlock - 1) / kDistanceBlock * kDistanceBlock;
 
-  // Blend the distances that the rays saw before and those that they see now
+  // Blend the distances of the rays before the edit, and those after it
   vec2 before = vec2(0.0);
   vec2 now = vec2(0.0);
   float total = 0.0;
@@ -35,7 +34,7 @@ void main() {
     now += weight * vec2(distance_now, distance_now * distance_now);
     total += weight;
   }
-  // Here, a probe without history (kNoDistancesBefore) counts as blocked: it takes all that is new
+  // A probe without history (kNoDistancesBefore) counts as blocked, and takes the new distances
   bool was_blocked = args.blocked_before.at[k] != 0u;
   bool is_blocked = args.blocked.at[k] != 0u;
   before = was_blocked ? vec2(0.0) : before / total;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scales the light of probes by the ratio in which an edit made their direct light brighter.
+// Scales the light of probes by the ratio of their direct light after an edit to that before it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/edits/edit_arguments.h"

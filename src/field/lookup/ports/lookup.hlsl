@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for HLSL, to be included in a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
-// as a camera sees it: unlike FieldQuery, it knows no viewer who is nearer than the bias reaches.
-// A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
-// reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
-// The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
+// This is for points that a camera sees. It has no argument like FieldQuery::viewer_distance, and
+// assumes that the viewer is farther away than the bias towards the viewer is long.
+// This file is a port of src/field/lookup/lookup.inl.h and of the files included there, which give
+// the reason for every constant. The build puts the constants in, and writes the complete file to
+// its folder ports/, from which it is installed.
+// The buffers are those of a field's store. Distances are rg16f; the macros below choose the format
+// of irradiance.
 
-#ifndef LAMBENT_IRRADIANCE_TEXELS  // of a tile's edge, without gutter
+#ifndef LAMBENT_IRRADIANCE_TEXELS  // along a tile's edge, without gutter
 #define LAMBENT_IRRADIANCE_TEXELS 4
 #endif
 #ifndef LAMBENT_DISTANCE_TEXELS
@@ -16,7 +19,7 @@
 #define LAMBENT_IRRADIANCE_R11G11B10F 0
 #endif
 
-// Constants of src/, put here by the build
+// The build puts the constants of src/ here
 @LAMBENT_CONSTANTS@
 
 struct ProbeGrid {  // as in probe_grid.h, where each member is explained
@@ -32,7 +35,7 @@ StructuredBuffer<uint> field_distances : register(t3);    // tile after tile
 float3 vec3_of(float v[3]) { return float3(v[0], v[1], v[2]); }
 int3 ivec3_of(int v[3]) { return int3(v[0], v[1], v[2]); }
 float smallest(float3 v) { return min(v.x, min(v.y, v.z)); }
-float3x3 rows_of(float axes[9]) {  // each an axis of the grid
+float3x3 rows_of(float axes[9]) {  // each row is an axis of the grid
   return float3x3(axes[0], axes[1], axes[2], axes[3], axes[4], axes[5], axes[6], axes[7], axes[8]);
 }
 float power_of_two(int exponent) { return asfloat(uint(exponent + kFloatBias) << 23); }
@@ -105,7 +108,8 @@ float probe_weight(float cos_probe, float2 moments, float dist) {
   return moments.x > 0.0 ? max(weight, kMinVisibilityWeight) : 0.0;
 }
 
-// A volume's irradiance times its weight, and the weight: 0 where no probe of it has a weight.
+// A volume's irradiance times its weight, and its weight, which is 0 where none of its probes has a
+// weight.
 float4 volume_irradiance(ProbeGrid grid, float3 coords, float volume_weight, float3 position_ws,
                          float3 normal_ws, float3 to_viewer_ws) {
   float3 spacing = vec3_of(grid.spacing);
@@ -148,7 +152,7 @@ float3 field_irradiance(float3 position_ws, float3 normal_ws, float3 to_viewer_w
     float3 half_box = vec3_of(grid.fade_half);
     float3 inside = half_box - abs(coords - vec3_of(grid.fade_centre));
     float volume_weight = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
-    if (v + 1 == volumes) volume_weight = 1.0;  // the last volume answers for the rest
+    if (v + 1 == volumes) volume_weight = 1.0;  // the last volume takes the rest
     if (volume_weight <= 0.0) continue;
     answer += volume_irradiance(grid, coords, volume_weight * (1.0 - answer.w), position_ws,
                                 normal_ws, to_viewer_ws);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for WebGPU, to be put before a shader of yours:
 //   field_irradiance(position_ws, normal_ws, to_viewer_ws) -> irradiance [W/m^2]
-// as a camera sees it: unlike FieldQuery, it knows no viewer who is nearer than the bias reaches.
-// A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
-// reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
-// The buffers are those that a field's store holds; distances are rg16f, irradiance as chosen here.
+// This is for points that a camera sees. It has no argument like FieldQuery::viewer_distance, and
+// assumes that the viewer is farther away than the bias towards the viewer is long.
+// This file is a port of src/field/lookup/lookup.inl.h and of the files included there, which give
+// the reason for every constant. The build puts the constants in, and writes the complete file to
+// its folder ports/, from which it is installed.
+// The buffers are those of a field's store. Distances are rg16f; the overrides below choose the
+// format of irradiance.
 
-override irradiance_texels: i32 = 4;  // of a tile's edge, without gutter
+override irradiance_texels: i32 = 4;  // along a tile's edge, without gutter
 override distance_texels: i32 = 14;
 override irradiance_r11g11b10f: bool = false;  // otherwise rgb9e5
 
-// Constants of src/, put here by the build
+// The build puts the constants of src/ here
 @LAMBENT_CONSTANTS@
 
 alias Float3 = array<f32, 3>;  // 12 bytes, where a vec3f would take 16
@@ -21,10 +24,11 @@ struct ProbeGrid {  // as in probe_grid.h, where each member is explained
   fade_centre: Float3, fade_half: Float3, fade_cells: Float3,
 }
 const kFieldGroup = 0;  // where the buffers are bound
-@group(kFieldGroup) @binding(0) var<storage, read> field_grids: array<ProbeGrid>;  // a volume
-@group(kFieldGroup) @binding(1) var<storage, read> field_offsets: array<u32>;      // a probe
-@group(kFieldGroup) @binding(2) var<storage, read> field_irradiances: array<u32>;  // tiles
-@group(kFieldGroup) @binding(3) var<storage, read> field_distances: array<u32>;    // tiles
+// One grid per volume, one offset per probe, and the words of the tiles, tile after tile.
+@group(kFieldGroup) @binding(0) var<storage, read> field_grids: array<ProbeGrid>;
+@group(kFieldGroup) @binding(1) var<storage, read> field_offsets: array<u32>;
+@group(kFieldGroup) @binding(2) var<storage, read> field_irradiances: array<u32>;
+@group(kFieldGroup) @binding(3) var<storage, read> field_distances: array<u32>;
 
 fn vec3_of(v: Float3) -> vec3f { return vec3f(v[0], v[1], v[2]); }
 fn ivec3_of(v: Int3) -> vec3i { return vec3i(v[0], v[1], v[2]); }
@@ -92,7 +96,8 @@ fn probe_weight(cos_probe: f32, moments: vec2f, dist: f32) -> f32 {
   return select(0.0, max(weight, kMinVisibilityWeight), moments.x > 0.0);
 }
 
-// A volume's irradiance times its weight, and the weight: 0 where no probe of it has a weight.
+// A volume's irradiance times its weight, and its weight, which is 0 where none of its probes has a
+// weight.
 fn volume_irradiance(grid: ProbeGrid, coords: vec3f, volume_weight: f32, position_ws: vec3f,
                      normal_ws: vec3f, to_viewer_ws: vec3f) -> vec4f {
   let spacing = vec3_of(grid.spacing);
@@ -134,7 +139,7 @@ fn field_irradiance(position_ws: vec3f, normal_ws: vec3f, to_viewer_ws: vec3f) -
     let half_box = vec3_of(grid.fade_half);
     let inside = half_box - abs(coords - vec3_of(grid.fade_centre));
     var volume_weight = saturate(smallest(inside / min(half_box, vec3_of(grid.fade_cells))));
-    if v + 1u == volumes { volume_weight = 1.0; }  // the last volume answers for the rest
+    if v + 1u == volumes { volume_weight = 1.0; }  // the last volume takes the rest
     if volume_weight <= 0.0 { continue; }
     answer += volume_irradiance(grid, coords, volume_weight * (1.0 - answer.w), position_ws,
                                 normal_ws, to_viewer_ws);

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lookup of Lambent's irradiance field for WebGL 2, to be put into a fragment shader of yours:
 //   vec3 field_irradiance(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) -> [W/m^2]
-// as a camera sees it: unlike FieldQuery, it knows no viewer who is nearer than the bias reaches.
-// A port of src/field/lookup/lookup.inl.h and of what that includes, where every constant has its
-// reason. Complete with these constants in the folder ports/ of a build, and where it is installed.
+// This is for points that a camera sees. It has no argument like FieldQuery::viewer_distance, and
+// assumes that the viewer is farther away than the bias towards the viewer is long.
+// This file is a port of src/field/lookup/lookup.inl.h and of the files included there, which give
+// the reason for every constant. The build puts the constants in, and writes the complete file to
+// its folder ports/, from which it is installed.
 // Textures are those of LightTextures (src/stream/light/light_textures.h); tiles are filtered
-// linearly. Before it #define LAMBENT_VOLUMES, the most volumes that there may be.
+// linearly. Before this file, #define LAMBENT_VOLUMES as the largest number of volumes.
 
-// Constants of src/, put here by the build
+// The build puts the constants of src/ here
 @LAMBENT_CONSTANTS@
 
 struct LambentGrid {  // as in probe_grid.h, where each member is explained
@@ -24,7 +26,7 @@ uniform highp sampler2D lambent_irradiance, lambent_distances, lambent_places;
 
 float lambent_smallest(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// A probe's tile of an atlas, in a direction.
+// Fetches from a probe's tile of an atlas along a direction.
 vec4 lambent_fetch(highp sampler2D atlas, int probe, vec3 direction, int texels) {
   vec2 p = direction.xy / max(abs(direction.x) + abs(direction.y) + abs(direction.z),
                               kTiniestLength);
@@ -50,7 +52,8 @@ float lambent_probe_weight(float cos_probe, vec2 moments, float dist) {
   return moments.x > 0.0 ? max(weight, kMinVisibilityWeight) : 0.0;
 }
 
-// A volume's irradiance times its weight, and the weight: 0 where no probe of it has a weight.
+// A volume's irradiance times its weight, and its weight, which is 0 where none of its probes has a
+// weight.
 vec4 lambent_volume(LambentGrid grid, vec3 coords, float volume_weight, vec3 position_ws,
                     vec3 normal_ws, vec3 to_viewer_ws) {
   vec3 biased_ws = position_ws + (kNormalBias * normal_ws + kViewBias * to_viewer_ws) *
@@ -89,7 +92,7 @@ vec3 field_irradiance(vec3 position_ws, vec3 normal_ws, vec3 to_viewer_ws) {
     vec3 inside = grid.fade_half - abs(coords - grid.fade_centre);
     vec3 fade = inside / min(grid.fade_half, grid.fade_cells);
     float volume_weight = clamp(lambent_smallest(fade), 0.0, 1.0);
-    if (v + 1 == lambent_volumes) volume_weight = 1.0;  // the last volume answers for the rest
+    if (v + 1 == lambent_volumes) volume_weight = 1.0;  // the last volume takes the rest
     if (volume_weight <= 0.0) continue;
     answer += lambent_volume(grid, coords, volume_weight * (1.0 - answer.w), position_ws, normal_ws,
                              to_viewer_ws);

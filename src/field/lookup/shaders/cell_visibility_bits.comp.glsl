@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores which probes of cells see each other, from the rays between them. One lane per cell.
+// Stores which probes of cells are visible to each other, from the results of the rays between
+// them. One lane per cell.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

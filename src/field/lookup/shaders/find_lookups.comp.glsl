@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds the lookups of points by distances, one lane per point. A point has kLookups lookups; where
-// more volumes have a weight at the point, the first ones answer for all.
+// Finds the lookups of points, with visibility by distances, one lane per point. A point has
+// kLookups lookups; where more volumes have a weight at the point, the first ones take all of it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

@@ -20,8 +20,8 @@ float fetch_correction(ProbeGrid grid, int volume, vec3 position_ws, vec3 normal
 
 void main() {
   int i = int(gl_GlobalInvocationID.y) * args.width + int(gl_GlobalInvocationID.x);
-  // Lanes beyond the last point look up the last one again. No lane leaves early, so that lavapipe
-  // reads what all lanes have in common once
+  // Lanes beyond the last point look up the last one again. No lane returns early, so that lavapipe
+  // reads data that all lanes share only once
   QueryRecord query = args.queries.at[min(i, args.count - 1)];
   vec3 irradiance = lookup_irradiance(kVolumes, query.position_ws, query.normal_ws,
                                       query.to_viewer_ws, query.viewer_distance);

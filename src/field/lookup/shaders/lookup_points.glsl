@@ -33,8 +33,8 @@ RaySetRecord rays_of(LookupPoint point) {
   return args.points.list.sets.at[args.points.list.ray_sets.at[point.row]];
 }
 
-/// The share of the field's irradiance that an existing point receives. 0: it needs no lookup, as
-/// surfels that reflect nothing and queries without a normal.
+/// The share of the field's irradiance that an existing point receives. 0: the point needs no
+/// lookup, because it is a surfel that reflects nothing or a query without a normal.
 float gi_share_of(LookupPoint point) {
   if (args.points.count > 0) {
     return args.points.queries.at[point.place].normal_ws == vec3(0.0) ? 0.0 : 1.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes visibility rays for those corners of lookups whose visibility the distances leave in doubt,
-// one lane per point.
+// Makes visibility rays for those corners of lookups whose visibility is in doubt (see
+// VisibilityMask), or for all corners with a weight, one lane per point.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_arguments.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the visibility rays of lookups need. The includer has declared push constants with
-// `args.store`.
+// The volumes, cells and weights for the visibility rays of lookups. The includer has declared push
+// constants with `args.store`.
 #ifndef LAMBENT_FIELD_LOOKUP_SHADERS_VISIBILITY_RAYS_GLSL
 #define LAMBENT_FIELD_LOOKUP_SHADERS_VISIBILITY_RAYS_GLSL
 

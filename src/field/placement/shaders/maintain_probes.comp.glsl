@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sets the states and next places of probes from what their rays hit. One workgroup per probe.
+// Sets the states and next places of probes from the hits of their rays. One workgroup per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/placement/classify_math.h"
@@ -57,7 +57,7 @@ void sort_planes(int lane) {
   }
 }
 
-/// Takes a step of a probe's relocation. A probe that moves starts its average again.
+/// Takes a step of a probe's relocation. Sets the number of samples of a probe that moves to 0.
 void place(int probe, vec3 spacing, uint inside_geometry) {
   ProbeStanding standing = args.probes.standing.at[probe];
   uint step = placing_step(standing.placed, args.placing_updates);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Discards all that a recorded field knows of probes that have new places. One row of lanes per
-// probe, one lane per word of its distance tile.
+// Resets all data of probes that have new places in a recorded field. One row of lanes per probe,
+// one lane per word of its distance tile.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/placement/reset_arguments.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The volume that a probe is of.
+// The volume that a probe belongs to.
 #ifndef LAMBENT_FIELD_PROBES_SHADERS_VOLUME_OF_GLSL
 #define LAMBENT_FIELD_PROBES_SHADERS_VOLUME_OF_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides how many probes an update traces, down to which bin, and how large the kernels are that
-// work on them. One workgroup.
+// Decides how many probes an update traces, down to which bin, and the numbers of workgroups of the
+// kernels that work on them. One workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"

@@ -10,10 +10,10 @@ layout(push_constant, scalar) uniform Push {
   ScheduleListArguments args;
 };
 
-// For each probe of a chunk, how many probes up to it are in higher bins than the last, and in the
-// last.
+// For each probe of a chunk: of the probes up to it, the number in higher bins than the last bin
+// that is traced, and the number in that bin.
 shared ivec2 counts[kChunkProbes];
-// Both numbers for all chunks before this one.
+// The sums of both numbers over all chunks before this one.
 shared int higher_before;
 shared int last_before;
 

@@ -10,7 +10,8 @@ layout(push_constant, scalar) uniform Push {
   ScheduleMeansArguments args;
 };
 
-shared vec4 partial[kGroupLanes];  // sum of luminance, probes; sum of deviations, probes
+// Sum of luminance and number of probes; sum of deviations and number of probes
+shared vec4 partial[kGroupLanes];
 
 void main() {
   int lane = int(gl_LocalInvocationIndex);

@@ -36,7 +36,7 @@ int bin_of(int probe, out float deviation) {
   } else if (args.look == 0u || !waits_too_long(last_traced, args.update)) {
     return kNoPartBin;
   }
-  // An engine says nothing of the camera, so that only a cascade's levels weigh
+  // Engines do not pass the camera, so that the weight depends on the cascade's level only
   float weight = level_weight(args.levels.at[volume]);
   return priority_bin(probe_urgency(reduction, last_traced, args.update, weight));
 }

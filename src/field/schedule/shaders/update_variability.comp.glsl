@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Updates the variance of the probes that were traced, and notes when they were traced. One lane
-// per probe.
+// Updates the variance of the probes that were traced, and stores the number of the update. One
+// lane per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/schedule/schedule_arguments.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blends the distances of probes' rays into their tiles. This is a matrix product (blend.h): each
-// lane group keeps kDistanceVectors x kLaneGroupSize texels of kBlockProbes probes in registers.
+// lane group holds kDistanceVectors x kLaneGroupSize texels of kBlockProbes probes in registers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/shaders/lane_group.glsl"

@@ -9,8 +9,8 @@ layout(push_constant, scalar) uniform Push {
   FitArguments args;
 };
 
-/// Stores a texel. Where rays count for some texels of a tile only, the fit is left out, and the
-/// other texels keep their light.
+/// Stores a texel. If rays count for only some texels of a tile, the fit is left out, and the other
+/// texels keep their light.
 void store_received(int i, vec3 fitted, bool known) {
   vec4 received = vec4(fitted, 0.0);
   if (!known) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Computes the distances that hits count as, and which probes stand inside geometry. One lane group
-// per probe.
+// Computes the distances that hits count as (counted_distance()), and which probes stand inside
+// geometry. One lane group per probe.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/placement/classify_math.h"

@@ -2,9 +2,9 @@
 // Lane groups: eight lanes of a subgroup that share what they load. Workgroups have kGroupLanes
 // lanes.
 //
-// Kernels that keep sums in arrays have no `continue` in their loops over these arrays. It would
-// keep compilers from unrolling the loops completely; they would then keep the arrays in memory,
-// which takes half as long again.
+// Kernels with sums in arrays have no `continue` in their loops over these arrays. It would prevent
+// compilers from unrolling the loops completely; the arrays would then be in memory instead of
+// registers, which takes half as long again.
 #ifndef LAMBENT_FIELD_TRANSPORT_SHADERS_LANE_GROUP_GLSL
 #define LAMBENT_FIELD_TRANSPORT_SHADERS_LANE_GROUP_GLSL
 #extension GL_KHR_shader_subgroup_basic : require

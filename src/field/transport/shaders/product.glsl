@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A matrix product of four channels (blend.h): each lane group keeps kIrradianceVectors x
+// A matrix product of four channels (blend.h): each lane group holds kIrradianceVectors x
 // kLaneGroupSize texels of kBlockProbes probes in registers.
 #ifndef LAMBENT_FIELD_TRANSPORT_SHADERS_PRODUCT_GLSL
 #define LAMBENT_FIELD_TRANSPORT_SHADERS_PRODUCT_GLSL

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Computes the blend weights of a recorded field's probes and counts their samples, one lane per
-// probe. From now on, lookups find each probe where its rays started.
+// probe. Sets each probe's offset in the store to the position from which its rays started.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/transport/blend_math.h"
@@ -23,7 +23,7 @@ void main() {
   args.offsets.at[probe] = args.probes.standing.at[probe].offset;
   float averaged = args.probes.standing.at[probe].samples;
   if (args.history == kHistoryRetraced) {
-    // The history ratio keeps what was averaged
+    // The history ratio preserves the average
     bool known = has_history(args.probes.states.at[probe], averaged);
     args.probes.standing.at[probe].samples = known ? averaged : 1.0;
     args.blend_weights.at[k] = 1.0;

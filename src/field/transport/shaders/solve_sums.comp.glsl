@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stores the last step of a solve, and sums what the next step needs. The texels are divided among
-// a fixed number of lanes, so that the sums are the same on every run.
+// Stores the last step of a solve, and computes the sums that the next step needs. The texels are
+// divided among a fixed number of lanes, so that the sums are the same on every run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "field/vulkan/device_solve.h"
