@@ -9,7 +9,7 @@
 LAMBENT_BEGIN
 
 // Bits of InstanceBeforeRecord::flags
-const uint kBeforeKnown = 1u;  ///< The instance existed, with the same vertices in its mesh.
+const uint kBeforeKnown = 1u;  ///< The instance existed, and its vertices' positions are known.
 const uint kBeforeBent = 2u;   ///< Its mesh was deformed differently.
 
 /// See InstanceBefore in scene_pose.h.

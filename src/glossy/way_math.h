@@ -147,8 +147,7 @@ LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 no
 }
 
 /// Probability with which a path goes on through the surface that it hit on bounce `bounce`. From
-/// the inside of a volume it is that of passing or being reflected inwards, as one draw decides
-/// both.
+/// the inside of a volume it is 1: go_on_through() decides on inner reflection.
 LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
                                  float n_dot_v, uint bounce) {
   if (bounce >= kMaxWays || !lets_light_through(through)) return 0.0f;
