@@ -41,7 +41,7 @@ std::vector<Layer> rsm_stage_layers(const ReflectiveShadowMap* first_map,
 
 /// Irradiance at the surfaces of a band, from the view's pixels around them that show the same
 /// surface (cross-bilateral upsampling: Kopf et al., "Joint Bilateral Upsampling", SIGGRAPH 2007).
-/// Where none does, from all four.
+/// Where none does, from all 3 x 3 around.
 void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                  const Band& band, std::vector<glm::vec3>& irradiance);
 
