@@ -170,8 +170,8 @@ struct FrameMemory {
   vulkan::Buffer motion, further_rays, further_hits, further_ray_count;
   // The scene of the previous frame
   vulkan::Buffer scene_before, instances_before, positions_before;
-  // Of the rows around a band whose coats rays light: pixels, rays, and lists of paths. Bounces use
-  // the two lists in turn
+  // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
+  // Bounces use the two lists in turn
   vulkan::Buffer coats, coat_inverse_distances, coat_points, coat_surfaces, coat_rays;
   WayBuffers ways[2];
   WayBuffers forks;  // reflected branches, traced later

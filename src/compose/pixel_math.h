@@ -18,8 +18,8 @@ LAMBENT_BEGIN
 const uint kSubpixelSalt = 0x50495845u;
 
 /// Position of one of `samples` samples in its pixel, each coordinate 0 to 1. It is the same in all
-/// pixels: all pixels along an edge then see the same share of both sides, where a position of each
-/// pixel's own would turn the edge into a row of light and dark beads at few samples.
+/// pixels: all pixels along an edge then show the same share of both sides, where a position of
+/// each pixel's own would turn the edge into a row of light and dark beads at few samples.
 LAMBENT_FN vec2 subpixel_position(uint index, uint samples, uint seed) {
   if (samples == 1u) return vec2(0.5f);
   RandomStream random = make_random_stream(0u, kSubpixelSalt, seed);

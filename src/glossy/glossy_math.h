@@ -107,7 +107,7 @@ LAMBENT_FN vec2 coat_uniforms(uvec2 pixel, uint sample_index, uint rows, uint se
 struct CoatDraw {
   vec3 direction_ws;
   float pdf;    ///< [1/sr]; 0: the direction is below the surface.
-  vec3 weight;  ///< Share of the light from there that the coat reflects, over pdf.
+  vec3 weight;  ///< BRDF times cosine over pdf.
 };
 
 /// Walter et al. 2007, Eq. 33, as a function of the half vector. Exact for the narrowest lobes,

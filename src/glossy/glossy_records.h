@@ -55,7 +55,7 @@ struct CoatHitsArguments {
   UintArray pixels;
   QueryArray queries;
   CoatRayArray coat_rays;
-  FloatArray coat_distances;  ///< Of paths that gather the light of coats behind glass.
+  FloatArray coat_distances;  ///< For paths that gather the light of coats behind glass.
   uint count;                 ///< Number of paths.
   uint bounce;
   uint emitter_samples;  ///< Samples of the direct light of their hits.

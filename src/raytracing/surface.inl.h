@@ -202,7 +202,7 @@ LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef mate
   return optics;
 }
 
-/// A triangle as a ray sees it.
+/// The orientation of a triangle relative to a ray.
 struct FacingTriangle {
   vec3 geometric_normal_ws;  ///< Faces the ray's origin; unit.
   vec3 direction_ws;         ///< Direction of the ray; unit.

@@ -34,7 +34,7 @@ DealtLights deal_direct_lights(std::size_t lights, const RsmSettings& settings) 
   result.per_sub_map =
       wanted == 0 ? lights : std::min(lights, std::max(wanted, (lights + subs - 1) / subs));
 
-  // Deal round after round of all lights, so that numbers of sub-maps that test a light differ by 1
+  // Deal round after round of all lights: numbers of sub-maps that test a light differ by at most 1
   std::vector<std::uint32_t> asked(lights, 0);
   const std::vector<std::uint32_t> order = shuffled(lights, 0, settings.seed);
   const std::vector<std::uint32_t> turn = shuffled(subs, 1, settings.seed);

@@ -16,9 +16,8 @@ LAMBENT_BEGIN
 // Weight of a pixel of another surface, compared to 1 for the own surface: such pixels count only
 // where none of the lights that the surface's own pixels test reaches the surface.
 const float kOtherSurfaceWeight = 1e-4f;
-/// A light that the pixels of a sub-map test.
 
-/// A light that the pixels of a sub-map ask.
+/// A light that the pixels of a sub-map test.
 struct DealtLight {
   uint light;    ///< Index of the light in the scene.
   float weight;  ///< Number of sub-maps over those that test it, so that the mean over all sub-maps

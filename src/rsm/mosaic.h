@@ -18,8 +18,8 @@ namespace lambent {
 
 class Mosaic {
  public:
-  /// Makes room for a picture. Reuses its contents where the shape is the same as before. `reach`:
-  /// the farthest pixel of the picture that a blur reads, in pixels from its own.
+  /// Makes room for a picture. Leaves the contents as they are where the shape is the same.
+  /// `reach`: the farthest pixel of the picture that a blur reads, in pixels from its own.
   void reshape(int width, int height, int sub_images, int reach);
 
   int width() const { return width_; }

@@ -22,7 +22,7 @@ constexpr float kMaxWallShare = 0.1f;
 constexpr float kMinWalledShare = 0.5f;
 // Distance from the scene at which rays start, as a share of the scene's size.
 constexpr float kStartShare = 0.01f;
-// Share of a ray's length by which it restarts behind a surface that it hit.
+// Share of the distance to a hit by which a ray restarts behind the surface.
 constexpr float kPastSurface = 1e-5f;
 // A side of an object has surfaces that face out of the bounds where at least the first share of
 // its rays hits one, no deeper than the second share of the scene's longest side. Probes must be in

@@ -4,7 +4,6 @@
 //   TaaPictureRef    the frame as it was rendered
 //   TaaHistoryRef    the history
 // and, for pixels within the picture,
-// and, of pixels within the picture,
 //   vec3 fetch_radiance(TaaPictureRef picture, ivec2 pixel)
 //   PixelMotion fetch_motion(TaaPictureRef picture, ivec2 pixel)
 //   TaaPixel fetch_history(TaaHistoryRef history, ivec2 pixel)
@@ -14,8 +13,8 @@ LAMBENT_FN ivec2 within_picture(TaaFrame frame, int x, int y) {
   return ivec2(clamp(x, 0, frame.width - 1), clamp(y, 0, frame.height - 1));
 }
 
-/// A pixel's radiance. NaN and infinity become black, as they would spread from pixel to pixel and
-/// from frame to frame.
+/// A pixel's radiance. Radiance that is not a finite number becomes black, as it would spread from
+/// pixel to pixel and from frame to frame.
 LAMBENT_FN vec3 radiance_at(TaaPictureRef picture, ivec2 pixel) {
   vec3 radiance = fetch_radiance(picture, pixel);
   float brightness = luminance(radiance);

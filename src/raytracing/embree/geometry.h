@@ -59,7 +59,6 @@ struct Slots {
 Geometry make_mesh(RTCDevice device, const Mesh& mesh, const Slots& slots,
                    const glm::mat4* world_from_object);
 
-/// Whether the geometry of a mesh still has its triangles; their number is the same.
 /// Whether the geometry of a mesh still has its triangles, given that their number is the same.
 bool has_triangles_of(RTCGeometry geometry, const Mesh& mesh);
 

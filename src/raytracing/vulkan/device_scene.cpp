@@ -115,7 +115,7 @@ void DeviceScene::update_materials(const Scene& scene) {
 }
 
 void DeviceScene::update_meshes(const Scene& scene) {
-  // Write meshes that differ in place where their size is the same, else into one new buffer
+  // Overwrite changed meshes whose size is the same, and collect the others for one new buffer
   mesh_data_.resize(scene.meshes.size());
   mesh_records_.resize(scene.meshes.size());
   std::vector<std::size_t> placed;

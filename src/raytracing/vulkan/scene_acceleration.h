@@ -13,8 +13,8 @@
 
 namespace lambent {
 
-/// Returns where a mesh's vertices and triangles are in the device's memory. `opaque` and `deforms`
-/// are set by the caller.
+/// Returns where a mesh's vertices and triangles are in the device's memory. SceneAcceleration
+/// sets `opaque` and `deforms`.
 using GeometryOfMesh = std::function<vulkan::TriangleGeometry(std::size_t mesh)>;
 
 /// One structure of triangles for each mesh that is placed, and one over all instances, whose
