@@ -27,7 +27,7 @@ struct FilteredPixelsRecord {
   Vec3Array coats;
   Vec3Array coat_albedo;
   LobeGuideArray coat_lobes;  ///< Sharpness 0 where no rays light a coat.
-  Vec3Array clearcoats;       ///< Filtered clearcoats have four arrays like those of coats.
+  Vec3Array clearcoats;       ///< Like the coats' arrays, but with normals.
   Vec3Array clearcoat_albedo;
   Vec3Array clearcoat_normals_ws;
   LobeGuideArray clearcoat_lobes;

@@ -128,8 +128,7 @@ LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
 /// The pixel's light from the weighted sums over its neighbours.
 LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousLight sum,
                                          Real weights) {
-  // Noise that neighbours have in common after earlier passes is neglected (Schied et al. 2017, Eq.
-  // 7)
+  // Neglect noise that neighbours share after earlier passes (Schied et al. 2017, Eq. 7)
   Real scale = 1.0f / weights;
   if (by.only_spread != 0u) {
     own.spread = sum.spread * scale;

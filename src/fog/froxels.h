@@ -118,8 +118,8 @@ LAMBENT_FN float corner_term(float x, float y) {
   return side_term(x, y) + side_term(y, x);
 }
 
-/// The harmonic mean, over a column's rays, of the distance r at which they pass a lamp [m]. Of
-/// each ray, the lamp lights an amount in proportion to 1 / r.
+/// The harmonic mean, over a column's rays, of the distance r at which they pass a lamp [m]: the
+/// lamp's light along a ray is in proportion to 1 / r.
 LAMBENT_FN float lamp_height(FroxelGrid grid, CameraRay middle, vec2 middle_pixel, vec3 lamp_ws) {
   vec3 to_lamp = lamp_ws - middle.origin_ws;
   vec3 across = to_lamp - dot(to_lamp, middle.direction_ws) * middle.direction_ws;

@@ -2,8 +2,7 @@
 // Candidates of direct light at a point, in the common subset of C++ and GLSL. They come in slots:
 // one for each light that every point samples ("asked" lights), then one for each sample of the
 // light tree. The tree holds emissive triangles or pieces of them and, where they are many, point
-// and spot lights. The includer provides the
-// types
+// and spot lights. The includer provides the types
 //   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws,
 //                which are 0 for points in the air, lit from all around; and with albedo_shape
 //                where it will reflect by an albedo towards the viewer, else 0

@@ -206,7 +206,7 @@ class Places {
     }
   }
 
-  /// Counts all rays of the places around each point and spot light that are visible from it.
+  /// Counts all rays as leaving for places next to a point or spot light from which it is visible.
   void mark_lights() {
     for (const Light& light : world_.scene().lights) {
       if (light.type == Light::Type::directional) continue;

@@ -164,9 +164,9 @@ LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal
 }
 
 /// Share of uniform light from all around that a surface receives, as nothing arrives from below
-/// its geometric horizon: over the directions above both horizons, the integral of dot(n, w) is pi
-/// (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that the mean of many normals, with its
-/// length, stands for them: `length` is that of the mean, `cosine` is dot(n, n_g).
+/// its geometric horizon. The integral of dot(n, w) over the directions w above both horizons is
+/// pi (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that the mean of many normals, with
+/// its length, stands for them: `length` is that of the mean, `cosine` is dot(n, n_g).
 LAMBENT_FN float horizon_share(float length, float cosine) {
   return 0.5f + 0.5f * min(length, 1.0f) * cosine;
 }

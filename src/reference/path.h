@@ -21,7 +21,7 @@
 namespace lambent::reference {
 
 /// One sample of a pixel, split by how the visible surface reflects the light. All parts except
-/// `irradiance`, `albedo` and `normal` are attenuated by the fog in front of the surface.
+/// `irradiance`, `fog`, `albedo` and `normal` are attenuated by the fog in front of the surface.
 struct PixelSample {
   glm::vec3 direct{0.0f};        ///< Diffuse, from punctual lights and emissive surfaces.
   glm::vec3 indirect{0.0f};      ///< Diffuse, all other light.

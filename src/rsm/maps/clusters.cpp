@@ -14,9 +14,9 @@
 namespace lambent {
 namespace {
 
-// Distance of clusters at a right angle between normals, as a share of the scene's size.
+// Distance that a right angle between normals counts for, as a share of the scene's size.
 constexpr float kNormalScale = 0.3f;
-// Number of clusters for each thread from which a map is merged by several threads.
+// Least number of clusters a thread for which a map is merged by several threads.
 constexpr std::size_t kParallelClusters = 2048;
 
 /// A block of a map, as cluster_block.inl.h reads it.
