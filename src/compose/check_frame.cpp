@@ -11,7 +11,7 @@ namespace lambent {
 namespace {
 
 constexpr int kMaxSide = 16384;    // of a picture [pixels]
-constexpr int kMaxGlossyRows = 8;  // between those with rays: more leave nothing of reflections
+constexpr int kMaxGlossyRows = 8;  // between rows with rays; beyond that, reflections are lost
 constexpr int kMostAveragedFrames = 1000;
 
 Expected<void> check_side(const char* name, int pixels) {

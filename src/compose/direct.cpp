@@ -14,15 +14,14 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 1024;
 
-/// What a pixel gains if a shadow ray arrives.
+/// Light that a pixel receives if a shadow ray is unoccluded.
 struct PendingLight {
   std::size_t pixel;
   ReflectedPair light;
   bool of_emitter;
 };
 
-/// Draws the candidates of a pixel's direct light, as far as fog lets it through, and queues their
-/// shadow rays.
+/// Draws the candidates of a pixel's direct light, attenuated by fog, and queues their shadow rays.
 void queue_direct_light(const LightDraws& draws, const Media& media, const GBuffer& gbuffer,
                         std::size_t pixel, RandomStream random, std::vector<Ray>& shadows,
                         std::vector<PendingLight>& pending) {
@@ -56,7 +55,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
   }
 }
 
-/// Adds light of emitters to a pixel's sums; `squares` of luminance.
+/// Adds light of emitters to a pixel's sum, and its squared luminance to `squares`.
 void add_emitter(const Surface& surface, const vec3& diffuse, vec3& sum, float* squares) {
   sum += diffuse;
   if (squares == nullptr) return;
@@ -64,7 +63,7 @@ void add_emitter(const Surface& surface, const vec3& diffuse, vec3& sum, float* 
   *squares += level * level;
 }
 
-/// Makes variances of sums of `draws` candidates out of the sums of squares.
+/// Turns sums of squares into variances of sums of `draws` candidates.
 void finish_variance(const GBuffer& gbuffer, uint draws, std::size_t begin, std::size_t end,
                      ReflectedLight& light) {
   for (std::size_t i = begin; i < end; ++i) {

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 4096;
 
-/// Copies a band's values to their place, where there are any.
+/// Copies a band's values to their place in `all`, or empties that where there are none.
 template <class T>
 void keep(std::span<const T> band, std::size_t first, std::size_t pixels, std::vector<T>& all) {
   all.resize(band.empty() ? 0 : pixels);
   if (!band.empty()) std::copy(band.begin(), band.end(), &all[first]);
 }
 
-/// Spreads what rare bright rays brought over the surfaces, whatever their light.
+/// Filters the light of rare bright rays over the surfaces, without regard to differences of light.
 void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
   const auto is_some = [](const vec3& light) { return light != vec3(0.0f); };
   if (std::none_of(pixels.excess.begin(), pixels.excess.end(), is_some)) return;
@@ -37,8 +37,8 @@ void add_excess(const DenoiseView& view, FilteredPixels& pixels) {
   });
 }
 
-/// Averages what coats reflect as far as their neighbours see the same. Returns whether rays light
-/// any.
+/// Filters the light that coats reflect, between pixels whose lobes overlap. Returns whether rays
+/// light any coat.
 bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats) {
   const auto shines = [](float alpha) { return alpha > 0.0f; };
   const bool any = std::any_of(coats.alphas.begin(), coats.alphas.end(), shines);
@@ -51,8 +51,8 @@ bool filter_lobes(DenoiseView view, FilteredPixels& pixels, FilteredCoats& coats
   return true;
 }
 
-/// Filters what coats and clearcoats reflect, and highlights of emitters. On these, shadows may
-/// fall: they are not averaged over what differs by more than noise.
+/// Filters what coats and clearcoats reflect, and highlights of emitters. As shadows may fall on
+/// highlights, pixels that differ by more than noise are not averaged.
 void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   view.normals_ws = pixels.clearcoats.normals_ws;
   filter_lobes(view, pixels, pixels.clearcoats);
@@ -69,18 +69,18 @@ void filter_coats(DenoiseView view, FilteredPixels& pixels) {
   assert(done);
 }
 
-/// Share of light that fog lets through to the camera from a pixel of a band.
+/// Transmittance of the fog between the camera and a pixel of a band.
 float passed_by_fog(const BandToFilter& light, std::size_t pixel) {
   return light.fog.empty() ? 1.0f : light.fog[pixel].w;
 }
 
-/// Pixels of a band from `first` on, as they are kept.
+/// Pixels of a band that are stored from index `first` on.
 struct KeptBand {
   const BandToFilter& light;
   std::size_t first;
 };
 
-/// Keeps the light that coats of a band reflect by rays where their GGX width is above
+/// Stores the light that a band's coats reflect from rays where their GGX width is above
 /// `least_alpha`. The coats are those of `surfaces`.
 void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& by_rays,
                 float least_alpha, FilteredCoats& coats) {
@@ -104,7 +104,8 @@ void keep_coats(const KeptBand& band, const GBuffer& surfaces, const CoatLight& 
   });
 }
 
-/// Keeps what coats and clearcoats of a band of so many pixels reflect by rays.
+/// Stores the light that a band's coats and clearcoats reflect from rays. `pixels`: the number of
+/// traced pixels.
 void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& kept) {
   const BandToFilter& light = band.light;
   const GBuffer& gbuffer = light.gbuffer;
@@ -124,7 +125,7 @@ void keep_all_coats(const KeptBand& band, std::size_t pixels, FilteredPixels& ke
   }
 }
 
-/// Adds filtered light of coats to the layers of a pixel.
+/// Adds the filtered light of coats to the layers of a pixel.
 void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, float share,
                Layers& layers) {
   if (coats.filtered.empty() || coats.alphas[i] <= 0.0f) return;
@@ -133,7 +134,7 @@ void show_coat(const FilteredCoats& coats, std::size_t i, std::size_t pixel, flo
   add(layers.all, pixel, glossy);
 }
 
-/// Keeps the specular light of emitters of a band; after keep_all_coats.
+/// Stores the specular light of emitters of a band; called after keep_all_coats().
 void keep_highlights(const BandToFilter& light, std::size_t first, std::size_t count,
                      FilteredPixels& pixels) {
   pixels.highlights.resize(count);
@@ -181,8 +182,8 @@ Band traced_rows(const FrameRequest& request) {
   if (!settings.denoise) return rows;
   int reach = std::max(
       {denoise_reach({}), denoise_reach(emitter_denoising()), denoise_reach(blind_denoising())});
-  if (filters_through(request)) reach += kReuse;  // for distances of lobes
-  if (shows_rough_glass(request)) reach *= 2;     // it shows filtered light, and is filtered itself
+  if (filters_through(request)) reach += kReuse;  // for seen_inverse_distance()
+  if (shows_rough_glass(request)) reach *= 2;     // its light is filtered twice
   const int first = std::max(0, rows.first_row - reach);
   const int end = std::min(settings.height, rows.first_row + rows.rows + reach);
   return {first, end - first};

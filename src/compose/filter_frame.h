@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of a frame that is filtered before it is shown.
+// The parts of a frame's light that are filtered before they are shown.
 #pragma once
 
 #include <span>
@@ -14,71 +14,71 @@
 
 namespace lambent {
 
-/// Light that coats reflect by rays, a pixel each.
+/// Light that coats reflect from rays, one entry a pixel.
 struct FilteredCoats {
-  std::vector<glm::vec3> light;          ///< Without filtered_coat_albedo,
-  std::vector<glm::vec3> albedo;         ///< and that, as far as fog lets it through.
-  std::vector<glm::vec3> normals_ws;     ///< Of clearcoats; empty where coats have the surface's.
-  std::vector<float> alphas;             ///< 0 where none such lights a coat.
-  std::vector<float> inverse_distances;  ///< As of CoatLight.
-  std::vector<glm::vec3> filtered;       ///< Empty where there is none.
+  std::vector<glm::vec3> light;          ///< Divided by filtered_coat_albedo().
+  std::vector<glm::vec3> albedo;         ///< filtered_coat_albedo() times the fog's transmittance.
+  std::vector<glm::vec3> normals_ws;     ///< Clearcoats' normals; empty for coats.
+  std::vector<float> alphas;             ///< GGX widths; 0 where no rays light a coat.
+  std::vector<float> inverse_distances;  ///< See CoatLight.
+  std::vector<glm::vec3> filtered;       ///< `light` once filtered; empty where there is none.
 
-  /// Makes room for so many pixels; 0 for none.
+  /// Makes room for this many pixels; 0 for none.
   void resize(std::size_t pixels);
 };
 
-/// One sample of the pixels of the traced rows. Its memory is used again from sample to sample and
-/// from frame to frame.
+/// One sample of the pixels of the traced rows. Its memory is reused for the next sample and frame.
 struct FilteredPixels {
-  // What is seen
+  // The surfaces that are seen
   std::vector<glm::vec3> positions_ws, normals_ws, geometric_normals_ws;
   std::vector<float> depths;
-  // Light to be filtered, and what surfaces make of it once it is
+  // Light to be filtered, divided by the surfaces' albedo
   std::vector<glm::vec3> gathered, excess, looked_up, emitters;
   std::vector<float> gathered_variance, emitter_variance;
-  std::vector<std::uint8_t> receives;  ///< 1 where indirect light counts.
-  // What comes to the camera of light that is: that of surfaces, as far as fog lets it through
+  std::vector<std::uint8_t> receives;  ///< 1 where the pixel shows indirect light.
+  // Factors from filtered light to the camera's radiance, including the fog's transmittance
   std::vector<glm::vec3> indirect_albedo;
-  std::vector<glm::vec3> emitter_albedo;  ///< Times the levels.
-  std::vector<float> emitter_levels;      ///< As of filtered_level.
+  std::vector<glm::vec3> emitter_albedo;  ///< Includes the factor emitter_levels.
+  std::vector<float> emitter_levels;      ///< See filtered_level().
   FilteredCoats coats, clearcoats;
-  std::vector<glm::vec3> to_viewer_ws;  ///< Where there are coats.
-  // Specular light of emitters, without filtered_coat_albedo where rays light the coat; the lobes
-  // are those of highlight_alpha
+  std::vector<glm::vec3> to_viewer_ws;  ///< Empty where there are no coats.
+  // Specular light of emitters, divided by filtered_coat_albedo() where rays light the coat. Its
+  // lobes have a width of highlight_alpha()
   std::vector<glm::vec3> highlights, highlight_albedo;
   std::vector<float> highlight_alphas;
-  // Light that is
+  // Light once filtered
   std::vector<glm::vec3> filtered_gathered, filtered_excess, filtered_emitters, filtered_highlights;
 
-  SeenThrough through;  ///< Of scenes with glass.
+  SeenThrough through;  ///< Used in scenes with glass.
 
   Denoiser denoiser;
 };
 
-/// Light of a band that is to be filtered.
+/// The light of a band that is to be filtered.
 struct BandToFilter {
   const GBuffer& gbuffer;
   const ReflectedLight& direct;
-  const GatheredLight* gathered = nullptr;            ///< Null: it is not gathered.
-  const std::vector<glm::vec3>* looked_up = nullptr;  ///< With `gathered`.
-  const CoatLight* coats = nullptr;                   ///< Null: none have rays.
-  bool filters_clearcoats = false;                    ///< With `coats`.
-  const ClearcoatsShown* clearcoats = nullptr;        ///< Null: none are in the band.
-  const TransmittedLight* transmitted = nullptr;      ///< Null: no surface lets light through.
-  std::span<const glm::vec4> fog = {};  ///< As of fog_along, a pixel each; empty: there is none.
+  const GatheredLight* gathered = nullptr;            ///< Null: no light is gathered.
+  const std::vector<glm::vec3>* looked_up = nullptr;  ///< Required with `gathered`.
+  const CoatLight* coats = nullptr;                   ///< Null: no coat has rays.
+  bool filters_clearcoats = false;                    ///< Requires `coats`.
+  const ClearcoatsShown* clearcoats = nullptr;        ///< Null: the band has none.
+  const TransmittedLight* transmitted = nullptr;      ///< Null: no surface transmits light.
+  std::span<const glm::vec4> fog = {};  ///< See fog_along(); one a pixel; empty: there is no fog.
 };
 
-/// How many pixels the traced rows have.
+/// The number of pixels in the traced rows.
 std::size_t traced_pixels(const FrameRequest& request);
 
-/// Keeps a band's sample.
+/// Stores a band's sample.
 void keep_pixels(const FrameRequest& request, const Band& band, const BandToFilter& light,
                  FilteredPixels& pixels);
 
-/// Filters all of them. The filtered light stands in `pixels`, empty where there was none.
+/// Filters all bands' light. Fills the `filtered` arrays of `pixels`, empty where there is no
+/// light.
 void filter_pixels(const FrameRequest& request, FilteredPixels& pixels);
 
-/// Adds the filtered light to the layers of the rows that are shown, with this weight.
+/// Adds the filtered light, times `share`, to the layers of the rows that are shown.
 void show_filtered(const FilteredPixels& pixels, const ShownPixels& shown, float share,
                    Layers& layers);
 

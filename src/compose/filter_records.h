@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame's light that is filtered, in a device's memory, and the arguments of its kernels.
+// The light of a frame that is filtered, in a device's memory, and the arguments of its kernels.
 #ifndef LAMBENT_COMPOSE_FILTER_RECORDS_H
 #define LAMBENT_COMPOSE_FILTER_RECORDS_H
 
@@ -8,7 +8,7 @@
 
 LAMBENT_BEGIN
 
-/// One sample of the pixels of the traced rows; arrays as in struct FilteredPixels.
+/// One sample of the pixels of the traced rows; for the arrays see FilteredPixels.
 struct FilteredPixelsRecord {
   Vec3Array positions_ws;
   Vec3Array normals_ws;
@@ -26,8 +26,8 @@ struct FilteredPixelsRecord {
   FloatArray emitter_levels;
   Vec3Array coats;
   Vec3Array coat_albedo;
-  LobeGuideArray coat_lobes;  ///< Of sharpness 0 where no rays light a coat.
-  Vec3Array clearcoats;       ///< Of clearcoats that are filtered, and so on.
+  LobeGuideArray coat_lobes;  ///< Sharpness 0 where no rays light a coat.
+  Vec3Array clearcoats;       ///< Like the coats' arrays, but with normals.
   Vec3Array clearcoat_albedo;
   Vec3Array clearcoat_normals_ws;
   LobeGuideArray clearcoat_lobes;
@@ -42,37 +42,38 @@ struct FilteredPixelsRecord {
 };
 LAMBENT_DEVICE_ARRAY(FilteredPixelsArray, FilteredPixelsRecord, 8)
 
-/// Keeps a band's sample.
+/// Stores a band's sample.
 struct KeepPixelsArguments {
   SceneArray scene;
   LitPointArray points;
   PixelSurfaceArray surfaces;
   Vec3Array emitters;  ///< Direct light of emissive surfaces.
   Vec3Array emitter_specular;
-  FloatArray emitter_squares;  ///< Sums of squares of what each draw brings, without albedo.
-  Vec3Array irradiance;        ///< As it was looked up.
-  Vec4Array fog;               ///< As of fog_along, where there is any.
-  Vec4Array coats;             ///< As in struct CoatLight, where there are any.
+  FloatArray emitter_squares;  ///< Sums of squared luminances of the draws, divided by albedo.
+  Vec3Array irradiance;        ///< Result of the lookups.
+  Vec4Array fog;               ///< See fog_along(); read where kHasFog is set.
+  Vec4Array coats;             ///< See CoatLight; read where kHasCoats is set.
   FloatArray coat_inverse_distances;
   FilteredPixelsArray pixels;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
-  uint first;        ///< Of the band, among the traced pixels.
+  uint first;        ///< First pixel of the band among the traced pixels.
   uint count;
-  uint draws;  ///< Of emitters, a pixel.
-  /// kHasCoats, kHasFog; kIsFiltered, kCoatsAreFiltered and kClearcoatsAreFiltered where such light
-  /// is kept.
+  uint draws;  ///< Samples of emitters a pixel.
+  /// kHasCoats, kHasFog; and kIsFiltered, kCoatsAreFiltered and kClearcoatsAreFiltered where light
+  /// of that kind is stored.
   uint has;
 };
 
-/// Keeps what a band's clearcoats reflect by rays, before keep_pixels, and takes it out of `coats`.
+/// Stores the light that a band's clearcoats reflect from rays, and removes it from `coats`. Runs
+/// before keep_pixels.
 struct KeepClearcoatsArguments {
-  LitPointArray points;        ///< As clearcoats have them,
-  PixelSurfaceArray surfaces;  ///< these as coats.
-  Vec4Array coats;             ///< As in struct CoatLight; read where has_rays is 1,
+  LitPointArray points;        ///< With the clearcoats' normals.
+  PixelSurfaceArray surfaces;  ///< With clearcoats in the place of coats.
+  Vec4Array coats;             ///< See CoatLight; read where has_rays is 1.
   FloatArray inverse_distances;
   FilteredPixelsArray pixels;
-  uint first;  ///< Of the band, among the traced pixels.
+  uint first;  ///< First pixel of the band among the traced pixels.
   uint count;
   uint has_rays;
   uint padding;
@@ -82,10 +83,10 @@ struct KeepClearcoatsArguments {
 struct AddFilteredArguments {
   FilteredPixelsArray pixels;
   PixelLayersArray layers;
-  uint first;  ///< Of the shown pixels, among the traced ones.
+  uint first;  ///< First of the shown pixels among the traced ones.
   uint count;
   float share;
-  uint emitters;  ///< 1: there is such light, and so on.
+  uint emitters;  ///< 1: add this kind of light, as for the next three.
   uint gathered;
   uint coats;
   uint clearcoats;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of a frame, written once, and what a renderer keeps from frame to frame.
+// The order of a frame's passes, for all backends, and the state of a renderer between frames.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -56,13 +56,13 @@ void run_passes(const FrameRequest& request, bool makes_maps, const ProgressFn& 
   if (settings.temporal_antialiasing) passes.antialias();
 }
 
-/// What a picture was rendered of.
+/// The inputs of a picture that its successor is compared with.
 struct PictureView {
   Camera camera;
   int width = 0, height = 0;
   std::uint64_t world_revision = 0;
   std::shared_ptr<const ScenePose> pose;  // null: there was no picture
-  bool antialiased = false;               // over time
+  bool antialiased = false;               // temporally
   std::vector<FogVolume> fog;
 };
 
@@ -76,7 +76,7 @@ bool is_same(const PictureView& a, const PictureView& b) {
          a.world_revision == b.world_revision;
 }
 
-/// The frame before as one of these settings sees it; none where it was of another size.
+/// The previous frame as these settings need it; none where its size differed.
 std::optional<FrameBefore> frame_before(const PictureView& before, const World& world,
                                         const FrameSettings& settings) {
   const bool same_size = before.width == settings.width && before.height == settings.height;
@@ -88,7 +88,8 @@ std::optional<FrameBefore> frame_before(const PictureView& before, const World& 
   return frame;
 }
 
-/// How a picture differs from the one before; whether light does that long ago is taken for yes.
+/// How a picture differs from the previous one. Where changes are too old to be on record, light is
+/// taken to have changed.
 FrameChange change_of(const PictureView& before, const PictureView& now, const World& world) {
   FrameChange change;
   change.same_size = before.width == now.width && before.height == now.height;
@@ -108,13 +109,13 @@ FrameChange change_of(const PictureView& before, const PictureView& now, const W
 struct Renderer::State {
   const World& world;
   IndirectSources sources;
-  std::unique_ptr<FramePasses> passes;  // from the first frame on
-  PictureView last;                     // of the last picture, where there are passes
-  PictureView before_last;              // of the picture before, if it is in parts all the while
-  TaaSequence sequence;                 // that the last picture is part of, if it is
+  std::unique_ptr<FramePasses> passes;  // null before the first frame
+  PictureView last;                     // of the last picture; valid where there are passes
+  PictureView before_last;              // of the picture before, where pictures come in parts
+  TaaSequence sequence;                 // of the last picture, if it is anti-aliased
   std::uint64_t frames = 0;
 
-  /// Moves on to a picture of a sequence, or ends it.
+  /// Advances the sequence to a picture, or ends it.
   const TaaSequence* next_of_sequence(const PictureView& view) {
     if (!last.antialiased) sequence.restart();
     if (!view.antialiased) return nullptr;
@@ -135,7 +136,7 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
   FrameRequest request{s.world, s.sources, camera, settings};
   if (const Expected<void> fine = check(request); !fine) return fine;
 
-  // Rows below the first continue the picture before, whose maps are as they would be made again
+  // Rows below the first continue the previous picture, whose maps are still valid
   const PictureView view{camera,
                          settings.width,
                          settings.height,
@@ -159,7 +160,7 @@ Expected<void> Renderer::render(const Camera& camera, const FrameSettings& setti
     run_passes(request, s.sources.rsm && !continues, progress, *s.passes);
     s.passes->finish();
   } catch (...) {
-    s.passes.reset();  // half a frame is no start for the next one
+    s.passes.reset();  // the next frame cannot start from an unfinished one
     s.last = {};
     throw;
   }

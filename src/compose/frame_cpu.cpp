@@ -23,11 +23,11 @@ namespace lambent {
 namespace {
 
 constexpr std::size_t kPixelsPerTask = 4096;
-constexpr std::size_t kFloatsPerTask = std::size_t{1} << 18;  // to clear
+constexpr std::size_t kFloatsPerTask = std::size_t{1} << 18;  // cleared by a task
 
-/// Irradiance of the field at each pixel, on a surface that faces along normal(pixel); `queries` is
-/// memory to ask in. Corrections have grain of their own, which must not come back once gathered
-/// light is added to and filtered with a lookup, or a part of its light is taken out of it.
+/// Irradiance of the field at each pixel, on a surface that faces along normal(pixel). `queries` is
+/// scratch memory. `use`: corrections have noise of their own, which would show again once gathered
+/// light is filtered with the lookups, or another method's light is subtracted.
 template <class Normal>
 void look_up(const World& world, const IrradianceField& field, CorrectionUse use,
              const GBuffer& gbuffer, Normal normal, std::vector<FieldQuery>& queries,
@@ -46,7 +46,7 @@ void look_up(const World& world, const IrradianceField& field, CorrectionUse use
   look_up_irradiance(field, queries, use, irradiance, world);
 }
 
-/// Takes what another source brings out of the field's light, and adds that source's own.
+/// Subtracts another method's share of light from the field's, and adds that method's own result.
 void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<vec3>& added,
                    std::vector<vec3>& irradiance) {
   irradiance.resize(added.size(), vec3(0.0f));
@@ -58,23 +58,23 @@ void replace_light(const std::vector<vec3>& subtracted_field, const std::vector<
   });
 }
 
-/// Everything that one sample of one band brings.
+/// The light of one sample of a band.
 struct BandLight {
   ReflectedLight direct;
   std::vector<vec3> irradiance;          // indirect, on the surface
-  bool has_indirect = false;             // there is such light
+  bool has_indirect = false;             // `irradiance` is filled in
   bool looked_up = false;                // it was looked up in the field
   bool is_filtered = false;              // it is gathered, and shown once it was filtered
   std::vector<vec3> mirror_irradiance;   // indirect, on a surface that faces coat_direction()
-  CoatLight coats;                       // light of coats by rays; none: no rays
-  bool coats_are_filtered = false;       // that of rays is shown once it was filtered
-  std::vector<vec3> clearcoats;          // light of clearcoats; none: of mirror_irradiance
-  TransmittedLight transmitted;          // light that comes through surfaces; none: no glass
-  bool transmitted_is_filtered = false;  // and is shown once it was filtered
-  std::vector<vec4> fog;                 // that pixels are seen through, as of fog_along; or none
+  CoatLight coats;                       // light of coats from rays; empty: no rays
+  bool coats_are_filtered = false;       // that light is shown once it was filtered
+  std::vector<vec3> clearcoats;          // light of clearcoats; empty: from mirror_irradiance
+  TransmittedLight transmitted;          // transmitted light; empty: no glass
+  bool transmitted_is_filtered = false;  // that light is shown once it was filtered
+  std::vector<vec4> fog;                 // in front of the pixels, see fog_along(); or empty
 };
 
-/// Adds a band's sample to the layers, each pixel with weight `share`.
+/// Adds a band's sample to the layers, times `share`.
 void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer,
                 const BandLight& light, const ShownPixels& shown, float share, Layers& layers) {
   const CameraRecord record = camera_record(camera, 1, 1);
@@ -93,7 +93,7 @@ void accumulate(const World& world, const Camera& camera, const GBuffer& gbuffer
       const Surface& surface = gbuffer.surfaces[i];
       const Reflectance& reflectance = surface.reflectance;
 
-      // Reflect the field's light: the base under the coat, and the coat by its directional albedo
+      // Reflect the field's light: by the base under the coat, and by the coat's directional albedo
       const float n_dot_v = dot(surface.normal_ws, gbuffer.to_viewer_ws[i]);
       vec3 indirect(0.0f), glossy = light.direct.specular[i];
       if (light.has_indirect && surface.gi_share > 0.0f) {
@@ -179,7 +179,7 @@ class FramePassesCpu final : public FramePasses {
   void motion() override {
     const FrameRequest& asked = request();
     now_->frame.rays += find_motion(asked, band_, sample_, gbuffer_, band_motion_);
-    // Of all samples, the nearest one's is the pixel's
+    // A pixel's motion is that of its nearest sample
     const std::span<PixelMotion> pixels =
         std::span(motion_).subspan(first_pixel(), gbuffer_.size());
     parallel_chunks(pixels.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
@@ -337,7 +337,7 @@ class FramePassesCpu final : public FramePasses {
   }
 
  private:
-  /// The frame that is being made.
+  /// The frame being rendered.
   struct Now {
     Now(const FrameRequest& asked, RenderedFrame& made)
         : request(asked), frame(made), timer(made.passes), layers(made.image) {}
@@ -349,9 +349,9 @@ class FramePassesCpu final : public FramePasses {
   };
 
   const FrameRequest& request() const { return now_->request; }
-  /// Which of all frames' samples this is; random numbers of frames differ by it.
+  /// Index of the sample among those of all frames, so that each frame draws other random numbers.
   int drawn_sample() const { return sample_ + static_cast<int>(request().first_sample); }
-  /// Of the band, among the traced pixels.
+  /// First pixel of the band among the traced pixels.
   std::size_t first_pixel() const {
     const FrameSettings& settings = request().settings;
     const int first_row = band_.first_row - traced_rows(request()).first_row;
@@ -363,8 +363,8 @@ class FramePassesCpu final : public FramePasses {
   Band band_;
   int sample_ = 0;
 
-  // From frame to frame; the memory of a band's pixels, of the maps and their light, and of all
-  // rendered pixels' motion
+  // Reused from frame to frame: the memory of a band's pixels, of the maps and their light, and of
+  // the motion of all rendered pixels
   RsmFrame rsm_;
   GBuffer gbuffer_;
   std::vector<PixelMotion> band_motion_, motion_;
@@ -372,7 +372,7 @@ class FramePassesCpu final : public FramePasses {
   BandLight light_;
   GatheredLight gathered_;
   FilteredPixels to_filter_;
-  LightHistory history_, next_history_;  // of the frame before, and of this one
+  LightHistory history_, next_history_;  // of the previous frame, and of this one
   std::vector<FieldQuery> queries_;
   std::vector<vec3> subtracted_, from_maps_;
   GlossyMemory glossy_;

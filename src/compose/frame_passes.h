@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of a frame, as a backend supplies them; frame.cpp says in which order they run.
+// The passes of a frame, which a backend implements; frame.cpp runs them in order.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,18 @@ namespace lambent {
 class DeviceWorld;
 struct FrameBefore;
 
-/// What a frame is made of; all of it in range.
+/// Everything that a frame is rendered from; all of it in range.
 struct FrameRequest {
   const World& world;
   const IndirectSources& sources;
   const Camera& camera;
   const FrameSettings& settings;
-  const FrameBefore* before = nullptr;    ///< Null: there is none of this size.
-  bool light_continues = false;           ///< The world has not changed since the frame before.
-  std::uint32_t first_sample = 0;         ///< Which of all samples the frame's first one is.
-  const TaaSequence* sequence = nullptr;  ///< Null: the frame is not anti-aliased over time.
+  const FrameBefore* before = nullptr;    ///< Null: there is no previous frame of this size.
+  bool light_continues = false;           ///< The world has not changed since the previous frame.
+  std::uint32_t first_sample = 0;         ///< Index of the frame's first sample among all samples.
+  const TaaSequence* sequence = nullptr;  ///< Null: no temporal anti-aliasing.
 
-  /// As of subpixel_position.
+  /// The argument `jitter` of subpixel_position().
   std::uint32_t jitter() const { return sequence != nullptr ? 1 + sequence->index() : 0; }
 };
 
@@ -36,43 +36,43 @@ inline bool averages(const FrameSettings& settings) {
   return settings.averaged_frames > 1;
 }
 
-/// Whether motion of pixels is found.
+/// Whether the motion of pixels is computed.
 inline bool wants_motion(const FrameSettings& settings) {
   return settings.motion || averages(settings) || settings.temporal_antialiasing;
 }
 
-/// Whether indirect light is gathered by rays of the pixels.
+/// Whether indirect light is gathered by rays from the pixels.
 inline bool gathers(const FrameRequest& request) {
   return request.sources.field != nullptr && request.settings.gather_rays > 0;
 }
 
-/// Whether the field is looked up at pixels: as their indirect light, or as the base that gathered
-/// light is filtered with.
+/// Whether the field is looked up at pixels: for their indirect light, or for the base that
+/// gathered light is filtered with.
 inline bool looks_up(const FrameRequest& request) {
   return request.sources.field != nullptr && (!gathers(request) || request.settings.denoise);
 }
 
-/// Whether pixels' indirect light is that of a lookup.
+/// Whether the pixels' indirect light comes from lookups.
 inline bool is_looked_up(const FrameRequest& request) {
   return request.sources.field != nullptr && !gathers(request);
 }
 
 /// How lookups at pixels are corrected. Where light comes from a small patch, corrections are
-/// learned from gathers most of which miss it, and their cells differ. Shown as they are they are
-/// better than none; under light that is filtered, or combined with what other means find of the
-/// same pixels, they would come back as spots on walls.
+/// learned from gathers most of which miss it, so that neighbouring cells differ. Shown directly,
+/// they are better than none. Under light that is filtered, or that is combined with another
+/// method's light at the same pixels, they would show as spots on walls.
 inline CorrectionUse pixel_correction(const FrameRequest& request) {
   const bool alone = is_looked_up(request) && request.sources.subtracted_field == nullptr;
   return alone ? CorrectionUse::smooth : CorrectionUse::none;
 }
 
-/// Whether coats reflect by rays of their own.
+/// Whether coats reflect light from rays of their own.
 inline bool traces_coats(const FrameRequest& request) {
   return request.sources.field != nullptr && request.settings.glossy_rows > 0;
 }
 
-/// Whether lights without extent are asked in the sub-images of reflective shadow maps, rather than
-/// by every sample.
+/// Whether direct light of point, spot and directional lights is computed in the sub-images of
+/// reflective shadow maps, rather than by every sample.
 inline bool asks_lights_in_sub_images(const FrameRequest& request) {
   return request.sources.rsm && request.sources.rsm->direct;
 }
@@ -82,56 +82,58 @@ inline bool has_fog(const FrameRequest& request) {
   return has_fog(request.world.scene());
 }
 
-/// Rows that are traced: where light is filtered, also those that it is filtered with.
+/// The rows to trace: those that are shown and, where light is filtered, those in the filter's
+/// reach.
 Band traced_rows(const FrameRequest& request);
 
-/// Passes over bands of rows, of one frame after the other: always of the same world and sources.
-/// Each call leaves its result for those that follow, and its rays and time in the frame.
+/// Passes over bands of rows, for one frame after the other, always of the same world and sources.
+/// Each call stores its result for later passes, and adds its rays and time to the frame.
 class FramePasses {
  public:
   virtual ~FramePasses() = default;
 
-  /// Starts a frame, whose layers, rays and times are cleared. Both live until `finish`.
+  /// Starts a frame: clears its layers, rays and times. The request and the frame must live until
+  /// `finish`.
   virtual void begin(const FrameRequest& request, RenderedFrame& frame) = 0;
-  /// Before all bands: reflective shadow maps and what they light. Left out where those of the
-  /// frame before serve this one, too.
+  /// Before all bands: renders reflective shadow maps and gathers their light. Skipped where the
+  /// previous frame's are still valid.
   virtual void rsm() = 0;
-  /// Before all bands: light in the fog of the whole view; of scenes that have fog.
+  /// Before all bands: lights the fog of the whole view. For scenes that have fog.
   virtual void light_fog() = 0;
-  /// What the camera sees in a band, one sample a pixel; starts the band's sample.
+  /// Traces a band's primary rays, one sample a pixel; starts the band's sample.
   virtual void gbuffer(const Band& band, int sample) = 0;
-  /// Where what they show was in the frame before; of frames that want it.
+  /// Computes where the pixels' surfaces were in the previous frame. See wants_motion().
   virtual void motion() = 0;
-  /// What lights and emissive surfaces send straight; the latter alone where lights are asked in
-  /// sub-images, ...
+  /// Direct light of lights and emissive surfaces; of the latter alone where lights are computed in
+  /// sub-images.
   virtual void direct() = 0;
-  /// ... whose light is then added.
+  /// Adds the direct light that was computed in sub-images.
   virtual void rsm_direct() = 0;
-  /// Light of the field on each surface, looked up, less what is taken out of it.
+  /// Indirect light from lookups of the field, less what `subtracted_field` contributes.
   virtual void indirect() = 0;
-  /// Light on each surface from rays of its own, which end in the field's.
+  /// Indirect light from rays of each pixel, which end in lookups of the field.
   virtual void gather() = 0;
-  /// Light that coats reflect, by rays of their own or from the field.
+  /// Light that coats reflect, from rays of their own or from the field.
   virtual void glossy() = 0;
-  /// Light that comes through surfaces.
+  /// Light that is transmitted through surfaces.
   virtual void transmission() = 0;
-  /// Light of the maps on each surface, added to the field's where there is one.
+  /// Adds the light of reflective shadow maps to the field's, if any.
   virtual void rsm_upsample() = 0;
-  /// What fog between the camera and each pixel's surface adds and takes; of scenes that have fog.
+  /// Inscattered light and transmittance of the fog in front of each pixel. For scenes with fog.
   virtual void fog() = 0;
-  /// Adds the band's sample to the layers, with a share of the pixels' light; what is filtered is
-  /// kept for that.
+  /// Adds the band's sample to the layers, times `share`; light that is to be filtered is stored
+  /// instead.
   virtual void compose(float share) = 0;
-  /// After all bands of a sample: filters what was kept and adds it to the layers.
+  /// After all bands of a sample: filters the stored light and adds it to the layers.
   virtual void denoise(float share) = 0;
-  /// After all bands: filters the whole picture over the frames so far; of frames that want it.
+  /// After all bands: temporal anti-aliasing of the whole picture, for frames that ask for it.
   virtual void antialias() = 0;
-  /// After all bands: layers, rays and times are in the frame.
+  /// After all bands: completes the frame's layers, rays and times.
   virtual void finish() = 0;
 };
 
 std::unique_ptr<FramePasses> make_frame_passes_cpu();
-/// For worlds on a device.
+/// The device's passes; the world is on that device and must outlive them.
 std::unique_ptr<FramePasses> make_frame_passes_vulkan(const DeviceWorld& world);
 
 }  // namespace lambent

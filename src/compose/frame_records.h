@@ -10,7 +10,7 @@
 
 LAMBENT_BEGIN
 
-/// The layers of a frame at one pixel; names and units as in RenderedFrame.
+/// The layers of a frame at one pixel; for names and units see RenderedFrame.
 struct PixelLayers {
   vec3 all;
   vec3 direct;
@@ -27,35 +27,35 @@ struct PixelLayers {
 };
 LAMBENT_DEVICE_ARRAY(PixelLayersArray, PixelLayers, 4)
 
-/// A ray through each pixel of a band of rows.
+/// Makes a ray through each pixel of a band of rows.
 struct CameraRaysArguments {
   RayArray rays;
   RayConeArray cones;
   CameraRecord camera;
-  uint width;        ///< Of the picture [pixels].
-  uint first_pixel;  ///< Of the band.
-  uint count;        ///< Pixels of the band.
-  uint index;        ///< Of the sample, of so many:
+  uint width;        ///< Width of the picture [pixels].
+  uint first_pixel;  ///< First pixel of the band.
+  uint count;        ///< Number of pixels in the band.
+  uint index;        ///< Index of the sample, below `samples`.
   uint samples;
   uint seed;
-  uint jitter;  ///< As of subpixel_position.
+  uint jitter;  ///< See subpixel_position().
   uint padding;
 };
 
-/// Where pixels ask the field for light.
+/// Writes the pixels' field queries.
 struct PixelQueriesArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   QueryArray queries;
   uint count;
-  uint mirrored;  ///< 1: on a surface that faces where a mirror would look; 0: on their own.
+  uint mirrored;  ///< 1: queries face coat_direction(); 0: the shading normal.
 };
 
-/// What pixels show, as passes over views read it.
+/// Writes the geometry that pixels show, for passes over views.
 struct ViewGeometryArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
-  Vec3Array positions_ws;  ///< [m]; 0 where nothing is seen, as normals are.
+  Vec3Array positions_ws;  ///< [m]; positions and normals are 0 where nothing is seen.
   Vec3Array normals_ws;
   FloatArray depths;  ///< [m]; 0 where nothing is seen in front of the camera.
   vec3 camera_ws;
@@ -64,27 +64,28 @@ struct ViewGeometryArguments {
   uint padding;
 };
 
-/// Takes what another source brings out of the field's light, and adds that source's own.
+/// Subtracts another method's share of light from the field's, and adds that method's own result.
 struct ReplaceLightArguments {
   Vec3Array irradiance;
   Vec3Array subtracted_field;
   Vec3Array added;
   uint count;
-  uint subtracts;  ///< 1: there is something to take out.
+  uint subtracts;  ///< 1: there is light to subtract.
 };
 
-// ComposeArguments::has
-const uint kHasCoats = 1u;            ///< Rays bring light of coats,
-const uint kHasTransmission = 2u;     ///< and through surfaces.
+// Bits of ComposeArguments::has
+const uint kHasCoats = 1u;            ///< Coats have light from rays.
+const uint kHasTransmission = 2u;     ///< Surfaces transmit light.
 const uint kHasFog = 4u;              ///< Pixels are seen through fog.
-const uint kHasIndirect = 8u;         ///< There is indirect light,
-const uint kIsLookedUp = 16u;         ///< which was looked up in the field; see indirect_share(),
-const uint kIsFiltered = 32u;         ///< and is added once it was filtered.
+const uint kHasIndirect = 8u;         ///< There is indirect light.
+const uint kIsLookedUp = 16u;         ///< Indirect light was looked up; see indirect_share().
+const uint kIsFiltered = 32u;         ///< Indirect light is added once it was filtered.
 const uint kHasClearcoats = 64u;      ///< Light of clearcoats is part of `specular`.
-const uint kCoatsAreFiltered = 128u;  ///< Light of coats by rays is added once it was filtered.
-const uint kClearcoatsAreFiltered = 256u;  ///< That of clearcoats, of KeepPixelsArguments::has.
+const uint kCoatsAreFiltered = 128u;  ///< Light of coats from rays is added once it was filtered.
+/// Light of clearcoats is added once it was filtered; only in KeepPixelsArguments::has.
+const uint kClearcoatsAreFiltered = 256u;
 
-/// Adds what pixels show to their layers.
+/// Adds a sample of the pixels to their layers.
 struct ComposeArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
@@ -92,16 +93,16 @@ struct ComposeArguments {
   Vec3Array specular;
   Vec3Array irradiance;
   Vec3Array mirror_irradiance;
-  Vec4Array coats;           ///< As in coat_light(), where there are any.
-  CoatRayArray transmitted;  ///< Light that comes through surfaces, where there is any.
-  Vec4Array fog;             ///< As of fog_along, where there is any.
+  Vec4Array coats;           ///< Argument `by_rays` of coat_light(); read where kHasCoats is set.
+  CoatRayArray transmitted;  ///< Transmitted light; read where kHasTransmission is set.
+  Vec4Array fog;             ///< See fog_along(); read where kHasFog is set.
   PixelLayersArray layers;
   vec3 camera_ws;
   vec3 camera_back;  ///< Unit; against the direction of view.
-  uint first_pixel;  ///< Of those that are shown, among the layers' pixels.
+  uint first_pixel;  ///< First of the shown pixels among the layers' pixels.
   uint count;
   float share;
-  uint first;  ///< Of the band's pixels, the first that is shown.
+  uint first;  ///< First of the shown pixels among the band's.
   uint has;    ///< kHasCoats, ...
   uint padding;
 };

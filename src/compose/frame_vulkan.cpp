@@ -12,7 +12,7 @@
 namespace lambent {
 namespace {
 
-// Passes that one command buffer may take the time of.
+// Most passes that one command buffer can time.
 constexpr std::uint32_t kTimedPasses = 256;
 
 }  // namespace
@@ -49,14 +49,14 @@ void FramePassesVulkan::add(const char* name, Record record) {
   steps_.push_back({name, std::move(record)});
 }
 
-/// Submits what was recorded, and books the time of each pass.
+/// Submits the recorded passes, and adds up the time of each.
 void FramePassesVulkan::run_steps() {
   if (steps_.empty()) return;
   device_.run([&](Recorder& untimed) {
     Recorder to(device_, untimed.commands(), &timestamps_);
     to.bind_textures(world_.scene().textures());
     for (const Step& step : steps_) {
-      // Some name their passes themselves
+      // Some passes name their parts themselves
       if (step.name.empty()) {
         step.record(to);
         continue;
@@ -76,7 +76,7 @@ void FramePassesVulkan::run_steps() {
   steps_.clear();
 }
 
-/// Traces camera rays and finds the surfaces that they met.
+/// Traces camera rays and computes the surfaces at their hits.
 void FramePassesVulkan::trace_pixels(Recorder& to, const CameraRaysArguments& arguments) {
   const HitArray hits{memory_.hits.address()};
   to.run(kernels_.camera_rays, arguments, arguments.count);
@@ -184,7 +184,7 @@ void FramePassesVulkan::compose(float share) {
     if (shown.count > 0) to.run(kernels_.compose, arguments, static_cast<uint>(shown.count));
   });
   if (settings.denoise) keep_pixels();
-  // The band's memory is used again
+  // The next band reuses this band's memory
   run_steps();
 }
 

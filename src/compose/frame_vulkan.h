@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of a frame on a Vulkan device. They are recorded as they are asked for and run
+// The passes of a frame on a Vulkan device. They are recorded in the order of the calls and run
 // together, in few command buffers; pixels and layers stay on the device until the frame is done.
 #pragma once
 
@@ -61,12 +61,12 @@
 
 namespace lambent {
 
-/// Kernels of frames, kept by the device (Device::kept).
+/// Kernels of frames, owned by the device (Device::kept).
 struct FrameKernels {
   explicit FrameKernels(const vulkan::Device& on) : device(on) {}
 
   const vulkan::Device& device;
-  std::mutex in_use;  ///< Frames on a device take turns.
+  std::mutex in_use;  ///< Held for the time of a frame.
   vulkan::Kernel camera_rays{device, shaders::camera_rays_comp(), "camera rays"};
   vulkan::Kernel motion_rays{device, shaders::motion_rays_comp(), "motion rays"};
   vulkan::Kernel motion{device, shaders::motion_comp(), "motion"};
@@ -97,10 +97,10 @@ struct FrameKernels {
   vulkan::Kernel add_filtered{device, shaders::add_filtered_comp(), "add filtered"};
 };
 
-/// Light that is filtered, of the traced rows: 364 bytes a pixel. As in FilteredPixelsRecord.
+/// Light that is filtered, of the traced rows: 364 bytes a pixel. See FilteredPixelsRecord.
 struct FilteredBuffers {
   FilteredPixelsRecord record;
-  vulkan::Buffer addresses;  ///< That record.
+  vulkan::Buffer addresses;  ///< Holds `record`.
   vulkan::Buffer positions_ws, normals_ws, geometric_normals_ws, depths;
   vulkan::Buffer gathered, gathered_variance, excess, looked_up, indirect_albedo, receives;
   vulkan::Buffer emitters, emitter_variance, emitter_albedo, emitter_levels;
@@ -111,10 +111,10 @@ struct FilteredBuffers {
   vulkan::Buffer filtered_clearcoats;
 };
 
-/// What is seen through surfaces and filtered, of the traced rows: 216 bytes a pixel.
+/// Light seen through surfaces, which is filtered, of the traced rows: 216 bytes a pixel.
 struct SeenThroughBuffers {
   SeenThroughRecord record;
-  vulkan::Buffer addresses;  ///< That record.
+  vulkan::Buffer addresses;  ///< Holds `record`.
   vulkan::Buffer depths, positions_ws, normals_ws;
   vulkan::Buffer emitters, emitter_variance, emitter_levels, emitter_albedo;
   vulkan::Buffer coats, coat_albedo, coat_lobes, coat_distances;
@@ -122,8 +122,7 @@ struct SeenThroughBuffers {
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
 };
 
-/// What a renderer keeps from frame to frame. Buffers grow as frames need them to.
-/// Memory of a list of ways.
+/// Memory of a WayList.
 struct WayBuffers {
   vulkan::Buffer rays, cones, paths, pixels, count;
 
@@ -136,6 +135,7 @@ struct WayBuffers {
   }
 };
 
+/// Memory that a renderer reuses from frame to frame. Buffers grow as frames need them to.
 struct FrameMemory {
   explicit FrameMemory(const vulkan::Device& device)
       : pixel_shading(device),
@@ -156,31 +156,32 @@ struct FrameMemory {
   SeenThroughBuffers through;
   TaaVulkan antialiasing;
 
-  // Of a band's pixels
+  // One entry for each pixel of a band
   vulkan::Buffer rays, cones, hits, points, surfaces, diffuse, specular;
   vulkan::Buffer queries, irradiance, mirror_irradiance, subtracted_field, from_maps;
   vulkan::Buffer gathered_variance, emitters, emitter_squares, emitter_specular;
-  // Of the rays that gather some pixels' light
+  // For the rays that gather the light of some pixels at a time
   vulkan::Buffer gathering_rays, gathering_indices, gathered_hits, gathered_points, gathered,
       gathered_direct, gathered_field;
-  // Positions, normals and depths of a band's pixels, and of the small picture that maps light
+  // Positions, normals and depths of a band's pixels, and of the small view of reflective shadow
+  // maps
   vulkan::Buffer band_geometry[3], small_geometry[3];
-  // Motion of a band's pixels, and the rays that go on where something is see-through
+  // Motion of a band's pixels, and the rays that go on behind blended surfaces
   vulkan::Buffer motion, further_rays, further_hits, further_ray_count;
-  // The scene in the frame before
+  // The scene of the previous frame
   vulkan::Buffer scene_before, instances_before, positions_before;
-  // Of the rows around a band whose coats rays light: pixels, rays, and lists of ways; those of one
-  // bounce and of the next take turns
+  // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
+  // Bounces use the two lists in turn
   vulkan::Buffer coats, coat_inverse_distances, coat_points, coat_surfaces, coat_rays;
   WayBuffers ways[2];
-  WayBuffers forks;  // branches to be followed later
+  WayBuffers forks;  // reflected branches, traced later
   vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
   vulkan::Buffer way_queries, way_answers;
   vulkan::Buffer way_drawn, way_drawn_squares, way_drawn_specular, coat_distances;
-  // Fog: its froxels, and what it does to a band's pixels
+  // Fog: its froxels, and its effect on a band's pixels
   FroxelFog fog;
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
-  // Of the whole picture
+  // One entry for each pixel of the picture
   vulkan::Buffer layers, picture_motion;
 };
 
@@ -216,37 +217,37 @@ class FramePassesVulkan final : public FramePasses {
   };
 
   DeviceStage stage() const;
-  /// Brings the scene's fog to the device, for what is lit before the froxels are. Returns how many
-  /// media there are.
+  /// Writes the scene's fog to the device, for passes that run before the froxels are lit. Returns
+  /// the number of media.
   std::uint32_t upload_media();
-  /// Traces the view that maps light, and leaves what it sees in `small_`.
+  /// Traces the small view of reflective shadow maps into `small_`.
   void trace_small_view(int width, int height);
-  /// Has a pass run after those asked for before; it sees what they wrote.
+  /// Appends a pass, which sees the results of the passes before it.
   void add(const char* name, Record record);
   void run_steps();
   void reserve_pixels(std::size_t pixels);
   void trace_pixels(Recorder& to, const CameraRaysArguments& arguments);
-  /// Makes room for the positions, normals and depths of a picture's pixels, ...
+  /// Makes room for the positions, normals and depths of a view's pixels.
   RsmViewOnDevice reserve_geometry(int width, int height, Buffer (&geometry)[3]);
-  /// ... and has those of `count` traced ones written from pixel `first` on.
+  /// Appends a pass that writes those of `count` traced pixels, from pixel `first` on.
   void add_geometry(const char* name, const RsmViewOnDevice& view, std::uint32_t first,
                     std::uint32_t count);
-  /// Makes room for so many elements; memory that grew holds nothing.
+  /// Makes room for `count` elements; memory that grew is uninitialised.
   template <class T>
   void reserve(std::size_t count, const char* name, Buffer& buffer) const {
     buffer.reserve(device_, count * sizeof(T), name);
   }
   void look_up(const char* name, const IrradianceField& field, const Buffer& queries,
                std::uint32_t count, CorrectionUse use, const Buffer& irradiance);
-  /// Lights coats by rays, as Glossy::reflect: those of the rows around the band that were seen.
-  /// Returns whether there are any rays.
+  /// Lights the coats of the rows around the band, which see_around_band() has filled in, by rays;
+  /// see Glossy::reflect. Returns whether there are any rays.
   bool trace_coats(const Band& around, std::uint32_t seed);
   /// The rows whose rays the band's coats reflect.
   Band rows_around_band() const;
   void see_around_band(const Band& around);
-  /// Finds light of clearcoats, as reflect_clearcoats of glossy_frame.h.
+  /// Computes the light of clearcoats; see reflect_clearcoats() in glossy_frame.h.
   void light_clearcoats();
-  /// Looks up the field's light of coats for the band's pixels, which lie at these addresses.
+  /// Looks up the field's light for the coats of the band's pixels, which lie at these addresses.
   void look_up_coats(std::uint64_t points, std::uint64_t surfaces);
   void reserve_ways(std::size_t pixels);
   void reserve_list(std::size_t ways, WayBuffers& list);
@@ -255,7 +256,7 @@ class FramePassesVulkan final : public FramePasses {
   void follow_ways(std::uint32_t ways, std::uint32_t bounce, std::uint32_t first_index,
                    std::uint32_t salt);
   void reuse_coat_rays(const Band& around);
-  /// Samples of emitters at what rays through glass meet; 0 where nothing is drawn at random.
+  /// Samples of emitters at each hit behind glass; 0 where nothing is drawn at random.
   std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);
   void start_through();
@@ -272,7 +273,7 @@ class FramePassesVulkan final : public FramePasses {
   bool filters_coats() const;
   void begin_filter();
   void keep_pixels();
-  /// Of the band, among the traced pixels.
+  /// First pixel of the band among the traced pixels.
   std::uint32_t first_traced_pixel() const;
   void read_layers(LayeredImage& image);
 
@@ -281,11 +282,11 @@ class FramePassesVulkan final : public FramePasses {
   FrameKernels& kernels_;
   FrameMemory memory_;
   vulkan::Timestamps timestamps_;
-  Buffer shadow_rays_[2];  // of pixels, and of what gathering rays met
+  Buffer shadow_rays_[2];  // of pixels, and of the hits of gathering rays
   std::vector<PixelLayers> pixel_layers_;
-  RsmViewOnDevice small_;  // the view that maps light
+  RsmViewOnDevice small_;  // the small view of reflective shadow maps
 
-  // Of the frame that is being made
+  // State of the frame being rendered
   std::unique_lock<std::mutex> turn_;
   const FrameRequest* request_ = nullptr;
   RenderedFrame* frame_ = nullptr;
@@ -294,11 +295,11 @@ class FramePassesVulkan final : public FramePasses {
   Band band_;
   std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
   std::uint32_t sample_ = 0;
-  uint rays_bring_ = 0;         // to the band's sample, see ComposeArguments
-  const char* way_pass_ = "";   // whose rays are being followed
-  std::uint32_t way_seed_ = 0;  // of their random numbers
-  bool forks_ways_ = false;     // into the list of branches
-  bool keeps_behind_ = false;   // light of the first surfaces behind glass is kept apart
+  uint rays_bring_ = 0;         // kinds of light from rays, see ComposeArguments::has
+  const char* way_pass_ = "";   // name of the pass whose paths are traced
+  std::uint32_t way_seed_ = 0;  // seed of the paths' random numbers
+  bool forks_ways_ = false;     // paths split, with reflected branches in FrameMemory::forks
+  bool keeps_behind_ = false;   // light of the first opaque surfaces behind glass is stored apart
 };
 
 }  // namespace lambent

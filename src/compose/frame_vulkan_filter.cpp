@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of a frame that is filtered, on a device; see filter_frame.cpp.
+// Filtering of a frame's light on a device; see filter_frame.cpp.
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
@@ -15,7 +15,7 @@ std::uint32_t FramePassesVulkan::emitter_draws() const {
   return draws ? static_cast<std::uint32_t>(request_->settings.emissive_samples) : 0;
 }
 
-/// Makes room for what is filtered, and tells kernels where it is.
+/// Makes room for the light to be filtered, and writes the addresses for kernels.
 void FramePassesVulkan::begin_filter() {
   const FrameSettings& settings = request_->settings;
   const std::size_t pixels = static_cast<std::size_t>(traced_rows(*request_).rows) * settings.width;
@@ -56,7 +56,7 @@ void FramePassesVulkan::begin_filter() {
   r.highlights.address = room(lit, sizeof(vec3), f.highlights);
   r.highlight_albedo.address = room(lit, sizeof(vec3), f.highlight_albedo);
   r.highlight_lobes.address = room(lit, sizeof(LobeGuide), f.highlight_lobes);
-  // Without coats there is nothing to filter, and highlights are taken as they are
+  // Without coats, highlights are not filtered: the filtered array is the original
   r.filtered_highlights.address =
       coated > 0 ? room(lit, sizeof(vec3), f.filtered_highlights) : r.highlights.address;
   r.filtered_coats.address = room(coated, sizeof(vec3), f.filtered_coats);
@@ -71,7 +71,7 @@ std::uint32_t FramePassesVulkan::first_traced_pixel() const {
          static_cast<std::uint32_t>(request_->settings.width);
 }
 
-/// Keeps what is filtered of the band.
+/// Stores the band's light that is to be filtered.
 void FramePassesVulkan::keep_pixels() {
   add("compose", [this](Recorder& to) {
     const uint has = (rays_bring_ & kHasCoats) | (has_fog(*request_) ? kHasFog : 0u) |
@@ -101,7 +101,7 @@ void FramePassesVulkan::keep_pixels() {
   if (filters_through(*request_)) keep_through();
 }
 
-/// Filters what coats and clearcoats reflect by rays, and highlights of emitters.
+/// Filters what coats and clearcoats reflect from rays, and highlights of emitters.
 void FramePassesVulkan::denoise_coats(const DenoiseViewOnDevice& view) {
   add("denoise", [=, this](Recorder& to) {
     const FilteredPixelsRecord& r = memory_.filtered.record;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Indirect light of a frame on a device: looked up, gathered, or from maps.
+// Indirect light of a frame on a device: looked up, gathered, or from reflective shadow maps.
 #include <algorithm>
 #include <cmath>
 
@@ -15,12 +15,12 @@
 namespace lambent {
 namespace {
 
-// Rays gathered at a time: enough to fill any device, few enough to stay small (about 60 MB).
+// Rays gathered at a time: enough to fill any device, few enough for little memory (about 60 MB).
 constexpr std::uint32_t kGatherRays = 1u << 18;
 
 }  // namespace
 
-/// Looks the field up, on the device where that holds it.
+/// Looks up the field, on the device where the field is stored there.
 void FramePassesVulkan::look_up(const char* name, const IrradianceField& field,
                                 const Buffer& queries, std::uint32_t count, CorrectionUse use,
                                 const Buffer& irradiance) {
@@ -123,7 +123,7 @@ void FramePassesVulkan::gather() {
     look_up("gather", *request_->sources.field, m.queries, rays, CorrectionUse::picked,
             m.gathered_field);
     add("gather", [=, this, &m](Recorder& to) {
-      // What is filtered is kept with that of other bands
+      // Light to be filtered is stored with that of the other bands
       const std::uint64_t at = filters ? first_traced_pixel() : 0;
       const FilteredPixelsRecord& kept = m.filtered.record;
       const Vec3Array gathered{filters ? kept.gathered.address + at * sizeof(vec3)

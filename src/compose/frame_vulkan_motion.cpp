@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion of a frame's pixels on a device, and what is filtered by it over time.
+// Motion vectors of a frame's pixels on a device, and temporal anti-aliasing, which uses them.
 #include <cstddef>
 #include <unordered_map>
 
@@ -8,7 +8,7 @@
 
 namespace lambent {
 
-/// Brings what the frame before was like to the device.
+/// Writes the previous frame's views and moved vertices to the device.
 void FramePassesVulkan::upload_before() {
   const FrameBefore* before = request_->before;
   const FrameSettings& settings = request_->settings;
@@ -16,7 +16,7 @@ void FramePassesVulkan::upload_before() {
   record.views = motion_views(request_->camera, settings.width, settings.height, before);
   record.at_rest = before == nullptr || before->at_rest ? 1u : 0u;
   if (record.at_rest == 0u) {
-    // Meshes that are placed more than once are brought once
+    // Upload each mesh once, however many instances have it
     std::unordered_map<const std::vector<vec3>*, std::size_t> first_of;
     std::vector<vec3> positions;
     for (const InstanceBefore& instance : before->instances) {
@@ -104,7 +104,7 @@ void FramePassesVulkan::antialias() {
   });
 }
 
-/// Books the rays that went on, and keeps the motion that was asked for.
+/// Counts the rays that went on, and reads the motion back where it was requested.
 void FramePassesVulkan::finish_motion(LayeredImage& image) {
   uint further_rays = 0;
   vulkan::read(device_, memory_.further_ray_count, std::span(&further_rays, 1));

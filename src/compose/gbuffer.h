@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the camera sees, one entry a pixel of a band of rows.
+// The surfaces that the camera sees, one entry a pixel of a band of rows.
 #pragma once
 
 #include <algorithm>
@@ -25,15 +25,15 @@ inline int rows_of_a_band(int width) {
   return std::max(1, kBandPixels / width);
 }
 
-/// Rows that the settings ask for.
+/// The rows that the settings ask for.
 inline Band rendered_rows(const FrameSettings& settings) {
   const int rows = settings.rows > 0 ? settings.rows : settings.height - settings.first_row;
   return {settings.first_row, rows};
 }
 
-/// Pixels of a band that are shown, and where they lie among the layers' pixels.
+/// The pixels of a band that are shown, and their place in the layers.
 struct ShownPixels {
-  std::size_t first = 0;  ///< Of the band's pixels.
+  std::size_t first = 0;  ///< First of them in the band.
   std::size_t count = 0;
   std::size_t first_in_layers = 0;
 };
@@ -44,43 +44,43 @@ struct GBuffer {
   std::vector<Surface> surfaces;        ///< Undefined where `hit` is 0.
   std::vector<std::uint8_t> hit;        ///< 1 where the camera sees a surface.
   std::vector<glm::vec3> to_viewer_ws;  ///< Unit; back along the primary ray.
-  /// Share of the coats' light that rays of their own bring, 0 to 1; see raytracing/coat_share.h.
-  /// Empty: there are no such rays.
+  /// Share of the coats' light that comes from rays of their own, 0 to 1; see
+  /// raytracing/coat_share.h. Empty: there are no such rays.
   std::vector<float> coat_shares;
-  std::vector<float> clearcoat_shares;  ///< The clearcoats'. Empty where no surface has one.
+  std::vector<float> clearcoat_shares;  ///< The same for clearcoats. Empty where there are none.
 
   std::size_t size() const { return hit.size(); }
 };
 
-/// The point of the picture that a pixel's sample is taken at [pixels]. `jitter` as of
-/// subpixel_position.
+/// The point of the picture at which a pixel's sample is taken [pixels]. `jitter`: see
+/// subpixel_position().
 glm::vec2 sample_position(const FrameSettings& settings, int x, int y, int sample, uint jitter);
 
-/// Traces one primary ray a pixel: through its centre where the frame takes one sample, else spread
-/// over it.
+/// Traces one primary ray a pixel: through its centre where the frame takes one sample, otherwise
+/// at a different point of the pixel for each sample.
 void trace_gbuffer(const World& world, const Camera& camera, const FrameSettings& settings,
                    const Band& band, int sample, GBuffer& gbuffer, uint jitter = 0);
 
-/// Light by which a pixel's surface is seen, diffuse and specular apart, each including the
-/// surface's reflectance.
+/// Direct light that the pixels' surfaces reflect to the camera, diffuse and specular apart
+/// [W/(m^2 sr)].
 struct ReflectedLight {
   std::vector<glm::vec3> diffuse;
   std::vector<glm::vec3> specular;
-  /// What emissive surfaces send, which is drawn at random, diffuse and specular apart; empty where
-  /// it is part of `diffuse` and `specular`.
+  /// Light of emissive surfaces, which is sampled at random, diffuse and specular apart; empty
+  /// where it is part of `diffuse` and `specular`.
   std::vector<glm::vec3> emitters;
   std::vector<glm::vec3> emitter_specular;
-  /// Variance of luminance of `emitters` over filtered_albedo(); empty where pixels have one draw,
-  /// which tells nothing of it.
+  /// Variance of the luminance of `emitters` over filtered_albedo(); empty where a pixel has one
+  /// sample, which has no variance to measure.
   std::vector<float> emitter_variance;
-  /// Luminance of what emitters would send to white Lambert surfaces if nothing were in the way,
-  /// without noise; empty where `emitters` are.
+  /// Luminance that emitters would send to white Lambert surfaces if nothing were in the way,
+  /// without noise; empty where `emitters` is.
   std::vector<float> unoccluded;
 };
 
-/// Light that lights and emissive surfaces send straight to the surfaces. What emissive ones send
-/// is kept apart where the settings filter it. `emitters_alone`: that of other lights is left out.
-/// Returns the shadow rays traced.
+/// Computes the surfaces' direct light. Light of emissive surfaces is stored apart where the
+/// settings filter it. `emitters_alone`: leaves out all other lights. Returns the number of shadow
+/// rays traced.
 std::uint64_t shade_direct(const World& world, const GBuffer& gbuffer,
                            const FrameSettings& settings, const Band& band, int sample,
                            bool emitters_alone, ReflectedLight& light);

@@ -15,13 +15,13 @@ struct LayerShape {
   int channels;
 };
 
-/// In the order of RenderedFrame::image.
+/// The layers in the order of RenderedFrame::image.
 inline constexpr LayerShape kFrameLayers[] = {
     {"", 3},       {"direct", 3},       {"indirect", 3}, {"irradiance", 3},
     {"glossy", 3}, {"transmission", 3}, {"emission", 3}, {"fog", 3},
     {"albedo", 3}, {"normal", 3},       {"position", 3}, {"depth", 1}};
 
-/// Gives an image these layers and no others. Their memory is used again, and holds anything.
+/// Gives an image exactly these layers. Reuses their memory, whose contents are undefined.
 inline void shape_layers(int width, int height, LayeredImage& image) {
   image.width = width;
   image.height = height;
@@ -52,7 +52,7 @@ struct Layers {
         position(image, "position", 3),
         depth(image, "depth", 1) {}
 
-  /// A layer's floats. They stay where they are when further layers are made.
+  /// A layer's floats. Their address stays valid when further layers are made.
   struct Pixels {
     Pixels(LayeredImage& image, const char* name, int channels)
         : data(image.require(name, channels).pixels.data()) {}

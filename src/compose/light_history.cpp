@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 4096;
 
-/// The frame before, as history.inl.h fetches from it.
+/// The previous frame, as history.inl.h reads it.
 struct FrameOfHistory {
   explicit FrameOfHistory(const LightHistory& last) : history(last) {}
   float fetch_depth_before(int pixel) const {
@@ -30,7 +30,7 @@ float width_of_pixel(const CameraRecord& camera, float depth) {
   return camera.half_view / camera.half_size.y * (camera.orthographic != 0u ? 1.0f : depth);
 }
 
-/// The mean of a value over taps.
+/// Weighted mean of a value over the taps.
 template <class T>
 T mean_of(const std::vector<T>& values, const HistoryTaps& taps) {
   T sum(0.0f);
@@ -42,7 +42,7 @@ T mean_of(const std::vector<T>& values, const HistoryTaps& taps) {
   return sum;
 }
 
-/// Averages one kind of light of a pixel; `before` where there was any.
+/// Averages one kind of light of a pixel with the history's.
 template <class T>
 void average(const std::vector<T>& before, const HistoryTaps& taps, float frames, T& now) {
   if (frames > 1.0f) now = mix(mean_of(before, taps), now, 1.0f / frames);

@@ -14,7 +14,7 @@
 namespace lambent {
 namespace {
 
-// What motion.inl.h asks for.
+// What motion.inl.h requires of its includer.
 struct SceneBefore {
   const FrameBefore* frame;
 };
@@ -35,7 +35,7 @@ vec3 fetch_position_before(const SceneBefore& before, uint instance, const Mesh&
 
 #include "compose/motion.inl.h"
 
-/// What is see-through has no motion: rays go on to what is behind.
+/// Whether a hit's surface is blended. Such surfaces have no motion: rays go on behind them.
 bool is_see_through(const Scene& scene, const Hit& hit) {
   const Mesh& mesh = scene.meshes[scene.instances[hit.instance].mesh];
   return scene.materials[mesh.material].alpha_mode == AlphaMode::blend;
@@ -81,7 +81,7 @@ std::uint64_t find_motion(const FrameRequest& request, const Band& band, int sam
       if (hit.missed()) {
         motion[i] = sky_motion(views, -gbuffer.to_viewer_ws[i]);
       } else if (is_see_through(scene, hit)) {
-        // This Embree was built without ray masks
+        // This build of Embree has no ray masks, so that no ray goes on behind the surface
         motion[i] = unknown_motion(infinity());
       } else {
         motion[i] = surface_motion(scene, scene_before, views, hit.instance, hit.triangle,

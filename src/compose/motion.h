@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where what the camera sees was on the picture before.
+// Motion vectors: where the surfaces that the camera sees were in the previous picture.
 #pragma once
 
 #include <vector>
@@ -11,25 +11,25 @@
 
 namespace lambent {
 
-/// The frame before, of the same size.
+/// The previous frame, of the same size.
 struct FrameBefore {
   Camera camera;
   bool at_rest = true;                    ///< No instance and no mesh has moved since.
-  std::vector<InstanceBefore> instances;  ///< As many as there are now; none where all are at rest.
+  std::vector<InstanceBefore> instances;  ///< One for each present instance; empty where at_rest.
 };
 
-/// The views of a frame and of the one before; null: there was none.
+/// The views of a frame and of the previous one; null: there was none.
 MotionViews motion_views(const Camera& camera, int width, int height, const FrameBefore* before);
 
-/// Whether rays may meet what is see-through and has no motion of its own.
+/// Whether rays may hit blended surfaces, which have no motion vectors of their own.
 bool has_see_through(const Scene& scene);
 
-/// Motion of each pixel of a band whose hits are in the G-buffer. Returns the rays traced, through
-/// what is see-through.
+/// Motion of each pixel of a band whose hits are in the G-buffer. Returns the number of rays
+/// traced, through blended surfaces.
 std::uint64_t find_motion(const FrameRequest& request, const Band& band, int sample,
                           const GBuffer& gbuffer, std::vector<PixelMotion>& motion);
 
-/// The layer "motion" of pixels' motion: two channels, NaN where it is unknown.
+/// The layer "motion": two channels, NaN where the motion is unknown.
 Layer motion_layer(int width, int height, std::span<const PixelMotion> motion);
 
 }  // namespace lambent

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a point of a surface was in the frame before, in the common subset of C++ and GLSL.
+// Where a point of a surface was in the previous frame, in the common subset of C++ and GLSL.
 // Included after attributes.inl.h and motion_math.h. The includer provides, besides what the former
 // asks for, the type
-//   SceneBeforeRef    the scene in the frame before
+//   SceneBeforeRef    the scene of the previous frame
 // and
 //   bool was_there(SceneBeforeRef before, uint instance)
 //   mat4 transform_before(SceneBeforeRef before, uint instance, InstanceRef now)
 //   vec3 fetch_position_before(SceneBeforeRef before, uint instance, MeshRef now, uint vertex)
 
-/// Motion of the point of a triangle that a ray has hit.
+/// Motion vector of a ray's hit on a triangle.
 LAMBENT_FN PixelMotion surface_motion(SceneRef scene, SceneBeforeRef before, MotionViews views,
                                       uint instance_index, uint triangle, vec2 barycentrics) {
   InstanceRef instance = fetch_instance(scene, instance_index);
@@ -20,8 +20,8 @@ LAMBENT_FN PixelMotion surface_motion(SceneRef scene, SceneBeforeRef before, Mot
     return unknown_motion(now.depth);
   }
 
-  // The same point of the same triangle, by the vertices and the transform of that time. Where both
-  // are as they were, rounding is the same as well, and what rests has no motion at all
+  // Find the same point of the same triangle with the previous vertices and transform. Where
+  // neither has changed, rounding is the same, too, and surfaces at rest have exactly no motion
   vec3 position =
       interpolate(fetch_position_before(before, instance_index, mesh, p.vertices.x),
                   fetch_position_before(before, instance_index, mesh, p.vertices.y),

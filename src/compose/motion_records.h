@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernels of motion read and write.
+// Data of the kernels of motion vectors.
 #ifndef LAMBENT_COMPOSE_MOTION_RECORDS_H
 #define LAMBENT_COMPOSE_MOTION_RECORDS_H
 
@@ -8,50 +8,50 @@
 
 LAMBENT_BEGIN
 
-// InstanceBeforeRecord::flags
-const uint kBeforeKnown = 1u;  ///< It was there, and so were its mesh's vertices.
-const uint kBeforeBent = 2u;   ///< Its mesh's vertices were elsewhere.
+// Bits of InstanceBeforeRecord::flags
+const uint kBeforeKnown = 1u;  ///< The instance existed, and its vertices' positions are known.
+const uint kBeforeBent = 2u;   ///< Its mesh was deformed differently.
 
-/// As struct InstanceBefore of scene_pose.h.
+/// See InstanceBefore in scene_pose.h.
 struct InstanceBeforeRecord {
   mat4 world_from_object;
-  Vec3Array positions;  ///< Of its mesh, object space [m], where it was bent.
+  Vec3Array positions;  ///< Its mesh's previous positions, object space [m]; see kBeforeBent.
   uint flags;
   uint padding;
 };
 LAMBENT_DEVICE_ARRAY(InstanceBeforeArray, InstanceBeforeRecord, 8)
 
-/// As struct FrameBefore of motion.h, and the two views.
+/// See FrameBefore in motion.h; with the two views.
 struct SceneBeforeRecord {
-  InstanceBeforeArray instances;  ///< Where they are not all at rest.
+  InstanceBeforeArray instances;  ///< Read where at_rest is 0.
   MotionViews views;
   uint at_rest;
 };
 LAMBENT_DEVICE_ARRAY(SceneBeforeArray, SceneBeforeRecord, 8)
 
-/// Rays that go on where a pixel shows something see-through.
+/// Makes the rays that go on behind blended surfaces.
 struct MotionRaysArguments {
   SceneArray scene;
-  RayArray rays;  ///< Of the camera,
-  HitArray hits;  ///< and what they met.
+  RayArray rays;  ///< The camera's rays.
+  HitArray hits;  ///< Their hits.
   RayArray further_rays;
-  UintArray ray_count;  ///< Rays that go on, so far: one number.
+  UintArray ray_count;  ///< One number: how many rays go on, so far.
   uint count;
   uint padding;
 };
 
-/// From what pixels show to its motion.
+/// Computes the motion vectors of pixels.
 struct MotionArguments {
   SceneArray scene;
   SceneBeforeArray before;
   RayArray rays;
   HitArray hits;
-  RayArray further_rays;            ///< Where has_further is 1. Of those that are traced,
-  HitArray further_hits;            ///< what they met.
-  PixelMotionArray motion;          ///< A pixel of the band each.
-  PixelMotionArray picture_motion;  ///< The same, of the nearest sample so far.
+  RayArray further_rays;            ///< Read where has_further is 1. A mask of 0: no ray.
+  HitArray further_hits;            ///< Their hits.
+  PixelMotionArray motion;          ///< One for each pixel of the band.
+  PixelMotionArray picture_motion;  ///< That of the nearest sample so far.
   uint count;
-  uint first_sample;  ///< 1: of the pixels' first sample.
+  uint first_sample;  ///< 1: this is the pixels' first sample.
   uint has_further;
   uint padding;
 };

@@ -25,17 +25,17 @@ namespace {
 
 constexpr std::size_t kRowsPerTask = 4;
 
-// Rays through a pixel, a square of them: smooth edges.
+// Side of the square of rays through a pixel, for smooth edges.
 constexpr int kSamplesAcross = 2;
 
-// Share of a sphere's colour that is left at its rim, where it shows the same all over: it should
-// look round.
+// Share of a sphere's colour that is left at its rim, so that a sphere of uniform colour looks
+// round.
 constexpr float kRim = 0.4f;
 
-// Place of the newest age in the range of colours, whose beginning is too dark to see.
+// Position of the newest age in the colour map, whose beginning is too dark to see.
 constexpr float kYoungest = 0.2f;
 
-/// A sphere that a ray meets.
+/// A ray's hit on a probe's sphere.
 struct SphereHit {
   float distance;  // [m]
   int probe;
@@ -43,8 +43,7 @@ struct SphereHit {
 };
 
 /// Finds the nearest sphere of a volume along a ray by walking through the cells of its grid. A
-/// sphere may leave its probe's place by less than a cell: it lies within the eight cells around
-/// that.
+/// relocated probe is less than a cell from its grid point, in one of the eight cells around that.
 class SphereFinder {
  public:
   SphereFinder(const ProbeStore& store, int volume, float radius)
@@ -56,7 +55,7 @@ class SphereFinder {
   }
 
   std::optional<SphereHit> nearest(const Ray& ray) const {
-    // Enter the grid, one cell larger on each side than where probes stand; in units of cells
+    // Clip the ray to the grid, enlarged by one cell on each side; in units of cells
     const vec3 origin = grid_coords(grid_, ray.origin);
     const vec3 per_metre = (ray.direction * grid_.axes) / grid_.spacing;
     const vec3 last(grid_.count);
@@ -115,14 +114,15 @@ class SphereFinder {
       const float square = radius_ * radius_ - dot(off, off);
       if (square <= 0.0f) continue;
       const float distance = along - std::sqrt(square);
-      // Whoever looks from inside a sphere looks through it
+      // A ray that starts inside a sphere passes through it
       if (distance <= ray.t_min || distance >= best.distance) continue;
       if (is_spoken_for(store_.probe_grid_position_ws(probe))) continue;
       best = {distance, probe, (ray.origin + distance * ray.direction - centre) / radius_};
     }
   }
 
-  /// Whether an earlier volume answers for a place alone, so that nobody asks this one.
+  /// Whether an earlier volume alone answers lookups at a place, so that this volume's probe there
+  /// is not used.
   bool is_spoken_for(const vec3& place_ws) const {
     for (int earlier = 0; earlier < volume_; ++earlier) {
       if (volume_blend_weight(store_.grid(earlier), place_ws) >= 1.0f) return true;
@@ -136,7 +136,7 @@ class SphereFinder {
   float radius_;  // [m]
 };
 
-/// Share of the way from new to the oldest that a probe becomes.
+/// Age of a probe, 0 for new to 1 for the oldest that the schedule allows, logarithmic.
 float age_share(const IrradianceField& field, const ProbeStatus& record) {
   if (record.last_traced == 0) return 1.0f;
   const auto age = static_cast<float>(field.updates()) - static_cast<float>(record.last_traced);

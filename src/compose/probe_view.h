@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The probes of a field as spheres in the picture, for people who wonder what they see.
+// Draws the probes of a field as spheres into the picture, to show what they store.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace lambent {
 
-/// What the spheres show of their probes.
+/// The quantity of a probe that its sphere shows.
 enum class ProbeAspect : std::uint8_t {
-  irradiance,  ///< Of a surface that faces as the sphere does there, reflected by white.
-  distance,    ///< That the probe sees along the sphere's normal: sequential_color, the longest
-               ///< that a probe holds brightest.
+  irradiance,  ///< Irradiance along the sphere's normal, reflected by a white surface.
+  distance,    ///< Distance stored along the sphere's normal: sequential_color, the longest that a
+               ///< probe stores brightest.
   state,       ///< probe_state_color.
-  age,         ///< Updates since it was traced, logarithmic: dark for new, pale for the oldest
-               ///< that the schedule lets one become.
+  age,         ///< Updates since the probe was traced, logarithmic: dark for new, pale for the
+               ///< oldest that the schedule allows.
 };
 
 struct ProbeViewSettings {
   ProbeAspect aspect = ProbeAspect::irradiance;
-  /// Of a sphere, in shares of the smallest distance between probes, above 0 to 0.5.
+  /// Radius of a sphere, relative to the smallest distance between probes, above 0 to 0.5.
   float radius = 0.08f;
 };
 
@@ -32,9 +32,9 @@ struct ProbeViewSettings {
 /// newly vigilant, green vigilant.
 glm::vec3 probe_state_color(ProbeState state);
 
-/// Draws the field's probes into a rendered frame, behind and in front of the scene as they
-/// stand, and adds the layer "probes": colour and coverage, premultiplied, of what was drawn.
-/// Irradiance is drawn as bright as it is, all else so that automatic exposure shows its colour.
+/// Draws the field's probes into a rendered frame, occluding and occluded by the scene, and adds
+/// the layer "probes": their colour and coverage, premultiplied. Irradiance is drawn at its true
+/// brightness; the other aspects are scaled so that automatic exposure shows their colour.
 void draw_probes(const World& world, const IrradianceField& field, const Camera& camera,
                  const ProbeViewSettings& settings, LayeredImage& frame);
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 4096;
 
-/// Traces the view through the middle of its pixels.
+/// Traces the small view through the middle of its pixels.
 void trace_view(const World& world, const Camera& camera, const RsmSettings& rsm, int width,
                 int height, RsmFrame& frame) {
   FrameSettings settings;
@@ -51,7 +51,7 @@ void trace_view(const World& world, const Camera& camera, const RsmSettings& rsm
   }
 }
 
-/// An image fitted into a frame, its pixels enlarged or left out.
+/// An image scaled to a frame's size by repeating or skipping pixels.
 Layer fitted_layer(std::string name, const Image& image, int width, int height) {
   Layer layer{std::move(name), Image(width, height, 3)};
   const float scale = std::max(static_cast<float>(image.width) / static_cast<float>(width),
@@ -67,7 +67,7 @@ Layer fitted_layer(std::string name, const Image& image, int width, int height) 
   return layer;
 }
 
-/// The low-resolution picture, as upsampling fetches from it.
+/// The small view, as upsampling reads it.
 struct SmallPicture {
   explicit SmallPicture(const RsmFrame& seen) : frame(seen) {}
 
@@ -80,7 +80,7 @@ struct SmallPicture {
   const RsmFrame& frame;
 };
 
-/// The view's direct light, as upsampling fetches from it.
+/// The small view's direct light, as upsampling reads it.
 struct DirectPicture {
   explicit DirectPicture(const RsmFrame& seen) : frame(seen) {}
 
@@ -107,7 +107,8 @@ ReflectiveShadowMap first_map(const FrameRequest& request, float aspect) {
 }
 
 /// Calls body(pixel, place, surface, inverse_tolerance) for pixels of a band that show a surface:
-/// where each lies in the view that maps light, and how upsampling tells surfaces apart there.
+/// their place in the small view, and the plane tolerance with which upsampling there tells
+/// surfaces apart.
 template <class Body>
 void for_each_sample(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                      const Band& band, Body body) {
@@ -165,7 +166,7 @@ void light_by_rsm(const FrameRequest& request, RsmFrame& frame) {
 std::vector<Layer> rsm_stage_layers(const ReflectiveShadowMap* first_map,
                                     const RsmIrradiance& light, int width, int height) {
   std::vector<Layer> layers;
-  // Show the first map alone: more would not fit
+  // Include the first map alone, as more would not fit
   if (first_map != nullptr) {
     layers.push_back(fitted_layer("rsm.flux", flux_image(*first_map), width, height));
   }

@@ -12,18 +12,18 @@
 
 namespace lambent {
 
-/// What the camera sees through the middle of each pixel, and one bounce of light there. Its memory
-/// is used again from frame to frame.
+/// What the camera sees through the middle of each pixel, and one bounce of light there. Memory is
+/// reused from frame to frame.
 struct RsmFrame {
   int downscale = 1;
   float plane_tolerance = 0.0f;
   std::vector<glm::vec3> positions_ws, normals_ws;
   std::vector<float> depths;
   RsmIrradiance light;
-  DirectView direct;          ///< Where the settings ask for it.
-  std::vector<Layer> layers;  ///< Of the frame's size, where asked for; see docs/rsm.md.
+  DirectView direct;          ///< Filled in where RsmSettings::direct is set.
+  std::vector<Layer> layers;  ///< Of the frame's size, where requested; see docs/rsm.md.
 
-  // What light is made of
+  // Memory and cost of the passes
   std::uint64_t direct_rays = 0;
   double direct_ms = 0.0;
   GBuffer gbuffer;
@@ -39,13 +39,13 @@ void light_by_rsm(const FrameRequest& request, RsmFrame& frame);
 std::vector<Layer> rsm_stage_layers(const ReflectiveShadowMap* first_map,
                                     const RsmIrradiance& light, int width, int height);
 
-/// Irradiance at the surfaces of a band, from the pixels around them that show the same surface
-/// (cross-bilateral upsampling: Kopf et al., "Joint Bilateral Upsampling", SIGGRAPH 2007). Where
-/// none does, from all around.
+/// Irradiance at the surfaces of a band, from the view's pixels around them that show the same
+/// surface (cross-bilateral upsampling: Kopf et al., "Joint Bilateral Upsampling", SIGGRAPH 2007).
+/// Where none does, from all 3 x 3 around.
 void look_up_rsm(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                  const Band& band, std::vector<glm::vec3>& irradiance);
 
-/// Adds the direct light of the view to that of a band's samples, as RsmSettings::direct has it.
+/// Adds the direct light of the view to that of a band's samples; see RsmSettings::direct.
 void add_rsm_direct(const RsmFrame& frame, const GBuffer& gbuffer, const Camera& camera, int width,
                     const Band& band, ReflectedLight& light);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pass of the filter at a pixel (at several in C++, a vector's lanes), in the common subset of
-// C++ and GLSL.
+// One pass of the filter at one pixel (in C++, at several: the lanes of a vector), in the common
+// subset of C++ and GLSL.
 //
 // Based on: Dammertz et al., "Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination
 // Filtering", HPG 2010; Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017.
@@ -12,12 +12,12 @@
 //   Real zero_unless_positive(Real condition, Real value)
 //   Real larger(Real a, Real b)
 //   Real fetch_guide(int plane, int x, int y)
-//       a plane of the guide (atrous_pass.h) at the pixel that lies so far from this one
-//   Real fetch_light(int plane, int x, int y)   planes of atrous_pass.h, likewise
-//   Real fetch_lobe(int plane, int x, int y)    planes of struct LobeGuide, where there are lobes
+//       a plane of the guide (atrous_pass.h) at the pixel that is offset from this one by (x, y)
+//   Real fetch_light(int plane, int x, int y)   the same for the planes of light (atrous_pass.h)
+//   Real fetch_lobe(int plane, int x, int y)    the same for LobeGuide; used where there are lobes
 // In C++ it is included in the body of a struct that has these as members.
 
-/// Where a pixel is, and how it faces.
+/// A pixel's position and normal.
 struct AtrousGuide {
   Real3 position_ws;
   Real3 normal_ws;
@@ -27,11 +27,10 @@ struct AtrousGuide {
 struct AtrousLight {
   Real3 light;
   Real3 base;
-  /// Variance of luminance of a pixel that was not filtered, as far as is known from those that
-  /// this one was filtered with; where it is not measured, mean of squares until the blind passes
-  /// end.
+  /// Variance of an unfiltered pixel's luminance, estimated from the pixels filtered so far. Where
+  /// variances are not measured: the mean of squares, until the blind passes end.
   Real spread;
-  /// Variance of this pixel's luminance over that of one that was not filtered.
+  /// Variance of this pixel's luminance as a share of that of an unfiltered one.
   Real share;
 };
 
@@ -65,29 +64,29 @@ LAMBENT_REAL_FN AtrousLight light_at(AtrousPass by, int x, int y) {
   return at;
 }
 
-/// Luminance of what is filtered: of the light's difference from its base.
+/// Luminance of the light that is filtered: of its difference from the base, if any.
 LAMBENT_REAL_FN Real filtered_luminance(AtrousPass by, AtrousLight of) {
   Real3 rest = of.light;
   if (by.has_base != 0u) rest = rest - of.base;
   return rest.x * kRedLuminance + rest.y * kGreenLuminance + rest.z * kBlueLuminance;
 }
 
-/// exp(-x) for x >= 0 but for a few hundredths; exactly 0 from 4 on.
+/// exp(-x) for x >= 0, within a few hundredths; exactly 0 from 4 on.
 LAMBENT_REAL_FN Real falloff(Real x) {
   Real root = max(1.0f - 0.25f * x, 0.0f);
   Real square = root * root;
   return square * square;
 }
 
-/// How much a neighbour counts before anything is known of its light: the exponent of its weight.
+/// Exponent of a neighbour's weight by its surface alone, without regard to its light.
 LAMBENT_REAL_FN Real difference_of_surfaces(AtrousPass by, AtrousGuide here, Real plane_scale,
                                             AtrousGuide there, Real cosine) {
   Real off_plane = dot(here.normal_ws, there.position_ws - here.position_ws) * plane_scale;
   return by.normal_sharpness * (1.0f - cosine) + off_plane * off_plane;
 }
 
-/// The lobe that reflects a pixel's light: members as in struct LobeGuide. It has no meaning in
-/// passes without lobes.
+/// The lobe that reflects a pixel's light; for the members see LobeGuide. Undefined in passes
+/// without lobes.
 struct AtrousLobe {
   Real3 mirror_ws;
   Real sharpness;
@@ -102,10 +101,11 @@ LAMBENT_REAL_FN AtrousLobe lobe_at(int x, int y) {
   return lobe;
 }
 
-/// How much a neighbour counts by what its lobe sees: the exponent of its weight. What a lobe sees
-/// at a distance lies, as seen from the other pixel, in a direction that differs from where that
-/// one's lobe points to. The closer of the two distances and the sharper of the two lobes decide,
-/// so that light goes from pixel to pixel as it comes back; lobes of other widths see other things.
+/// Exponent of a neighbour's weight by what its lobe shows. A point that one pixel's lobe shows
+/// lies, as seen from the other pixel, in another direction than the one in which that pixel's lobe
+/// points. The smaller of the two distances and the sharper of the two lobes count, so that the
+/// weight is the same in both directions. Lobes of different widths show different parts of the
+/// scene.
 LAMBENT_REAL_FN Real difference_of_lobes(AtrousLobe here, AtrousLobe there, Real3 to_neighbour,
                                          Real3 across_ws) {
   Real3 apart = to_neighbour * larger(here.inverse_distance, there.inverse_distance) +
@@ -117,9 +117,9 @@ LAMBENT_REAL_FN Real difference_of_lobes(AtrousLobe here, AtrousLobe there, Real
          kWidthSharpness * (widths * widths);
 }
 
-/// The variance that the difference of two pixels' luminance is compared with. That of their
-/// difference is the sum. Where both were measured, twice their harmonic mean is less where one
-/// pixel knows better, and keeps noisy light out of what is known to be dark.
+/// The variance that the difference of two pixels' luminance is compared with. The variance of the
+/// difference is the sum. Where both were measured, twice their harmonic mean is used: it is less
+/// where one pixel's light is known better, and keeps noisy light out of pixels known to be dark.
 LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
   if (by.measured == 0u) return a + b;
   return 4.0f * a * b / (a + b + kLeastContrast);
@@ -128,7 +128,7 @@ LAMBENT_REAL_FN Real variance_between(AtrousPass by, Real a, Real b) {
 /// The pixel's light from the weighted sums over its neighbours.
 LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousLight sum,
                                          Real weights) {
-  // What neighbours share of noise, pass by pass, is left out (Schied et al. 2017, Eq. 7)
+  // Neglect noise that neighbours share after earlier passes (Schied et al. 2017, Eq. 7)
   Real scale = 1.0f / weights;
   if (by.only_spread != 0u) {
     own.spread = sum.spread * scale;
@@ -139,7 +139,7 @@ LAMBENT_REAL_FN AtrousLight divided_sums(AtrousPass by, AtrousLight own, AtrousL
   sum.spread = sum.spread * scale;
   sum.share = sum.share * (scale * scale);
   if (by.ends_blind != 0u && by.measured == 0u) {
-    // The unbiased estimate of a variance from several pixels
+    // Compute the unbiased estimate of a variance from several pixels
     Real level = filtered_luminance(by, sum);
     Real square = level * level;
     sum.spread = larger(sum.spread - square, kLeastVariance * square) /
@@ -165,7 +165,7 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
   AtrousLight own = light_at(by, 0, 0);
   Real own_luminance = filtered_luminance(by, own);
 
-  // Sum over the 3 x 3 neighbours, with binomial weights over 4: 1 for the pixel itself
+  // Sum over the 3 x 3 neighbours, with binomial weights over 4, so that the pixel itself has 1
   AtrousLight sum = own;
   Real weights = own.spread * 0.0f + 1.0f;
   LAMBENT_UNROLL_TAPS
@@ -191,7 +191,7 @@ LAMBENT_REAL_FN AtrousLight filtered_pixel(AtrousPass by) {
     Real weight = falloff(difference) * (x == 0 || y == 0 ? 0.5f : 0.25f);
     weight = zero_unless_positive(cosine, weight);
     if (by.has_levels != 0u) {
-      // What is over a far lower level is known far less well in terms of this pixel's
+      // Light over a far lower level is far noisier relative to this pixel's level
       Real level = fetch_guide(kLevelPlane, x * by.apart, y * by.apart);
       weight *= min(level * inverse_level, 1.0f);
     }

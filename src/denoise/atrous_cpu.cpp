@@ -7,8 +7,8 @@
 namespace lambent {
 namespace {
 
-// In place of lambent::kLanes: what a kernel works on spills out of the registers already, and of
-// 16 floats twice as much (measured: twice the instructions).
+// Used in place of lambent::kLanes: a kernel's values exceed the registers already, and with 16
+// floats they would do so twice as much (measured: twice the instructions).
 constexpr int kLanes = 8;
 
 #define LAMBENT_KERNELS "denoise/atrous_kernel.inl.h"

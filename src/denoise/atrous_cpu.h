@@ -7,14 +7,14 @@
 
 namespace lambent {
 
-/// Pixels of a row, as planes whose guards see nothing.
+/// Pixels of a row, as planes whose guards have no surface.
 struct AtrousRow {
-  ConstPlanes guide;  ///< Of the row's first pixel, and so on.
-  ConstPlanes lobes;  ///< Where there are some.
+  ConstPlanes guide;  ///< Starts at the row's first pixel, as the other planes do.
+  ConstPlanes lobes;  ///< Read where the pass has lobes.
   ConstPlanes in;
   Planes out;
   std::ptrdiff_t guide_row, lobe_row, light_row;  ///< Floats from a row to the next one.
-  int count;                                      ///< Pixels.
+  int count;                                      ///< Number of pixels.
 };
 
 /// Filters a row. Single-threaded.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// filter_row for one instruction set: see core/simd_levels.h.
+// filter_row for one instruction set; see core/simd_levels.h.
 #include "core/lanes.inl.h"
 
-/// A vector of three, of which each component is that of several pixels.
+/// Three-component vectors of several pixels, one component of all pixels after the other.
 struct Lanes3 {
   Lanes x, y, z;
   Lanes3() = default;
@@ -35,12 +35,12 @@ LAMBENT_FORCE_INLINE Lanes min(Lanes a, float b) {
   return a < other ? a : other;
 }
 
-/// Pixels of a row, and all around them.
+/// Pixels of a row, with access to their neighbours.
 struct PixelLanes {
   using Real = Lanes;
   using Real3 = Lanes3;
 #define LAMBENT_REAL_FN LAMBENT_FORCE_INLINE
-// Rolled up, the loop takes 1.5 times as many instructions
+// Without unrolling, the loop takes 1.5 times as many instructions
 #ifdef __clang__
 #define LAMBENT_UNROLL_TAPS _Pragma("unroll")
 #else
@@ -91,7 +91,7 @@ struct PixelLanes {
   std::ptrdiff_t guide_row, light_row, lobe_row;  // floats from a row to the next one
 };
 
-/// A row with flags that the compiler knows, so that loops hold no branch.
+/// Filters a row with flags that are compile-time constants, so that loops have no branches.
 LAMBENT_FORCE_INLINE void filter_lanes(AtrousPass by, const AtrousRow& row, uint blind,
                                        uint has_base, uint has_levels, uint has_lobes) {
   by.blind = blind;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both sides of the filter know: how pixels lie in memory, a pass's numbers, and how filtered
-// light is put together.
+// Definitions shared by the filter's backends: the memory layout of pixels, a pass's parameters,
+// and the sum of filtered light and detail.
 #ifndef LAMBENT_DENOISE_ATROUS_PASS_H
 #define LAMBENT_DENOISE_ATROUS_PASS_H
 
@@ -10,24 +10,24 @@
 
 LAMBENT_BEGIN
 
-/// Most passes: the last one's neighbours are 32 pixels apart.
+/// Most passes. In the last one, neighbours are 32 pixels apart.
 const int kMaxDenoisePasses = 6;
-/// Pixels that see nothing around the picture: the farthest neighbour of a pass.
+/// Width of the border around a picture, whose pixels have no surface: a pass's farthest neighbour.
 const int kDenoiseGuard = 1 << (kMaxDenoisePasses - 1);
 
-// Planes of a pixel's light: red, green, blue; then spread and share (struct AtrousLight); then the
-// base's red, green, blue where there is one.
+// Planes of a pixel's light: red, green, blue; then spread and share (see AtrousLight); then the
+// base's red, green and blue where there is one.
 const int kLightPlane = 0;
 const int kSpreadPlane = 3;
 const int kSharePlane = 4;
 const int kBasePlane = 5;
 const int kDenoisePlanes = 8;
 
-// Planes of the filter's guide besides those of shared/cross_bilateral.h: the light's level.
+// The filter's guide has the planes of shared/cross_bilateral.h and one more: the light's level.
 const int kLevelPlane = kGuidePlanes;
 const int kDenoiseGuidePlanes = kGuidePlanes + 1;
 
-// Planes of the lobes that reflect the light, if that is what is filtered: struct LobeGuide.
+// Planes of the lobes that reflect the light, for light that lobes reflect; see LobeGuide.
 const int kMirrorPlane = 0;
 const int kAcrossPlane = 3;
 const int kLobeSharpnessPlane = 6;
@@ -35,56 +35,56 @@ const int kSeenDistancePlane = 7;
 const int kLobePlanes = 8;
 
 // The filter averages over this share of a lobe's own width [GGX alpha, radians]. All passes
-// together so have a fifth of the lobe's deviation, and what coats show is blurred as if they were
-// 2 % wider: that much roughness nobody sees.
+// together then have a fifth of the lobe's deviation, and reflections are blurred as if the surface
+// were 2 % rougher, which is invisible.
 const float kFilteredLobeShare = 0.5f;
 
-// How much less neighbours count whose lobes have another width, by the square of the difference of
-// the two sharpnesses over their sum: a roughness that is a tenth higher takes an eighth of the
-// weight, and one twice as high nearly all.
+// Penalty on neighbours whose lobes have another width, times the square of the difference of the
+// two sharpnesses over their sum: a roughness that is a tenth higher takes an eighth off the
+// weight, and one twice as high nearly all of it.
 const float kWidthSharpness = 4.0f;
 
-// Keeps lobes without sharpness from dividing by zero: far below that of the widest lobe.
+// Avoids a division by zero for lobes without sharpness: far below that of the widest lobe.
 const float kLeastLobeSharpness = 1e-6f;
 
-// Least cosine of the angle of incidence by which lobes are stretched: below it they are slivers.
+// Least cosine of the angle of incidence that stretches lobes: below it they are slivers.
 const float kLeastLobeCosine = 1e-3f;
 
-// Contrast that is always taken for noise, in squares of luminance: far below any light, so that
-// equal pixels without variance do not divide zero by zero.
+// Squared luminance that always counts as noise: far below any light, so that equal pixels without
+// variance do not divide zero by zero.
 const float kLeastContrast = 1e-20f;
 
-// A variance from several pixels is at least this share of the square of their mean: less is the
-// rounding of the two of which it is the difference.
+// Least variance from several pixels, as a share of their squared mean: below it, the variance is
+// rounding, as it is the difference of the two.
 const float kLeastVariance = 1e-6f;
 
-// The share of a window that one pixel has where it has hardly any neighbours. Its variance is then
-// not known, and that estimated from the window is enlarged by no more than 1 / (1 - this).
+// Largest share of a window that one pixel counts for. Where it has hardly any neighbours, its
+// variance is unknown, and the window's estimate is enlarged by at most 1 / (1 - this).
 const float kMostKnownShare = 0.98f;
 
-/// A pass of the filter.
+/// Parameters of a pass of the filter.
 struct AtrousPass {
-  int apart;               ///< Pixels between neighbours.
-  float normal_sharpness;  ///< As in DenoiseSettings.
+  int apart;               ///< Distance between neighbours [pixels].
+  float normal_sharpness;  ///< See DenoiseSettings.
   float plane_scale;       ///< 1 / DenoiseSettings::plane_tolerance.
   float contrast_scale;    ///< 1 / DenoiseSettings::noise_tolerance^2.
-  uint blind;              ///< 1: light itself is not compared.
-  uint ends_blind;         ///< 1: the last such pass, after which the variance is known.
-  uint measured;           ///< 1: the variance was measured at pixels, not estimated from them.
-  uint only_spread;        ///< 1: variances alone are averaged, light stays as it is.
+  uint blind;              ///< 1: the light of pixels is not compared.
+  uint ends_blind;         ///< 1: the last blind pass, after which the variance is known.
+  uint measured;           ///< 1: variances were measured per pixel; 0: estimated from neighbours.
+  uint only_spread;        ///< 1: averages variances alone, and leaves light as it is.
   uint has_base;           ///< 1: there is a base.
-  uint has_levels;         ///< 1: the light is given over a level.
+  uint has_levels;         ///< 1: light is divided by a level.
   uint has_lobes;          ///< 1: lobes reflect the light; 0: it comes from the hemisphere.
 };
 
-/// How far light that a lobe reflects may be averaged over pixels.
+/// Over which neighbours light that a lobe reflects may be averaged.
 struct LobeGuide {
-  vec3 mirror_ws;  ///< Where the lobe is about densest; unit.
+  vec3 mirror_ws;  ///< Mirror direction, where the lobe is about densest; unit.
   vec3 across_ws;  ///< Perpendicular to the plane of incidence, as long as the tangent of the angle
                    ///< of incidence: lobes of grazing angles are that much narrower sideways.
   float sharpness;  ///< One over the square of the angle that is averaged over [1/rad^2]; 0: there
                     ///< is no lobe.
-  float inverse_distance;  ///< One over the distance to what the lobe sees [1/m].
+  float inverse_distance;  ///< One over the distance to what the lobe shows [1/m].
 };
 
 /// `normal_ws` and `to_viewer_ws`: unit. `alpha`: the lobe's GGX width, above 0.
@@ -111,15 +111,15 @@ LAMBENT_FN vec3 finite_or_dark(vec3 light) {
   return vec3(finite_or_dark(light.x), finite_or_dark(light.y), finite_or_dark(light.z));
 }
 
-/// AtrousLight::spread of a pixel before the first pass, where its variance was not measured.
+/// Initial AtrousLight::spread of a pixel whose variance was not measured.
 LAMBENT_FN float unmeasured_spread(vec3 light, vec3 base) {
   float level = luminance(light - base);
   return level * level;
 }
 
-/// Filtered light of a pixel from the filtered light and the filtered base around it, and the
-/// pixel's own base. The base's detail is that of light which the filtered one replaces: where that
-/// is darker, its detail is fainter, too.
+/// Filtered light of a pixel, from its filtered light, the filtered base and the pixel's own base,
+/// whose detail is added. The detail belongs to light that the filtered light replaces: where that
+/// is darker than the base, the detail is scaled down with it.
 LAMBENT_FN vec3 with_detail(vec3 light, vec3 filtered_base, vec3 base) {
   vec3 scale = clamp(light / max(filtered_base, vec3(1e-20f)), vec3(0.0f), vec3(1.0f));
   return max(light + scale * (base - filtered_base), vec3(0.0f));

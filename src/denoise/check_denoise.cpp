@@ -7,7 +7,7 @@
 namespace lambent {
 namespace {
 
-constexpr float kMostSharpness = 1024.0f;  // and noise tolerance: more is as good as infinite
+constexpr float kMostSharpness = 1024.0f;  // also for noise tolerance: practically infinite
 
 Expected<void> check_range(const char* name, bool fine, const char* range) {
   if (fine) return {};
@@ -54,9 +54,9 @@ int denoise_reach(const DenoiseSettings& settings) {
 
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
                                        bool measured, bool has_levels, bool has_lobes) {
-  // Light over its level has no rare bright rays, and its samples tell how noisy it is: that alone
-  // is averaged at first, and not even the closest shadows are blurred (Schied et al. 2017, sec.
-  // 4.4: variances are filtered before they are used)
+  // Light over its level has no rare bright rays, and its samples measure its variance. So the
+  // first pass averages variances alone, and not even the smallest shadows are blurred (Schied et
+  // al. 2017, sec. 4.4: variances are filtered before they are used)
   const bool knows_noise = has_levels && measured;
   std::vector<AtrousPass> passes;
   for (int i = 0; i < settings.passes; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which passes the filter makes of its settings, on every backend.
+// The passes of the filter for given settings, on every backend.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace lambent {
 
-/// The passes, in their order.
+/// The passes, in order.
 std::vector<AtrousPass> denoise_passes(const DenoiseSettings& settings, bool has_base,
                                        bool measured, bool has_levels, bool has_lobes);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that is filtered in a device's memory, and the arguments of the kernels.
+// Light that is filtered, in a device's memory, and the arguments of the kernels.
 #ifndef LAMBENT_DENOISE_DENOISE_RECORDS_H
 #define LAMBENT_DENOISE_DENOISE_RECORDS_H
 
@@ -8,7 +8,7 @@
 
 LAMBENT_BEGIN
 
-/// Light of a pixel between passes; members as in struct AtrousLight.
+/// Light of a pixel between passes; for the members see AtrousLight.
 struct DenoiseRecord {
   vec3 light;
   float spread;
@@ -19,11 +19,11 @@ LAMBENT_DEVICE_ARRAY(DenoiseArray, DenoiseRecord, 4)
 
 LAMBENT_DEVICE_ARRAY(LobeGuideArray, LobeGuide, 4)
 
-/// Light of pixels as it was sampled.
+/// Converts sampled light to the passes' format.
 struct DenoiseStartArguments {
   Vec3Array light;
   Vec3Array base;       ///< Read where `has_base` is 1.
-  FloatArray variance;  ///< Of its luminance; read where `measured` is 1.
+  FloatArray variance;  ///< Variance of its luminance; read where `measured` is 1.
   DenoiseArray out_light;
   uint count;
   uint has_base;
@@ -31,7 +31,7 @@ struct DenoiseStartArguments {
   uint padding;
 };
 
-/// A pass over a picture.
+/// Runs a pass over a picture.
 struct DenoisePassArguments {
   Vec3Array positions_ws;
   Vec3Array normals_ws;
@@ -46,14 +46,14 @@ struct DenoisePassArguments {
   uint padding;
 };
 
-/// Light of pixels once it is filtered.
+/// Converts the last pass's result to filtered light, with the detail of its base.
 struct DenoiseFinishArguments {
   DenoiseArray in_light;
   Vec3Array base;
   Vec3Array filtered;
   uint count;
   uint has_base;
-  uint adds;  ///< 1: to what `filtered` holds.
+  uint adds;  ///< 1: adds to the contents of `filtered`.
   uint padding;
 };
 

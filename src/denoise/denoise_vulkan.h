@@ -22,10 +22,10 @@ struct DenoiseViewOnDevice {
   Vec3Array positions_ws;
   Vec3Array normals_ws;
   FloatArray depths;
-  LobeGuideArray lobes = {};  ///< Where lobes reflect the light.
+  LobeGuideArray lobes = {};  ///< Address 0 where the light comes from the hemisphere.
 };
 
-/// NoisyLight in a device's memory; addresses of 0 where there is no base, no variance, no levels.
+/// NoisyLight in a device's memory. Addresses are 0 where there is no base, variance or level.
 struct NoisyLightOnDevice {
   Vec3Array light;
   Vec3Array base = {};
@@ -33,7 +33,7 @@ struct NoisyLightOnDevice {
   FloatArray levels = {};
 };
 
-/// Kept by the device (Device::kept).
+/// The kernels, owned by the device (Device::kept).
 struct DenoiseKernels {
   explicit DenoiseKernels(const vulkan::Device& device)
       : start(device, shaders::denoise_start_comp(), "denoise start"),
@@ -42,18 +42,17 @@ struct DenoiseKernels {
   vulkan::Kernel start, pass, finish;
 };
 
-/// Filters pictures on a device, one after the other, and keeps its buffers there: 64 bytes a
-/// pixel.
+/// Filters pictures on a device, one after the other. Owns buffers there: 64 bytes a pixel.
 class DenoiserVulkan {
  public:
   /// The device must outlive it.
   explicit DenoiserVulkan(const vulkan::Device& device);
 
-  /// Makes room for pictures of so many pixels, before anything is recorded that is not done yet.
+  /// Makes room for pictures of this many pixels. No unfinished recording may use the buffers.
   void reserve(std::size_t pixels);
 
   /// Records Denoiser::filter, with a barrier after each kernel. Sizes and settings must be in
-  /// range, and there must be room. `adds`: to what `filtered` holds.
+  /// range, and reserve() must have made room. `adds`: adds to the contents of `filtered`.
   void record(vulkan::Recorder& to, const DenoiseViewOnDevice& view,
               const NoisyLightOnDevice& light, const DenoiseSettings& settings, Vec3Array filtered,
               bool adds = false) const;

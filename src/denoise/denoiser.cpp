@@ -15,9 +15,9 @@ constexpr int kMaxSide = 16384;  // of a picture [pixels]
 // Rows that a task filters: few enough to keep all cores busy, many enough to stay in the cache.
 constexpr std::size_t kRowsPerTask = 8;
 
-/// A picture of planes, all around which nothing is seen.
+/// A picture of planes, with a border that has no surface.
 struct PlanePicture {
-  /// Where the shape is the one before, guards still hold zeros.
+  /// Where the shape is unchanged, the border still holds zeros.
   void shape(int width, int height, int planes) {
     if (layout.width == width && layout.height == height && layout.planes == planes) return;
     layout = PlaneLayout(width, height, planes, kDenoiseGuard);
@@ -50,12 +50,12 @@ bool has_lobes(const DenoiseView& view) {
   return !view.lobes.alphas.empty();
 }
 
-/// Whether light of a pixel is filtered.
+/// Whether a pixel's light is filtered.
 bool is_filtered(const DenoiseView& view, std::size_t pixel) {
   return view.depths[pixel] > 0.0f && (!has_lobes(view) || view.lobes.alphas[pixel] > 0.0f);
 }
 
-/// Fills a picture of so many planes: write(row, x, i) stores pixel i, which stands at x of a row.
+/// Fills a picture of `planes` planes: write(row, x, i) stores pixel i at place x of its row.
 template <class Write>
 void fill_planes(const DenoiseView& view, int planes, PlanePicture& picture, Write write) {
   picture.shape(view.width, view.height, planes);
@@ -141,7 +141,7 @@ Expected<void> check(const DenoiseView& view, const NoisyLight& light,
 struct Denoiser::State {
   PlanePicture guide, lobes, light[2];
 
-  /// Runs a pass from one picture of light to the other.
+  /// Runs a pass from the picture light[from] to the other one.
   void run(const AtrousPass& pass, int from) {
     const PlaneLayout& layout = guide.layout;
     const bool lobed = pass.has_lobes != 0;

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of the frame before where a pixel's surface was then, in the common subset of C++ and GLSL.
+// Light of the previous frame at a pixel's reprojected surface, in the common subset of C++ and
+// GLSL.
 //
 // Based on: Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017, sec. 4.2; Nehab et
 // al., "Accelerating Real-Time Shading with Reverse Reprojection Caching", GH 2007.
 //
-// The includer provides, of pixels of the frame before,
+// The includer provides, for pixels of the previous frame,
 //   float fetch_depth_before(int pixel)     [m]; 0 where nothing is seen
 //   vec3 fetch_normal_before(int pixel)     geometric; unit
 // In C++ it is included in the body of a struct that has these as members.
 
-/// The four pixels of the frame before around a place, and what each counts: 0 where it shows
-/// another surface or nothing. They sum up to 1, or to 0 where there is none. `place` in pixels,
-/// whose middles are at halves. `tolerance` of depth [m].
+/// The four pixels of the previous frame around a place, and their weights: 0 where a pixel shows
+/// another surface or nothing. Weights sum to 1, or to 0 where no pixel is valid. `place` [pixels]:
+/// centres of pixels are at halves. `tolerance`: of depth [m].
 LAMBENT_FN HistoryTaps history_taps(ivec2 size, vec2 place, float depth, float tolerance,
                                     vec3 normal_ws) {
   HistoryTaps taps;
@@ -34,7 +35,7 @@ LAMBENT_FN HistoryTaps history_taps(ivec2 size, vec2 place, float depth, float t
     taps.weights[k] = weight;
     sum += weight;
   }
-  // What is all but hidden is no base to build on
+  // A surface that was nearly hidden leaves too little history
   float scale = sum > kLeastHistoryWeight ? 1.0f / sum : 0.0f;
   for (int k = 0; k < 4; ++k) taps.weights[k] *= scale;
   return taps;

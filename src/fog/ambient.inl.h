@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lookup of a field at a point in the air: no surface is there, so no probe is behind it and no
-// bias is needed. The includer provides what field/lookup/lookup.inl.h asks for. In C++, this file
-// is included in the body of a struct that has these as members.
+// The lookup of a field at a point in the air, where no surface calls for a bias or rules out
+// probes behind it. The includer provides what field/lookup/lookup.inl.h requires. In C++, this
+// file is included in the body of a struct that has these as members.
 
-/// Irradiance around a ray at a point, from the probes of one volume, times the volume's weight.
+/// Adds the irradiance around a ray at a point, from the probes of one volume, times its weight.
 LAMBENT_FN void add_volume(ProbeGrid grid, float volume_weight, vec3 position_ws, Frame around_ray,
                            LAMBENT_INOUT(AmbientIrradiance) sum) {
   LookupGrid volume = lookup_grid(grid);
@@ -29,7 +29,7 @@ LAMBENT_FN void add_volume(ProbeGrid grid, float volume_weight, vec3 position_ws
   }
 }
 
-/// The same from all volumes, in order, as lookup_irradiance does.
+/// Irradiance around a ray at a point, from all volumes in order, like lookup_irradiance.
 LAMBENT_FN AmbientIrradiance ambient_irradiance(int volumes, vec3 position_ws, vec3 direction_ws) {
   AmbientIrradiance sum = {vec3(0.0f), vec3(0.0f), vec3(0.0f), 0.0f};
   Frame around_ray = make_frame(direction_ws);

@@ -11,7 +11,7 @@ namespace {
 constexpr int kMaxFroxelPixels = 64;
 constexpr int kMinSlices = 4, kMaxSlices = 512;
 constexpr int kMaxFroxelSamples = 64;
-// Froxels of a picture: they take 48 bytes each.
+// Most froxels in a picture; they take 48 bytes each.
 constexpr std::int64_t kMaxFroxels = std::int64_t{1} << 27;
 
 Expected<void> check_range(const char* name, int value, int least, int most) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fog of a frame on the processor: light in froxels, and what fog does to light along rays.
+// Fog of a frame on the processor: its light in froxels, and its effect on light along rays.
 #pragma once
 
 #include <cstdint>
@@ -21,41 +21,41 @@ class ProbeStore;
 /// Fails with the first setting that is out of range.
 Expected<void> check(const FogSettings& settings);
 
-/// Fails where so many rows of pixels would have more froxels than memory should hold.
+/// Fails where this many rows of pixels would have more froxels than memory should hold.
 Expected<void> check_froxels(const FogSettings& settings, int width, int rows);
 
 /// Whether a scene has fog.
 bool has_fog(const Scene& scene);
 
-/// The fog of a picture, and how its light is found.
+/// The fog of a picture, and how its light is computed.
 struct FogRequest {
   const World& world;
-  const IrradianceField* field = nullptr;  ///< Of light of all bounces; null: none.
+  const IrradianceField* field = nullptr;  ///< Supplies multi-bounce light; null: there is none.
   FogSettings settings = {};
   CameraRecord camera = {};
-  int width = 0, height = 0;    ///< Of the picture [pixels].
-  int first_row = 0, rows = 0;  ///< Of its pixels that will ask.
-  int tree_samples = 1;         ///< Of the light tree, a point of a froxel.
-  std::uint32_t frame = 0;      ///< Random numbers of frames differ by it.
+  int width = 0, height = 0;    ///< Size of the picture [pixels].
+  int first_row = 0, rows = 0;  ///< Rows of pixels that will call FroxelFog::along.
+  int tree_samples = 1;         ///< Samples of the light tree at a froxel's point.
+  std::uint32_t frame = 0;      ///< Makes random numbers of frames differ.
   std::uint32_t seed = 1;
-  int averaged_frames = 1;  ///< Over which light is averaged; 1: of this frame alone.
+  int averaged_frames = 1;  ///< Number of frames that light is averaged over; 1: this one alone.
 };
 
-/// The froxels of frame after frame.
+/// The froxels of a sequence of frames.
 class FroxelFog {
  public:
-  /// Finds the light of a picture's froxels. `continues`: neither light nor fog has changed since
-  /// the last time. Returns the rays traced.
+  /// Computes the light of a picture's froxels. `continues`: neither light nor fog has changed
+  /// since the last call. Returns the number of rays traced.
   std::uint64_t find_light(const FogRequest& request, bool continues);
 
-  /// What fog does to light along a ray of the camera through a point of the picture; as fog_along
-  /// of froxels.inl.h.
+  /// Radiance and transmittance of the fog along a ray of the camera through a point of the
+  /// picture; see fog_along() of froxels.inl.h.
   vec4 along(const glm::vec2& pixel, const glm::vec3& origin_ws, const glm::vec3& direction_ws,
              float ray_end) const;
 
   const FroxelGrid& grid() const { return grid_; }
   const Media& media() const { return media_; }
-  /// What `along` reads: the source function times its weight, and the weight.
+  /// The froxels that `along` reads: the source function times its weight, and the weight.
   std::span<const vec4> froxels() const { return smoothed_; }
 
  private:
@@ -74,7 +74,7 @@ class FroxelFog {
 
   Media media_;
   FroxelGrid grid_{};
-  std::vector<float> ray_ends_;  // a ray of a column each [m]
+  std::vector<float> ray_ends_;  // lengths of the columns' rays [m]
   std::vector<vec4> lit_, averaged_, smoothed_;
 };
 

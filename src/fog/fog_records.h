@@ -11,25 +11,25 @@ LAMBENT_BEGIN
 struct FogRecord {
   FroxelGrid grid;
   MediumArray media;
-  Vec4Array froxels;  ///< As of FroxelFog::froxels.
+  Vec4Array froxels;  ///< See FroxelFog::froxels().
   uint media_count;
   uint padding;
 };
 LAMBENT_DEVICE_ARRAY(FogArray, FogRecord, 8)
 
-/// What fog does to the light of a band's pixels.
+/// Computes the effect of fog on a band's pixels.
 struct FogPixelsArguments {
   FogArray fog;
-  RayArray rays;    ///< Of the camera, ...
-  HitArray hits;    ///< ... and what they met.
-  Vec4Array light;  ///< As of fog_along.
-  uint width;       ///< Of the picture [pixels].
+  RayArray rays;    ///< The camera's rays.
+  HitArray hits;    ///< Their hits.
+  Vec4Array light;  ///< Results of fog_along().
+  uint width;       ///< Width of the picture [pixels].
   uint first_pixel;
   uint count;
-  uint index;  ///< Of the sample, of so many:
+  uint index;  ///< Index of the sample, below `samples`.
   uint samples;
   uint seed;
-  uint jitter;  ///< As of subpixel_position.
+  uint jitter;  ///< See subpixel_position().
   uint padding;
 };
 

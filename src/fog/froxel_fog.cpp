@@ -17,11 +17,11 @@ namespace {
 constexpr std::size_t kColumnsPerTask = 8;
 constexpr std::size_t kFroxelsPerTask = 4096;
 
-// Columns whose light reaches pixels: those between which a pixel is, and those they are smoothed
+// Reach of columns from a pixel: the two that it lies between, and those that these are filtered
 // with.
 constexpr int kReach = 2;
 
-/// What froxels.inl.h asks for.
+/// What froxels.inl.h requires of its includer.
 using FroxelsRef = const std::vector<vec4>&;
 inline const vec4& fetch_froxel(FroxelsRef froxels, uint index) {
   return froxels[index];
@@ -29,7 +29,7 @@ inline const vec4& fetch_froxel(FroxelsRef froxels, uint index) {
 
 #include "fog/froxels.inl.h"
 
-/// A field's probes as ambient.inl.h fetches from them.
+/// A field's probes, as ambient.inl.h reads them.
 struct AmbientLookup {
   explicit AmbientLookup(const ProbeStore& from) : store(from) {}
   ProbeGrid fetch_grid(int volume) const { return store.grid(volume); }
@@ -47,7 +47,7 @@ struct AmbientLookup {
   const ProbeStore& store;
 };
 
-/// Radiance of all bounces that fog at a point sends against a ray, over what it extinguishes.
+/// Multi-bounce radiance that fog at a point sends against a ray, divided by its extinction.
 vec3 ambient_source_of(const Media& media, const AmbientIrradiance& ambient,
                        const vec3& position_ws) {
   vec3 sum(0.0f);
@@ -60,7 +60,7 @@ vec3 ambient_source_of(const Media& media, const AmbientIrradiance& ambient,
   return total > 0.0f ? sum / total : vec3(0.0f);
 }
 
-/// What a froxel gains if a shadow ray arrives.
+/// Light that a froxel receives if a shadow ray is unoccluded.
 struct PendingFogLight {
   std::size_t froxel;
   vec3 light;
@@ -76,20 +76,20 @@ Ray ray_through(const CameraRecord& camera, const vec2& pixel) {
 
 }  // namespace
 
-/// A sample of a froxel: a point of a ray, and what it counts.
+/// A sample of a froxel: a point of a ray, and its weight.
 struct FroxelFog::FroxelSample {
   const Ray& ray;
   FroxelSegment segment;
   FroxelPoint point;
-  float u;      // uniform number that chose the point
-  float share;  // of the froxel's samples
+  float u;      // uniform number that the point was drawn with
+  float share;  // weight among the froxel's samples
   std::size_t froxel;
 };
 
-/// Memory of some columns that are lit together.
+/// Memory of columns that are lit together.
 struct FroxelFog::Columns {
-  std::size_t begin = 0, end = 0;  // of all
-  // Of the column at hand
+  std::size_t begin = 0, end = 0;  // range among all columns
+  // The column being lit
   vec2 middle_pixel{0.0f};
   CameraRay middle = {};
   std::vector<Ray> rays;
@@ -144,8 +144,8 @@ std::uint64_t FroxelFog::find_light(const FogRequest& request, bool continues) {
   return rays + shadow_rays;
 }
 
-/// Finds where rays of all columns end: what lies behind is not in sight, and no light of it may
-/// come to what is before.
+/// Finds the ends of the rays of all columns. Fog behind them is hidden, and its light must not
+/// leak into fog in front.
 std::uint64_t FroxelFog::trace_columns(const FogRequest& request) {
   const auto samples = static_cast<std::size_t>(request.settings.samples);
   const std::size_t columns = std::size_t{grid_.columns} * grid_.rows;
@@ -172,7 +172,7 @@ std::uint64_t FroxelFog::trace_columns(const FogRequest& request) {
   return columns * samples;
 }
 
-/// Lays the slices from the first fog that is in sight to the last.
+/// Places the slices between the nearest and the farthest visible fog.
 void FroxelFog::place_slices(const FogRequest& request) {
   const auto samples = static_cast<std::size_t>(request.settings.samples);
   float nearest = std::numeric_limits<float>::max(), farthest = 0.0f;
@@ -186,13 +186,13 @@ void FroxelFog::place_slices(const FogRequest& request) {
     nearest = std::min(nearest, range.x);
     farthest = std::max(farthest, range.y);
   }
-  // Where no fog is in sight, slices are anywhere
+  // Without visible fog, any range will do
   grid_.nearest = farthest > nearest ? nearest : 0.0f;
   grid_.farthest = farthest > nearest ? farthest : 1.0f;
 }
 
-/// Queues the light that lights send to a point of a froxel on a ray, or for lamps near it to
-/// points of their own.
+/// Queues the direct light at a point of a froxel. Lamps near the froxel are sampled at points of
+/// their own.
 void FroxelFog::queue_light(const FogRequest& request, const FroxelSample& sample,
                             RandomStream random, Columns& columns) const {
   const LightDraws draws{request.world, request.tree_samples};
@@ -228,7 +228,7 @@ void FroxelFog::queue_light(const FogRequest& request, const FroxelSample& sampl
   }
 }
 
-/// Queues the light of a froxel, and adds that of all bounces.
+/// Queues the direct light of a froxel, and adds the multi-bounce light.
 void FroxelFog::light_froxel(const FogRequest& request, const ProbeStore* store,
                              const glm::uvec3& at, Columns& columns) {
   const auto samples = static_cast<uint>(request.settings.samples);
@@ -255,7 +255,7 @@ void FroxelFog::light_froxel(const FogRequest& request, const ProbeStore* store,
                 columns);
   }
   if (store == nullptr || sum.w == 0.0f) return;
-  // Light of all bounces varies little: one point of the froxel stands for all
+  // Multi-bounce light varies little: one point of the froxel is enough
   AmbientLookup lookup(*store);
   const AmbientIrradiance ambient =
       lookup.ambient_irradiance(store->volumes(), ambient_at, ambient_along);
@@ -288,14 +288,14 @@ void FroxelFog::light_columns(const FogRequest& request, const ProbeStore* store
   }
 }
 
-/// Which froxel is held at an index.
+/// Coordinates of the froxel at an index.
 glm::uvec3 FroxelFog::froxel_at(std::size_t index) const {
   const auto column = static_cast<uint>(index / grid_.slices);
   return {column % grid_.columns, grid_.first_row + column / grid_.columns,
           static_cast<uint>(index % grid_.slices)};
 }
 
-/// Adds what the froxels held in the frame before, less the more frames have passed since.
+/// Adds the previous frame's average, times 1 - 1 / frames, so that older frames fade.
 void FroxelFog::average(const FroxelGrid& before, int frames) {
   const float kept = 1.0f - 1.0f / static_cast<float>(frames);
   parallel_chunks(lit_.size(), kFroxelsPerTask, [&](std::size_t begin, std::size_t end) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Froxels along rays, in the common subset of C++ and GLSL. The includer provides what media.inl.h
-// does, the type
+// requires, the type
 //   FroxelsRef  the froxels of a grid, each its source function times its weight, and the weight
 // and
 //   vec4 fetch_froxel(FroxelsRef froxels, uint index)
 
-/// The part of a ray that ends at a distance which is in a froxel and in fog.
+/// The part in a froxel and in fog of a ray that ends at `ray_end` [m].
 LAMBENT_FN FroxelSegment froxel_segment(FroxelGrid grid, MediaRef media, vec3 origin_ws,
                                         vec3 direction_ws, float ray_end, uint slice) {
   vec2 fog = fog_range(media, origin_ws, direction_ws, ray_end);
@@ -16,16 +16,17 @@ LAMBENT_FN FroxelSegment froxel_segment(FroxelGrid grid, MediaRef media, vec3 or
   return segment;
 }
 
-/// Share of the light at the segment's begin that fog at a distance extinguishes, a metre [1/m].
+/// Share of the light at the segment's begin that fog at this distance extinguishes per metre
+/// [1/m].
 LAMBENT_FN float extinction_at(MediaRef media, vec3 origin_ws, vec3 direction_ws,
                                FroxelSegment segment, float distance) {
   float passed = optical_depth(media, origin_ws, direction_ws, segment.begin, distance);
   return fog_density(media, origin_ws + distance * direction_ws) * exp(-passed);
 }
 
-/// A point of a segment, drawn as fog extinguishes light there, for a uniform number. The density
-/// of points is that of constant fog of the same optical depth; the weight makes up for the
-/// difference.
+/// Samples a point of a segment in proportion to the light extinguished there, from a uniform
+/// number. The density of points is that of constant fog of the same optical depth; the weight
+/// corrects for the difference.
 LAMBENT_FN FroxelPoint froxel_point(MediaRef media, vec3 origin_ws, vec3 direction_ws,
                                     FroxelSegment segment, float u) {
   FroxelPoint point = {0.0f, 0.0f};
@@ -40,12 +41,12 @@ LAMBENT_FN FroxelPoint froxel_point(MediaRef media, vec3 origin_ws, vec3 directi
   return point;
 }
 
-/// A point of a segment for the light of a lamp: where the lamp is near, drawn by the inverse
+/// Samples a point of a segment for the light of a lamp: where the lamp is near, by the inverse
 /// square of the distance to it (Kulla and Fajardo, "Importance Sampling Techniques for Path
-/// Tracing in Participating Media", EGSR 2012, sec. 4.1). How far from the lamp the ray passes is
-/// told by lamp_height() in place of the ray's own distance, so that light does not depend on where
-/// in the column the ray happens to run: rays that all but meet the lamp would be single bright
-/// froxels.
+/// Tracing in Participating Media", EGSR 2012, sec. 4.1). The distance at which the ray passes the
+/// lamp is replaced by `height`, see lamp_height(), so that light does not depend on where in the
+/// column the ray happens to run: rays that nearly hit the lamp would be single bright froxels.
+/// Where the lamp is not near, returns `otherwise`.
 LAMBENT_FN FroxelPoint lamp_point(MediaRef media, CameraRay ray, FroxelSegment segment,
                                   FroxelPoint otherwise, vec3 lamp_ws, float height, float u) {
   vec3 to_lamp = lamp_ws - ray.origin_ws;
@@ -64,7 +65,7 @@ LAMBENT_FN FroxelPoint lamp_point(MediaRef media, CameraRay ray, FroxelSegment s
   return point;
 }
 
-/// A froxel's value, with those of the froxels around it where there are any.
+/// A froxel's value, filtered with those of the froxels around it.
 LAMBENT_FN vec4 smoothed_froxel(FroxelGrid grid, FroxelsRef froxels, uint column, uint row,
                                 uint slice) {
   vec4 sum = vec4(0.0f);
@@ -77,7 +78,7 @@ LAMBENT_FN vec4 smoothed_froxel(FroxelGrid grid, FroxelsRef froxels, uint column
       for (int z = -1; z <= 1; ++z) {
         int at_z = int(slice) + z;
         if (at_z < 0 || at_z >= int(grid.slices)) continue;
-        // The binomial filter of three along each axis
+        // Weight by the binomial filter of three along each axis
         float weight = (x == 0 ? 2.0f : 1.0f) * (y == 0 ? 2.0f : 1.0f) * (z == 0 ? 2.0f : 1.0f);
         sum +=
             weight * fetch_froxel(froxels, froxel_index(grid, uint(at_x), uint(at_y), uint(at_z)));
@@ -87,10 +88,10 @@ LAMBENT_FN vec4 smoothed_froxel(FroxelGrid grid, FroxelsRef froxels, uint column
   return sum * (1.0f / 64.0f);
 }
 
-/// Froxels of one slice around a point of the picture.
+/// The four columns around a point of the picture.
 struct FroxelTaps {
   uint columns[4];   ///< Index of each column's first froxel.
-  float weights[4];  ///< Sum to 1.
+  float weights[4];  ///< Bilinear weights; they sum to 1.
 };
 
 LAMBENT_FN FroxelTaps froxel_taps(FroxelGrid grid, vec2 pixel) {
@@ -110,7 +111,7 @@ LAMBENT_FN FroxelTaps froxel_taps(FroxelGrid grid, vec2 pixel) {
   return taps;
 }
 
-/// What froxels of a slice hold, between columns.
+/// Bilinear interpolation of a slice's froxels between columns.
 LAMBENT_FN vec4 froxel_between(FroxelsRef froxels, FroxelTaps taps, uint slice) {
   vec4 sum = vec4(0.0f);
   for (int k = 0; k < 4; ++k) {
@@ -121,9 +122,9 @@ LAMBENT_FN vec4 froxel_between(FroxelsRef froxels, FroxelTaps taps, uint slice) 
   return sum;
 }
 
-/// What fog does to light along a ray that ends at a distance: the radiance that it scatters to the
-/// camera (RGB), and the share of light from the ray's end that it lets through (A). The sum over
-/// slices of [source function * (transmittance to the slice's begin - to its end)].
+/// The effect of fog on light along a ray that ends at `ray_end` [m]: the radiance that it scatters
+/// to the camera (RGB), and its transmittance (A). The radiance is the sum over slices of
+/// [source function * (transmittance to the slice's begin - to its end)].
 LAMBENT_FN vec4 fog_along(FroxelGrid grid, MediaRef media, FroxelsRef froxels, vec2 pixel,
                           vec3 origin_ws, vec3 direction_ws, float ray_end) {
   vec2 fog = fog_range(media, origin_ws, direction_ws, ray_end);
@@ -139,7 +140,7 @@ LAMBENT_FN vec4 fog_along(FroxelGrid grid, MediaRef media, FroxelsRef froxels, v
     float end = slice == last ? fog.y : clamp(slice_begin(grid, slice + 1u), begin, fog.y);
     depth += optical_depth(media, origin_ws, direction_ws, begin, end);
     float left = exp(-depth);
-    // Where no froxel has light, as no ray of theirs came so far, that of the slice before goes on
+    // Where froxels have no light, as none of their rays came so far, use the previous slice's
     vec4 held = froxel_between(froxels, taps, slice);
     if (held.w > kLeastFroxelWeight) source = vec3(held) / held.w;
     scattered += source * (passed - left);
@@ -147,16 +148,16 @@ LAMBENT_FN vec4 fog_along(FroxelGrid grid, MediaRef media, FroxelsRef froxels, v
     begin = end;
     if (passed < kOpaque) break;
   }
-  // The rest of what is opaque is as bright as what was last
+  // The remainder behind opaque fog is as bright as the last slice
   if (passed < kOpaque) return vec4(scattered + source * passed, 0.0f);
   return vec4(scattered, passed);
 }
 
-/// What a froxel held in the frame before, where its middle was then; all 0 outside that view.
+/// A froxel's value in the previous frame, at the place of its middle; all 0 outside that view.
 LAMBENT_FN vec4 froxel_before(FroxelGrid before, FroxelsRef froxels, vec3 middle_ws) {
   ImagePoint seen = image_point(before.camera, middle_ws);
   vec2 at = seen.pixel / before.pixels;
-  // Written so that what is not a number is outside
+  // Written so that NaN is outside
   bool inside = seen.depth > 0.0f && at.x >= 0.0f && at.y >= 0.0f &&
                 at.x <= float(before.columns) && at.y <= float(before.rows);
   if (!inside) return vec4(0.0f);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A lookup interpolates between probes, so light and shade finer than their spacing is lost: what
-// is close to a surface but not to a probe does not darken it. A gather replaces the last bounce of
-// the lookup by rays and leaves the others to the field. Ward, Rubinstein and Clear, "A Ray Tracing
-// Solution for Diffuse Interreflection", SIGGRAPH 1988; Jensen, "Global Illumination using Photon
-// Maps", 1996, sec. 5 (the field in place of the photon map).
+// A lookup interpolates between probes, so that light and shade finer than their spacing is lost:
+// an occluder near a surface, but not near a probe, does not darken it. A gather replaces the last
+// bounce of the lookup by rays and takes the other bounces from the field. Ward, Rubinstein and
+// Clear, "A Ray Tracing Solution for Diffuse Interreflection", SIGGRAPH 1988; Jensen, "Global
+// Illumination using Photon Maps", 1996, sec. 5 (the field in place of the photon map).
 #include "gather/gather.h"
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 256;
 
-/// A run of pixels, of which those that show a surface gather light.
+/// A run of pixels. Those that show a surface gather light.
 class GatherChunk {
  public:
   GatherChunk(const World& world, const GatherRequest& request, std::size_t begin, std::size_t end)
@@ -34,13 +34,14 @@ class GatherChunk {
     }
   }
 
-  /// Traces the rays and lights what they meet directly; returns the rays traced.
+  /// Traces the rays and computes the direct light at their hits; returns the number of rays
+  /// traced.
   std::uint64_t trace(const ShadeHitsSettings& shading) {
     std::uint64_t traced = rays_.size();
     std::vector<Hit> hits(rays_.size());
     shaded_.resize(rays_.size());
     tracer_of(world_).closest_hits(rays_, hits);
-    // Runs of pixels that all show a surface are shaded together
+    // Shade runs of neighbouring pixels together
     for (std::size_t first = 0, end_of_run; first < pixels_.size(); first = end_of_run) {
       end_of_run = first + 1;
       while (end_of_run < pixels_.size() && pixels_[end_of_run] == pixels_[end_of_run - 1] + 1) {
@@ -56,7 +57,7 @@ class GatherChunk {
     return traced;
   }
 
-  /// Lights the hits by the field and sums up what the rays of each pixel bring.
+  /// Adds the field's light at the hits, and sums up each pixel's rays.
   void light(const IrradianceField& field, GatheredLight& light) const {
     std::vector<FieldQuery> queries(rays_.size());
     std::vector<vec3> from_field(rays_.size());
@@ -74,7 +75,7 @@ class GatherChunk {
       vec3 sum(0.0f), excess(0.0f);
       float luminances = 0.0f, squares = 0.0f;
       for (std::size_t r = p * rays_per_pixel_; r < (p + 1) * rays_per_pixel_; ++r) {
-        // A bent normal's hemisphere reaches below the surface, where no light comes from
+        // A bent normal's hemisphere reaches below the surface, from where no light comes
         if (dot(geometric_normal_ws, rays_[r].direction) <= 0.0f) continue;
         // Rays are drawn in proportion to the cosine: irradiance is pi times their mean radiance
         const vec3 brought =

@@ -16,27 +16,28 @@ namespace lambent {
 /// Pixels of some rows of a picture, and how their light is gathered.
 struct GatherRequest {
   std::span<const Surface> surfaces;   ///< Undefined where `seen` is 0.
-  std::span<const std::uint8_t> seen;  ///< 1 where a surface is.
-  int width = 0;                       ///< Pixels of a row.
-  int first_row = 0;                   ///< Of the picture.
+  std::span<const std::uint8_t> seen;  ///< 1 where the pixel shows a surface.
+  int width = 0;                       ///< Width of a row [pixels].
+  int first_row = 0;                   ///< First row, counted in the picture.
   int rays_per_pixel = 1;              ///< >= 1.
-  std::uint32_t sample = 0;            ///< Which of the pixel's samples; no two have the same rays.
+  std::uint32_t sample = 0;            ///< Index of the sample; each has other rays.
   std::uint32_t seed = 1;
-  /// Irradiance that the field knows at each pixel; empty: nothing is kept apart as excess.
+  /// Irradiance from lookups of the field at each pixel; empty: no excess is split off.
   std::span<const glm::vec3> known = {};
 };
 
-/// What the rays of pixels brought, an element a pixel.
+/// The gathered light, one element a pixel.
 struct GatheredLight {
   std::vector<glm::vec3> irradiance;  ///< [W/m^2]; 0 where nothing is seen.
-  /// Of the irradiance's luminance; empty where pixels have one ray, which tells nothing of it.
+  /// Variance of the irradiance's luminance; empty where a pixel has one ray, which has none to
+  /// measure.
   std::vector<float> variance;
-  /// What rays brought that are far brighter than the light known there, and `irradiance` is
-  /// without; empty where there are none.
+  /// Irradiance that rays add beyond kBrightestRay times `known`; `irradiance` does not include it.
+  /// Empty where `known` is.
   std::vector<glm::vec3> excess;
 };
 
-/// Returns the rays traced, shadow rays included.
+/// Gathers the pixels' irradiance. Returns the number of rays traced, including shadow rays.
 std::uint64_t gather_irradiance(const World& world, const IrradianceField& field,
                                 const GatherRequest& request, GatheredLight& light);
 

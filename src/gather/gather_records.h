@@ -8,24 +8,24 @@
 
 LAMBENT_BEGIN
 
-/// Rays that gather the light of pixels, `rays_per_pixel` each, and the index of each pixel's first
-/// one.
+/// Makes the rays that gather the light of pixels, `rays_per_pixel` each, and writes the index of
+/// each pixel's first one.
 struct GatherRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   RayArray rays;
   UintArray first_indices;
-  uint first;        ///< Of the band's pixels.
-  uint count;        ///< From there on.
-  uint first_pixel;  ///< Of the band.
-  uint width;        ///< Of the picture [pixels].
+  uint first;        ///< First of these pixels in the band.
+  uint count;        ///< Number of pixels.
+  uint first_pixel;  ///< The band's first pixel in the picture.
+  uint width;        ///< Width of the picture [pixels].
   uint rays_per_pixel;
-  uint index;  ///< Of the sample.
+  uint index;  ///< Index of the sample.
   uint seed;
   uint padding;
 };
 
-/// Where rays ask the field for light.
+/// Writes the field queries at the hits of rays.
 struct RayQueriesArguments {
   LitPointArray points;
   RayArray rays;
@@ -34,18 +34,18 @@ struct RayQueriesArguments {
   uint padding;
 };
 
-/// Irradiance of pixels from what their rays gathered.
+/// Computes the irradiance of pixels from what their rays gathered.
 struct GatherSumArguments {
-  LitPointArray points;        ///< Of the band's pixels,
-  PixelSurfaceArray surfaces;  ///< and what these show.
+  LitPointArray points;        ///< One for each pixel of the band.
+  PixelSurfaceArray surfaces;  ///< One for each pixel of the band.
   RayArray rays;
   ShadedHitArray shaded;
-  Vec3Array direct;  ///< Irradiance of what the rays met, from lights,
-  Vec3Array field;   ///< and from the field.
+  Vec3Array direct;  ///< Irradiance at the rays' hits from lights.
+  Vec3Array field;   ///< Irradiance at the rays' hits from the field.
   Vec3Array irradiance;
-  FloatArray variance;  ///< Of its luminance; written where a pixel has more than one ray.
-  Vec3Array known;      ///< Irradiance that the field knows; read where keeps_excess is 1.
-  Vec3Array excess;     ///< As in GatheredLight; written there.
+  FloatArray variance;  ///< Variance of its luminance; written where a pixel has several rays.
+  Vec3Array known;      ///< Irradiance from lookups of the field; read where keeps_excess is 1.
+  Vec3Array excess;     ///< See GatheredLight; written where keeps_excess is 1.
   uint first;
   uint count;
   uint rays_per_pixel;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the library is built without the CPU backend, nothing is worked on in lanes.
+// Without the CPU backend, the sums over neighbouring rays have no implementation on the processor.
 #include <stdexcept>
 
 #include "glossy/reuse_lanes.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that coats send out, or that go through surfaces, and their ways through the scene.
+// Rays of the specular lobes of pixels ("coats": the GGX layer of a surface), rays through
+// transmissive surfaces, and their paths through the scene.
 #ifndef LAMBENT_GLOSSY_COAT_PATH_H
 #define LAMBENT_GLOSSY_COAT_PATH_H
 
@@ -7,65 +8,69 @@
 
 LAMBENT_BEGIN
 
-/// The ray that a pixel's coat sends out, or the pixel through its surface, and what it brings.
+/// The ray that a pixel's coat, or a pixel's transmissive surface, sends out, and the light that
+/// its path gathers.
 struct CoatRay {
   vec3 direction_ws;  ///< Unit.
-  float distance;     ///< As of distance_met [m]; infinite: it left the scene; below 0: see pdf.
-  vec3 radiance;      ///< But for `apart` [W/(m^2 sr)].
-  float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; less: it went
-                      ///< into the surface and brings nothing. Of rays through surfaces 0, and
-                      ///< their distance is below 0 where there is none.
-  vec3 apart;         ///< Light that is kept apart, see CoatPath::stage [W/(m^2 sr)].
+  float distance;     ///< See distance_met() [m]; infinite: it left the scene; below 0: see pdf.
+  vec3 radiance;      ///< Light of the path without `apart` [W/(m^2 sr)].
+  float pdf;          ///< Density with which it was drawn [1/sr]; 0: there is no ray; below 0: the
+                      ///< direction drawn points into the surface, and no light comes from there.
+                      ///< Rays through surfaces have 0; where there is no such ray, `distance` is
+                      ///< below 0.
+  vec3 apart;         ///< Light that is stored apart, see CoatPath::stage [W/(m^2 sr)].
 };
 LAMBENT_DEVICE_ARRAY(CoatRayArray, CoatRay, 4)
 
-// CoatPath::stage: where a way has come to, and which light that it meets CoatRay::apart keeps
-// apart.
-/// It left the pixel's surface, or a coat that it met. Nothing is kept apart.
+// Values of CoatPath::stage: what a path has hit so far, and hence which light of its next hits is
+// stored in CoatRay::apart.
+/// It left the pixel's surface, or a coat that it hit. Nothing is stored apart.
 const uint kStageOther = 0u;
-/// It left the pixel's coat, and no other one has reflected it. What emissive surfaces send is kept
-/// apart, for the pixel's direct light samples that, too.
+/// It left the pixel's coat, and no other coat has reflected it. The emission that it hits is
+/// stored apart, as the pixel's direct light samples it, too.
 const uint kStageOwnCoat = 1u;
-/// It came through glass to the first surface that lets no light through. Nothing is kept apart.
+/// It came through glass to the first opaque surface. Nothing is stored apart.
 const uint kStageBehindGlass = 2u;
-/// It left the coat of that surface, and met nothing but glass since. All light is kept apart.
+/// It left the coat of that surface, and has hit nothing but glass since. All light is stored
+/// apart.
 const uint kStageCoatBehindGlass = 3u;
-/// It left the coat of that surface, and met something else than glass. All light is kept apart.
+/// It left the coat of that surface, and has hit something else than glass. All light is stored
+/// apart.
 const uint kStageBeyondCoat = 4u;
 
-// CoatPath::fork: whether a way is followed both through glass that it meets and back from there.
-/// No: chance decides.
+// Values of CoatPath::fork: whether a path splits at glass into a refracted and a reflected branch.
+/// It does not split: at each surface one of the two directions is drawn at random.
 const uint kForksNowhere = 0u;
-/// It will be, at the first sharp surface where light does both.
+/// It splits at the first smooth surface that both transmits and reflects.
 const uint kForksNext = 1u;
-/// It is what goes on through the surface that it has met just now.
+/// It has just split, and this is the transmitted branch.
 const uint kForkCrosses = 2u;
-/// It is what was reflected there. These ways are followed once all others have ended.
+/// It is the reflected branch of a split. These paths are traced after all others have ended.
 const uint kForkReflected = 3u;
 
-/// A ray's way through the scene.
+/// The state of a path through the scene.
 struct CoatPath {
-  vec3 throughput;  ///< Share of the light that the ray meets next which the pixel's ray brings.
+  vec3 throughput;  ///< Factor from the radiance of the next hit to that of the pixel's ray.
   float pdf;        ///< Density with which the direction was drawn in which it left the last coat;
-                    ///< 0: the way has ended.
-  float alpha;      ///< GGX width of the widest lobe on the way.
+                    ///< 0: the path has ended.
+  float alpha;      ///< GGX width of the widest lobe on the path.
   uint stage;       ///< kStageOther, ...
   uint fork;        ///< kForksNowhere, ...
 };
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
-/// CoatPath::pdf of ways whose lights nobody else looks for: those that begin through a surface.
+/// CoatPath::pdf of paths that begin through a surface: no other estimator samples their emitters.
 const float kFoundByNobodyElse = 1e30f;
 
-/// Distances to what rays met count as this long at least [m], so that one over them is a number.
+/// Least distance to hits [m], so that its reciprocal is finite.
 const float kLeastSeenDistance = 1e-4f;
 
-/// The distance to what a pixel's ray met [m]; below 0 where there is no ray.
+/// The distance to the hit of a pixel's ray [m]; below 0 where there is no ray.
 LAMBENT_FN float seen_distance(CoatRay ray) {
   return ray.pdf > 0.0f ? ray.distance : -1.0f;
 }
 
-/// One over the distance to what a ray met [1/m]; 0 where it met nothing.
+/// One over the distance to a ray's hit [1/m]; 0 where it left the scene.
 LAMBENT_FN float inverse_seen_distance(float distance) {
   return floatBitsToUint(distance) == kMissedDistanceBits
              ? 0.0f

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that coats send out, what they bring, and what a coat makes of the rays around it.
+// Specular rays, and the light that a coat (a surface's GGX layer) reflects from the rays of its
+// own pixel and of neighbouring ones.
 //
 // Based on: Heitz, "Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018; Stachowiak,
 // "Stochastic Screen-Space Reflections", SIGGRAPH courses 2015 (rays of neighbours, each with the
@@ -18,7 +19,7 @@
 
 LAMBENT_BEGIN
 
-/// Pixels to each side of one whose rays it takes, along a row; and rows of rays.
+/// Reach of ray reuse: in pixels to each side along a row, and in rows that have rays up and down.
 const int kReuse = 2;
 
 // Coats up to this roughness have a ray at every pixel, whatever the rows between rays: their lobes
@@ -26,48 +27,50 @@ const int kReuse = 2;
 // surface, so that neighbours' rays do not help.
 const float kEveryPixelRoughness = 0.5f;
 
-/// Surfaces that a ray meets in all, with those that it crosses.
+/// Most surfaces that a path hits, counting those that it passes through.
 const uint kMaxWays = 12u;
 
-/// A ray goes on from coats that it meets up to this often; the field's light ends it ...
+/// Most coats that a path is reflected from after the pixel's own. Beyond that, the field supplies
+/// the coat's light.
 const uint kMaxCoatBounces = 4u;
 
-/// ... where the light that is met next would count by at least this share in the pixel's ray.
+/// A path goes on from a coat only where the largest channel of its throughput would stay at least
+/// this.
 const float kMinThroughput = 0.1f;
 
-/// GGX width of coats that end a ray, at least: of roughness 0.5. The samples of their direct light
-/// cannot find a lamp in narrower lobes.
+/// Least GGX width of a coat that ends a path: that of roughness 0.5. The samples of its direct
+/// light cannot find a lamp in narrower lobes.
 const float kLeastEndAlpha = 0.25f;
 
-/// Share of its own ray that a pixel has for each pixel around it: one over the rays in reach.
+/// Share of a pixel's own ray that is combined with each neighbour: one over the rays in reach.
 const float kOwnShare = 1.0f / 16.0f;
 
-/// Most that a ray weighs where a pixel has none of its own. One that was drawn far off its own
-/// lobe, and by chance falls into the pixel's, would outweigh all others.
+/// Largest weight of a ray at a pixel that has none of its own. A ray that was drawn far off its
+/// own lobe, and by chance falls into the pixel's, would outweigh all others.
 const float kMaxReuseWeight = 4.0f;
 
-/// So many rays that fit a lobe, or more, tell its albedo well enough to correct their mean by the
-/// known one.
+/// From this many rays that fit a lobe, its reflected light is their mean times the lobe's known
+/// albedo.
 const float kRaysOfMean = 4.0f;
 
-/// Neighbours of less weight count for nothing: one over it would be no number.
+/// Neighbours of less weight are skipped: the reciprocal of their weight would be infinite.
 const float kLeastPixelWeight = 1e-12f;
 
-/// Least of the sums of weights times the Fresnel term that light is divided by: that of
-/// kLeastPixelWeight where a coat reflects one part in 1e8.
+/// Lower bound of the divisor of light, a sum of weights times the Fresnel term: kLeastPixelWeight
+/// where a coat reflects one part in 1e8.
 const float kLeastReflected = 1e-20f;
 
-/// Neighbours count for nothing this far from a pixel's plane [pixels' widths at its depth]: the
-/// plane of a sphere of few pixels falls off as much over the pixels in reach.
+/// Neighbours this far from a pixel's plane have no weight [pixel widths at its depth]: the surface
+/// of a sphere that covers few pixels curves away as much from its tangent plane within the reach.
 const float kPlaneTolerance = 4.0f;
 
-// Keep the random numbers of rays and of lights at what they meet apart from those of other passes.
+// Salts that make the random numbers of these passes independent of those of other passes.
 const uint kCoatSalt = 0x434F4154u;
 const uint kCoatBounceSalt = 0x9E3779B9u;
 const uint kThroughSalt = 0x5448524Fu;
 const uint kClearcoatSalt = 0x434C5243u;
 
-/// The seed of the random numbers of clearcoats' rays, by the frame's.
+/// The seed of the random numbers of clearcoats' rays, given the frame's seed.
 LAMBENT_FN uint clearcoat_seed(uint seed) {
   return seed ^ kClearcoatSalt;
 }
@@ -77,17 +80,17 @@ LAMBENT_FN vec3 clearcoat_normal_ws(SurfaceLayers layers, vec3 normal_ws) {
   return to_world(make_frame(normal_ws), layers.clearcoat_normal);
 }
 
-/// The salt of a sample's random numbers at what rays meet on their way's bounce 1, 2, ...
+/// The salt of a sample's random numbers at the hits of bounce 1, 2, ...
 LAMBENT_FN uint coat_salt(uint sample_index, uint bounce) {
   return (sample_index ^ kCoatSalt) + bounce * kCoatBounceSalt;
 }
 
-/// Whether a row has rays, of every `rows`-th one; the next sample has those of the next row.
+/// Whether a row has rays: every `rows`-th does, and each sample moves on to the next rows.
 LAMBENT_FN bool has_coat_rays(int row, uint sample_index, uint rows) {
   return (uint(row) + sample_index) % rows == 0u;
 }
 
-/// Whether a pixel has a ray.
+/// Whether a pixel traces a specular ray.
 LAMBENT_FN bool traces_coat(Reflectance surface, float coat_share, int row, uint sample_index,
                             uint rows) {
   if (coat_share <= 0.0f) return false;
@@ -95,20 +98,20 @@ LAMBENT_FN bool traces_coat(Reflectance surface, float coat_share, int row, uint
   return sharp || has_coat_rays(row, sample_index, rows);
 }
 
-/// Where in the unit square a pixel draws its ray.
+/// The point in the unit square from which a pixel draws its ray.
 LAMBENT_FN vec2 coat_uniforms(uvec2 pixel, uint sample_index, uint rows, uint seed) {
   return pixel_point(pixel.x, pixel.y / rows, 0u, 1u, sample_index, seed ^ kCoatSalt);
 }
 
-/// A direction drawn of a coat's lobe.
+/// A direction drawn from a coat's lobe.
 struct CoatDraw {
   vec3 direction_ws;
-  float pdf;    ///< [1/sr]; 0: it is below the surface, where no light comes from.
-  vec3 weight;  ///< Share of the light from there that the coat reflects.
+  float pdf;    ///< [1/sr]; 0: the direction is below the surface.
+  vec3 weight;  ///< BRDF times cosine over pdf.
 };
 
-/// Walter et al. 2007, Eq. 33, of a half vector: exact for the narrowest lobes, too, where the
-/// cosine alone tells nothing.
+/// Walter et al. 2007, Eq. 33, as a function of the half vector. Exact for the narrowest lobes,
+/// too, for which the cosine alone rounds to 1.
 LAMBENT_FN float ggx_density(vec3 normal, vec3 h, float alpha) {
   float a2 = alpha * alpha;
   float cosine = dot(normal, h);
@@ -134,18 +137,18 @@ LAMBENT_FN CoatDraw draw_coat_ray(Reflectance surface, Frame frame, vec3 to_view
   return drawn;
 }
 
-/// Where a coat's light comes from on average: the rougher, the nearer to the normal. Lagarde and
-/// de Rousiers, "Moving Frostbite to PBR", SIGGRAPH courses 2014, sec. 4.9.3.
+/// The mean direction of the light that a coat reflects: the rougher, the nearer to the normal.
+/// Lagarde and de Rousiers, "Moving Frostbite to PBR", SIGGRAPH courses 2014, sec. 4.9.3.
 LAMBENT_FN vec3 coat_direction(vec3 normal_ws, vec3 to_viewer_ws, float alpha) {
-  // Filtered textures bring roughness to a rounding above 1
+  // Filtered textures can exceed a roughness of 1 by rounding
   float sharpness = max(1.0f - alpha, 0.0f);
   float mirrored = sharpness * (sqrt(sharpness) + alpha);
   vec3 mirror = reflect(-to_viewer_ws, normal_ws);
   return normalize(normal_ws + (mirror - normal_ws) * mirrored);
 }
 
-/// Where the coat and the clearcoat of a surface have their light from on average, both together:
-/// each counts by what it reflects. Of the coat only the share counts that has no rays.
+/// The mean direction of the light that a surface's coat and clearcoat reflect, each weighted by
+/// its albedo. The share of the coat's light that rays supply is left out.
 LAMBENT_FN vec3 coats_direction(Reflectance surface, float coat_share, vec3 normal_ws,
                                 vec3 to_viewer_ws) {
   vec3 of_coat = coat_direction(normal_ws, to_viewer_ws, surface.alpha);
@@ -157,19 +160,20 @@ LAMBENT_FN vec3 coats_direction(Reflectance surface, float coat_share, vec3 norm
   return normalize(of_coat * coat + of_clearcoat * clearcoat_albedo(surface.layers));
 }
 
-/// Radiance that a surface's base, under its coat, makes of indirect irradiance.
+/// Radiance that a surface's base, under its coat, reflects of indirect irradiance.
 LAMBENT_FN vec3 reflected_indirect(Reflectance reflectance, float n_dot_v, vec3 irradiance) {
   return base_albedo(reflectance, n_dot_v) * irradiance * kInvPi;
 }
 
-/// Radiance that its coat makes of the irradiance on a surface that faces coat_direction(); 0
-/// without a coat. Split sum, the field's cosine lobe in place of the coat's own.
+/// Radiance that a surface's coat reflects, given the irradiance on a surface that faces
+/// coat_direction(); 0 without a coat. Split sum, with the field's cosine lobe in place of the
+/// coat's own.
 LAMBENT_FN vec3 reflected_glossy(Reflectance reflectance, float n_dot_v, vec3 mirror_irradiance) {
   if (reflectance.f90 <= 0.0f) return vec3(0.0f);
   return specular_albedo(reflectance, n_dot_v) * mirror_irradiance * kInvPi;
 }
 
-/// A pixel's coat, where it is and to whom.
+/// The specular lobe of a pixel: its place, its frame and its width.
 struct CoatLobe {
   vec3 position_ws;
   vec3 geometric_normal_ws;
@@ -178,11 +182,11 @@ struct CoatLobe {
   float alpha;
 };
 
-/// What a lobe makes of light from a direction, and with which density it draws that [1/sr].
+/// A lobe's value for a direction of light, and the density with which it draws that direction.
 struct LobeValue {
-  float value;  ///< BRDF times cosine over the Fresnel term [1/sr]; 0 below the surface.
-  float pdf;
-  float v_dot_h;
+  float value;    ///< BRDF times cosine over the Fresnel term [1/sr]; 0 below the surface.
+  float pdf;      ///< [1/sr]
+  float v_dot_h;  ///< Cosine between the viewer and the half vector.
 };
 
 LAMBENT_FN LobeValue coat_lobe(CoatLobe of, vec3 direction_ws) {
@@ -198,7 +202,7 @@ LAMBENT_FN LobeValue coat_lobe(CoatLobe of, vec3 direction_ws) {
   return lobe;
 }
 
-/// The direction from `position_ws` to where a ray ends that starts at `origin_ws`.
+/// The direction from `position_ws` to the end of a ray that starts at `origin_ws`.
 LAMBENT_FN vec3 direction_to_end(vec3 position_ws, vec3 origin_ws, CoatRay ray) {
   if (floatBitsToUint(ray.distance) == kMissedDistanceBits) return ray.direction_ws;
   return normalize(ray.direction_ws * ray.distance + (origin_ws - position_ws));
@@ -208,7 +212,7 @@ LAMBENT_FN float inverse_plane_tolerance(CameraRecord camera, vec3 position_ws) 
   return 1.0f / (kPlaneTolerance * pixel_width(camera, position_ws));
 }
 
-/// A coat as it is seen through what lies on it, which takes the same share of the light of all of
+/// A coat as seen through the layers above it, which transmit the same share of the light of all of
 /// its rays.
 LAMBENT_FN Reflectance coat_under_layers(Reflectance surface, float n_dot_v) {
   if (!has_layers(surface.layers)) return surface;
@@ -220,19 +224,19 @@ LAMBENT_FN Reflectance coat_under_layers(Reflectance surface, float n_dot_v) {
   return seen;
 }
 
-/// A pixel that reflects rays, its own and those around it.
+/// A pixel whose coat reflects the light of its own ray and of those around it.
 struct CoatReceiver {
   CoatLobe lobe;
-  Reflectance reflectance;  ///< As of coat_under_layers().
+  Reflectance reflectance;  ///< See coat_under_layers().
   float inverse_tolerance;  ///< One over kPlaneTolerance pixels at its depth [1/m].
-  uint emitter_samples;     ///< Of its direct light; FrameSettings::emissive_samples.
-  CoatRay own;              ///< Of density 0 where it has no ray.
-  LobeValue at_own;         ///< Its lobe there.
-  vec3 mirror_ws;           ///< Where its lobe is about densest, and how dense it is there [1/sr].
-  float mirror_pdf;
+  uint emitter_samples;     ///< Samples of its direct light; FrameSettings::emissive_samples.
+  CoatRay own;              ///< The pixel's own ray; pdf 0 where it has none.
+  LobeValue at_own;         ///< The lobe's value for that ray.
+  vec3 mirror_ws;           ///< The mirror direction, where the lobe is about densest.
+  float mirror_pdf;         ///< The lobe's density there [1/sr].
 };
 
-/// Fills in what follows from a receiver's lobe and its own ray.
+/// Sets the fields that follow from a receiver's lobe and its own ray.
 LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
   LobeValue none = {0.0f, 0.0f, 0.0f};
   at.at_own = at.own.pdf > 0.0f ? coat_lobe(at.lobe, at.own.direction_ws) : none;
@@ -242,18 +246,18 @@ LAMBENT_FN void find_lobe(LAMBENT_INOUT(CoatReceiver) at) {
 
 /// Weighted sums over rays.
 struct CoatSums {
-  vec3 light;        ///< Reflected, but for what emissive surfaces send,
-  vec3 emission;     ///< and that.
-  float weight;      ///< Of the rays around, and
-  float schlick;     ///< of these each times Schlick's (1 - v_dot_h)^5 of its ray,
-  float own_weight;  ///< the weight of the pixel's own ray,
-  float pixels;      ///< and that of the pixels that rays were taken of;
-  float fitting;     ///< so many of these have the pixel's lobe.
+  vec3 light;        ///< Reflected light, without the emission that rays hit.
+  vec3 emission;     ///< Reflected light of the emission that rays hit.
+  float weight;      ///< Sum of the rays' weights.
+  float schlick;     ///< Sum of the weights times Schlick's (1 - v_dot_h)^5 of each ray.
+  float own_weight;  ///< Weight of the pixel's own ray.
+  float pixels;      ///< Sum of the weights of the pixels whose rays were taken.
+  float fitting;     ///< Part of `pixels` whose lobes match the receiver's.
 };
 
-/// Adds the light of a ray that a receiver's lobe gives this value, over the value and with this
-/// weight. What emitters send counts by the weight that rays of the receiver's own have: its direct
-/// light has left out as much.
+/// Adds the light of a ray with a weight, given the receiver's lobe for its direction. Emission is
+/// also multiplied by the multiple importance sampling weight that a ray of the receiver's own lobe
+/// has: its direct light has the rest.
 LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction_ws, CoatRay ray,
                                  float weight, LAMBENT_INOUT(CoatSums) sums) {
   if (dot(at.lobe.geometric_normal_ws, direction_ws) <= 0.0f) return;
@@ -262,13 +266,13 @@ LAMBENT_FN void add_light_of_ray(CoatReceiver at, LobeValue lobe, vec3 direction
   sums.emission += reflected * (found_emitter_weight(lobe.pdf, at.emitter_samples) * ray.apart);
 }
 
-/// Adds what a receiver makes of a neighbour's ray, and of its own beside that one.
+/// Adds the light of a neighbour's ray, and the weight of the receiver's own ray beside it.
 ///
-/// Where a ray ends is seen from both. Both rays could have ended there, drawn by the neighbour's
-/// lobe or by the receiver's, whose one ray is shared out among all neighbours: the two have the
-/// weights of the balance heuristic, which are bounded, for pairs of two densities (pairwise
-/// multiple importance sampling: Bitterli, "Correlations and Reuse for Fast and Accurate Physically
-/// Based Light Transport", 2022, ch. 9). Lobes that hardly overlap so leave each other alone.
+/// A ray's end is seen from both pixels: both lobes could have drawn it. The receiver's one ray is
+/// shared out among all neighbours, and each pair has the weights of the balance heuristic, which
+/// are bounded (pairwise multiple importance sampling: Bitterli, "Correlations and Reuse for Fast
+/// and Accurate Physically Based Light Transport", 2022, ch. 9). Lobes that hardly overlap
+/// therefore hardly affect each other.
 LAMBENT_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, float weight,
                              LAMBENT_INOUT(CoatSums) sums) {
   float similar =
@@ -297,7 +301,7 @@ LAMBENT_FN void add_coat_ray(CoatReceiver at, CoatLobe from, CoatRay ray, float 
   add_light_of_ray(at, lobe, direction, ray, pixel * w, sums);
 }
 
-/// Light that the receiver reflects by its own ray alone.
+/// Radiance that the receiver reflects, estimated from its own ray alone.
 LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
   CoatSums alone = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
   if (at.own.pdf > 0.0f) {
@@ -307,15 +311,17 @@ LAMBENT_FN vec3 reflected_own_ray(CoatReceiver at) {
   return alone.light + alone.emission;
 }
 
-/// Light that the receiver reflects. Where many rays around fit its lobe, it is their mean over
-/// what the lobe makes of them, times the known albedo of the lobe, and elsewhere what its own ray
-/// brings: rays that hardly fit would count now and then and for much, which is grain in mirrors.
-/// Both hold the Fresnel term: rays that meet the surface flatter have smaller weights and more of
-/// it, so that the mean of few rays would be short of light without. How much of either counts is
-/// decided by the lobes and not by the rays: where rays of large weights would decide for one and
-/// those of small ones against it, energy would be lost. A receiver without a ray of its own always
-/// takes the mean. What emitters send straight comes with weights of its own, by which a mean over
-/// the others would be off. Negative where there is no ray.
+/// Radiance that the receiver reflects; negative where there is no ray.
+///
+/// Where many rays around fit its lobe, it is their mean divided by the mean of the lobe's weights,
+/// times the known albedo of the lobe. Elsewhere it is the estimate of its own ray: rays that
+/// hardly fit count rarely and strongly, which is grain in mirrors. The divisor includes the
+/// Fresnel term: rays at grazing incidence have smaller weights and a larger Fresnel term, so that
+/// without it the mean of few rays would be too dark. The blend of the two depends on the lobes and
+/// not on the rays: if rays of large weights led to the one and rays of small weights to the other,
+/// energy would be lost. A receiver without a ray of its own always takes the mean. Emission has
+/// weights of multiple importance sampling already, so that it is divided by the weight of the
+/// pixels alone.
 LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
   if (sums.pixels <= 0.0f) return at.own.pdf == 0.0f ? vec3(-1.0f) : reflected_own_ray(at);
   if (sums.own_weight > 0.0f) {
@@ -326,7 +332,7 @@ LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
   float known = clamp((sums.fitting - 1.0f) / (kRaysOfMean - 1.0f), 0.0f, 1.0f);
   if (at.own.pdf == 0.0f) known = 1.0f;
   vec3 unknown = known < 1.0f ? reflected_own_ray(at) : vec3(0.0f);
-  // One over the smallest of weights is no number
+  // The reciprocal of the smallest weights is infinite
   if (sums.weight < kLeastPixelWeight) return at.own.pdf == 0.0f ? vec3(-1.0f) : unknown;
   if (known <= 0.0f) return unknown;
   vec3 reflected =
@@ -336,13 +342,13 @@ LAMBENT_FN vec3 reflected_rays(CoatReceiver at, CoatSums sums) {
   return mix(unknown, sums.light * scale + sums.emission / sums.pixels, known);
 }
 
-/// Light of reflected_rays() and 1; all 0 where there is no ray.
+/// The result of reflected_rays() and 1; all 0 where there is no ray.
 LAMBENT_FN vec4 light_by_rays(vec3 reflected) {
   return reflected.x < 0.0f ? vec4(0.0f) : vec4(reflected, 1.0f);
 }
 
-/// All that a pixel's coat reflects but for what lights sent it straight: by rays, if any reached
-/// it, and by the field for the rest.
+/// The light that a pixel's coat reflects, without the lights' direct light: from rays, if it has
+/// any, and from the field for the rest.
 LAMBENT_FN vec3 coat_light(Reflectance reflectance, float n_dot_v, float gi_share, vec4 by_rays,
                            vec3 mirror_irradiance) {
   if (gi_share <= 0.0f) return vec3(0.0f);
@@ -350,15 +356,15 @@ LAMBENT_FN vec3 coat_light(Reflectance reflectance, float n_dot_v, float gi_shar
          (1.0f - by_rays.w) * reflected_glossy(reflectance, n_dot_v, mirror_irradiance);
 }
 
-/// The same of a clearcoat without rays.
+/// The light that a clearcoat without rays reflects, from the field alone.
 LAMBENT_FN vec3 clearcoat_light(SurfaceLayers layers, float gi_share, vec3 mirror_irradiance) {
   if (gi_share <= 0.0f || !has_clearcoat(layers)) return vec3(0.0f);
   return clearcoat_albedo(layers) * mirror_irradiance * kInvPi;
 }
 
-/// All of that at a surface that a way met: of the coat, of whose light further rays bring
-/// `coat_share`, and of the clearcoat, which has all its light from the field, along
-/// coats_direction().
+/// The light that coat and clearcoat reflect at a path's hit. Further rays supply the share
+/// `coat_share` of the coat's light; the rest, and all light of the clearcoat, comes from the
+/// field, looked up along coats_direction().
 LAMBENT_FN vec3 coats_light(Reflectance reflectance, float n_dot_v, float gi_share,
                             float coat_share, vec3 mirror_irradiance) {
   return coat_light(reflectance, n_dot_v, gi_share, vec4(0.0f, 0.0f, 0.0f, coat_share),

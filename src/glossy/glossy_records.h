@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arguments of the kernels of reflections. Ways of rays that have not ended lie one after the other
-// in lists, in any order; everything else has an entry for each pixel of the rows around a band.
+// Arguments of the kernels of reflections. Lists hold the paths that have not ended, in any order;
+// all other arrays have an entry for each pixel of the rows around a band.
 #ifndef LAMBENT_GLOSSY_GLOSSY_RECORDS_H
 #define LAMBENT_GLOSSY_GLOSSY_RECORDS_H
 
@@ -10,25 +10,25 @@
 
 LAMBENT_BEGIN
 
-/// A list of ways that have not ended: what their next rays are, and whose they are.
+/// A list of paths that have not ended: their next rays, their state and their pixels.
 struct WayList {
   RayArray rays;
   RayConeArray cones;
   CoatPathArray paths;
-  UintArray pixels;  ///< Of the rows around a band.
-  UintArray count;   ///< One number: how many ways there are.
+  UintArray pixels;  ///< Index among the pixels of the rows around a band.
+  UintArray count;   ///< One number: the length of the list.
 };
 
-/// Draws the pixels' rays.
+/// Draws the specular rays of pixels.
 struct CoatRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  WayList ways;    ///< Which rays are appended to.
-  uint count;      ///< Pixels.
-  uint first_row;  ///< In the picture.
-  uint width;      ///< Of the picture [pixels].
-  uint rows;       ///< Every so manieth has rays.
+  WayList ways;    ///< Rays are appended here.
+  uint count;      ///< Number of pixels.
+  uint first_row;  ///< First row, counted in the picture.
+  uint width;      ///< Width of the picture [pixels].
+  uint rows;       ///< Every `rows`-th row has rays.
   uint sample_index;
   uint seed;
 };
@@ -38,42 +38,42 @@ struct ThroughRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  WayList ways;               ///< Which rays are appended to.
-  FloatArray coat_distances;  ///< As in struct TransmittedLight, a pixel each.
-  uint count;                 ///< Pixels.
-  uint first_index;           ///< Of the first one among those of the picture.
+  WayList ways;               ///< Rays are appended here.
+  FloatArray coat_distances;  ///< See TransmittedLight; one a pixel.
+  uint count;                 ///< Number of pixels.
+  uint first_index;           ///< Index of the first pixel in the picture.
   uint salt;
   uint seed;
 };
 
-/// What rays met becomes what shading reads, and questions to the field: two a way.
+/// Shades hits of the sky and of emitters, and writes two field queries for each path.
 struct CoatHitsArguments {
-  HitArray hits;  ///< A list, as are:
+  HitArray hits;  ///< One a path, as are the next five arrays (queries: two a path).
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatPathArray paths;
   UintArray pixels;
   QueryArray queries;
   CoatRayArray coat_rays;
-  FloatArray coat_distances;  ///< Of ways that bring light of coats behind glass.
-  uint count;                 ///< Ways.
+  FloatArray coat_distances;  ///< For paths that gather the light of coats behind glass.
+  uint count;                 ///< Number of paths.
   uint bounce;
-  uint emitter_samples;  ///< Of the direct light of what they meet.
-  uint first_index;      ///< Of the first pixel among those of the picture.
-  uint has_field;        ///< 1: there is a field to be asked.
+  uint emitter_samples;  ///< Samples of the direct light of their hits.
+  uint first_index;      ///< Index of the first pixel in the picture.
+  uint has_field;        ///< 1: there is a field to look up.
   uint padding;
 };
 
-/// Adds the light of what rays met, and lets ways go on.
+/// Adds the light that hits reflect, and appends the paths that go on.
 struct CoatLightArguments {
-  LitPointArray points;  ///< Lists:
+  LitPointArray points;  ///< One a path, as are the next six arrays (field: two a path).
   PixelSurfaceArray surfaces;
   Vec3Array diffuse;
   Vec3Array specular;
-  Vec3Array field;  ///< Answers, two a way.
+  Vec3Array field;  ///< Results of the field queries.
   CoatPathArray paths;
   UintArray pixels;
-  WayList next;  ///< Ways that go on are appended here.
+  WayList next;  ///< Paths that go on are appended here.
   CoatRayArray coat_rays;
   uint count;
   uint first_index;
@@ -83,13 +83,13 @@ struct CoatLightArguments {
   uint padding;
 };
 
-/// Keeps the branches that are reflected where ways fork.
+/// Appends the reflected branches of paths that split at glass.
 struct ForkWaysArguments {
-  LitPointArray points;  ///< Lists:
+  LitPointArray points;  ///< One a path, as are the next three arrays.
   PixelSurfaceArray surfaces;
   CoatPathArray paths;
   UintArray pixels;
-  WayList reflected;  ///< Branches are appended here.
+  WayList reflected;  ///< Reflected branches are appended here.
   uint count;
   uint first_index;
   uint salt;
@@ -98,7 +98,7 @@ struct ForkWaysArguments {
   uint padding;
 };
 
-/// Makes clearcoats coats.
+/// Replaces each surface's reflectance by that of its clearcoat alone.
 struct ShowClearcoatsArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
@@ -106,32 +106,32 @@ struct ShowClearcoatsArguments {
   uint padding;
 };
 
-/// Light of clearcoats of the band's pixels, which such surfaces have.
+/// Adds the clearcoats' light to the band's pixels, whose surfaces ShowClearcoatsArguments changed.
 struct ClearcoatLightArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
-  Vec4Array coats;  ///< As of Glossy::reflect; read where has_rays is 1.
+  Vec4Array coats;  ///< Result of Glossy::reflect; read where has_rays is 1.
   Vec3Array mirror_irradiance;
-  Vec3Array light;  ///< Is added to.
+  Vec3Array light;  ///< Light is added here.
   uint count;
   uint has_rays;
 };
 
-/// Has the band's pixels reflect the rays around them.
+/// Computes the light that the band's pixels reflect from the rays around them.
 struct CoatReuseArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  Vec4Array light;               ///< As in struct CoatLight, a pixel of the band each.
-  FloatArray inverse_distances;  ///< As there; written where `finds_distances` is 1.
+  Vec4Array light;               ///< See CoatLight; one a pixel of the band.
+  FloatArray inverse_distances;  ///< See CoatLight; written where `finds_distances` is 1.
   vec3 camera_ws;
   vec3 camera_back;   ///< Unit; against the direction of view.
-  float pixel_width;  ///< At a distance of one metre; of an orthographic camera everywhere.
+  float pixel_width;  ///< [m], at a distance of one metre; orthographic cameras: everywhere.
   uint orthographic;
-  uint first_row;  ///< Of the rows around the band.
-  uint band_row;   ///< The band's first.
-  uint count;      ///< Pixels of the band.
-  uint width;      ///< Of the picture [pixels].
+  uint first_row;  ///< First of the rows around the band, counted in the picture.
+  uint band_row;   ///< First row of the band, counted in the picture.
+  uint count;      ///< Number of pixels in the band.
+  uint width;      ///< Width of the picture [pixels].
   uint height;
   uint rows;
   uint sample_index;

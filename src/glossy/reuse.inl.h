@@ -7,9 +7,9 @@
 //   CoatRay fetch_ray(CoatViewRef view, ivec2 pixel)
 //   ivec2 view_size(CoatViewRef view)                    of the picture [pixels]
 
-/// Light of a pixel's coat by rays, and 1; all 0 where there is none near it. Rays are those of
-/// the pixels around it in every `rows`-th row, the outermost with half their weight, so that they
-/// weigh as much as 4 x 4 rays, and its own, which `at` has.
+/// Light of a pixel's coat from rays, and 1; all 0 where there is no ray near it. Takes the pixel's
+/// own ray, which `at` holds, and those of the pixels around it in every `rows`-th row. The
+/// outermost have half their weight, so that the total is that of 4 x 4 rays.
 LAMBENT_FN vec4 reuse_rays(CoatViewRef view, ivec2 pixel, CoatReceiver at, uint sample_index,
                            uint rows) {
   CoatSums sums = {vec3(0.0f), vec3(0.0f), 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Highway compiles this file once for each instruction set and picks the best that the machine
-// runs. No product and sum are fused, so that all of them compute the same bits.
+// Highway compiles this file once for each instruction set and picks the best one that the machine
+// supports. Products and sums are not fused, so that all of them compute the same bits.
 #include "glossy/reuse_lanes.h"
 
-// Sets whose instructions differ in nothing that is used here
+// Instruction sets that differ in nothing that is used here
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "glossy/reuse_lanes.cpp"
-// clang-format off: foreach_target comes first
+// clang-format off: foreach_target has to come first
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 // clang-format on
@@ -56,7 +56,7 @@ HWY_INLINE V3 where(Mask mask, V3 yes, V3 no) {
           hn::IfThenElse(mask, yes.z, no.z)};
 }
 
-/// Planes at some pixels.
+/// Planes of numbers, at the pixels of the lanes.
 struct Planes {
   const float* first;
   std::size_t pitch;
@@ -67,7 +67,7 @@ struct Planes {
   HWY_INLINE V3 three_at(int plane) const { return {at(plane), at(plane + 1), at(plane + 2)}; }
 };
 
-/// CoatLobe of pixels.
+/// CoatLobe of the pixels of the lanes.
 struct Lobes {
   V3 normal, viewer;
   V square_alpha, pdf_scale;
@@ -78,8 +78,8 @@ HWY_INLINE Lobes lobes_at(const Planes& pixels) {
           pixels.at(kLobePdfScale)};
 }
 
-/// Density of lobes towards directions, as of coat_lobe(); the half vectors and the cosines to the
-/// normals are left for more.
+/// Density of lobes towards directions, see coat_lobe(). Also returns the half vectors and the
+/// cosines to the normals, for later use.
 HWY_INLINE V lobe_pdf(const Lobes& of, V3 direction, V3& h, V& n_dot_l) {
   h = normalized(plus(of.viewer, direction));
   n_dot_l = dot(of.normal, direction);
@@ -90,7 +90,7 @@ HWY_INLINE V lobe_pdf(const Lobes& of, V3 direction, V3& h, V& n_dot_l) {
   return hn::IfThenElseZero(hn::Gt(n_dot_l, number(0.0f)), hn::Mul(density, of.pdf_scale));
 }
 
-/// ggx_lambda()
+/// Same as ggx_lambda().
 HWY_INLINE V lambda_of(V cosine, V square_alpha) {
   const V square = hn::Mul(cosine, cosine);
   const V tangent = hn::Div(hn::Max(number(0.0f), hn::Sub(number(1.0f), square)),
@@ -99,14 +99,15 @@ HWY_INLINE V lambda_of(V cosine, V square_alpha) {
   return hn::Mul(number(0.5f), hn::Sub(root, number(1.0f)));
 }
 
-/// Where rays end that start at one place, as seen from another: direction_to_end().
+/// Same as direction_to_end(): the directions from one place to the ends of rays that start at
+/// another.
 HWY_INLINE V3 directions_to_end(V3 from_ray_to_eye, V3 direction, V distance) {
   const Mask missed = hn::Eq(distance, number(infinity()));
   const V3 there = normalized(minus(times(direction, distance), from_ray_to_eye));
   return where(missed, direction, there);
 }
 
-/// Pixels that receive, and their sums.
+/// Pixels that receive the light of rays, and their sums.
 struct Receivers {
   V3 position, geometric_normal;
   Lobes lobes;
@@ -151,7 +152,7 @@ HWY_INLINE Receivers receivers_at(const Planes& coats, const Planes& more, uint 
   return at;
 }
 
-/// What relit_bilateral_weight() makes of neighbours.
+/// Same as relit_bilateral_weight().
 HWY_INLINE V similarity(const Receivers& at, V3 offset, V3 geometric_normal) {
   const V cosine = hn::Max(number(0.0f), dot(at.geometric_normal, geometric_normal));
   const V square = hn::Mul(cosine, cosine);
@@ -162,7 +163,7 @@ HWY_INLINE V similarity(const Receivers& at, V3 offset, V3 geometric_normal) {
                  hn::Max(number(0.0f), hn::Sub(number(1.0f), hn::Mul(beyond, beyond))));
 }
 
-/// schlick_power()
+/// Same as schlick_power().
 HWY_INLINE V schlick_of(V cosine) {
   const V one = number(1.0f);
   const V m = hn::Min(hn::Max(hn::Sub(one, cosine), number(0.0f)), one);
@@ -170,7 +171,7 @@ HWY_INLINE V schlick_of(V cosine) {
   return hn::Mul(hn::Mul(m2, m2), m);
 }
 
-/// add_light_of_ray(), of rays with these weights and of these powers of Schlick's.
+/// Same as add_light_of_ray(), for rays with these weights and powers of Schlick's approximation.
 HWY_INLINE void add_light(Receivers& at, const Planes& from, V m5, V lobe_pdf_there, V weight) {
   const V one = number(1.0f);
   const V3 reflected = times(plus(at.f0, times(at.to_f90, m5)), weight);
@@ -178,7 +179,7 @@ HWY_INLINE void add_light(Receivers& at, const Planes& from, V m5, V lobe_pdf_th
   at.light.x = hn::Add(at.light.x, hn::Mul(reflected.x, radiance.x));
   at.light.y = hn::Add(at.light.y, hn::Mul(reflected.y, radiance.y));
   at.light.z = hn::Add(at.light.z, hn::Mul(reflected.z, radiance.z));
-  // found_emitter_weight()
+  // Compute found_emitter_weight()
   const V ratio = hn::Div(at.emitter_density, lobe_pdf_there);
   const V found = hn::IfThenElseZero(hn::Gt(lobe_pdf_there, number(0.0f)),
                                      hn::Div(one, hn::Add(one, hn::Mul(ratio, ratio))));
@@ -188,7 +189,7 @@ HWY_INLINE void add_light(Receivers& at, const Planes& from, V m5, V lobe_pdf_th
   at.emission.z = hn::Add(at.emission.z, hn::Mul(reflected.z, emission.z));
 }
 
-/// add_coat_ray(), of a neighbour of each receiver.
+/// Same as add_coat_ray(), for one neighbour of each receiver.
 HWY_INLINE void add_rays(Receivers& at, const Planes& from, V weight) {
   const V zero = number(0.0f);
   const V ray_pdf = from.at(kRayPdf);
@@ -200,7 +201,7 @@ HWY_INLINE void add_rays(Receivers& at, const Planes& from, V weight) {
   pixel = hn::IfThenElseZero(counts, pixel);
   at.pixels = hn::Add(at.pixels, pixel);
 
-  // Find how much of the receivers' lobes neighbours have, and where their own rays would end
+  // Compute how well the neighbours' lobes fit, and the weights of the receivers' own rays
   V3 h;
   V n_dot_l;
   const Lobes lobes = lobes_at(from);
@@ -237,7 +238,7 @@ HWY_INLINE void add_rays(Receivers& at, const Planes& from, V weight) {
   add_light(at, from, m5, hn::IfThenElseZero(counts, pdf), hn::IfThenElseZero(counts, w));
 }
 
-/// Planes of sums at some pixels.
+/// Planes of sums, at the pixels of the lanes.
 struct SumPlanes {
   float* first;
   std::size_t pitch;

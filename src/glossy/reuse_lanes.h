@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sums of reuse.inl.h on the processor, for neighbouring pixels of a row together, a lane each.
+// The sums of reuse.inl.h on the processor, for neighbouring pixels of a row at once, one a lane.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace lambent {
 
-/// What neighbours read of a pixel, a plane a number; vectors are three planes.
+/// Numbers of a pixel that its neighbours read, one plane each; vectors are three planes.
 enum CoatPlane : int {
   kLobePosition = 0,
   kLobeGeometricNormal = 3,
   kLobeNormal = 6,
   kLobeViewer = 9,
   kLobeSquareAlpha = 12,
-  kLobePdfScale = 13,  ///< What the half vector's density is multiplied by; 0: seen from below.
-  kLobeLambda = 14,    ///< Of Smith, to the viewer.
+  kLobePdfScale = 13,  ///< Factor from the half vector's density to the pdf; 0: seen from below.
+  kLobeLambda = 14,    ///< Smith's lambda towards the viewer.
   kRayDirection = 15,
   kRayDistance = 18,
   kRayPdf = 19,
@@ -27,15 +27,15 @@ enum CoatPlane : int {
   kCoatPlanes = 26
 };
 
-/// What a pixel that receives needs besides.
+/// Further numbers of a pixel that receives the light of rays.
 enum ReceiverPlane : int {
-  kReceives = 0,  ///< 1: it does, and its sums are asked for.
+  kReceives = 0,  ///< 1: the pixel receives light, and its sums are computed.
   kOwnValue = 1,  ///< CoatReceiver::at_own
   kOwnLobePdf = 2,
   kMirror = 3,
   kInverseMirrorPdf = 6,  ///< 0 where there is no lobe.
-  kF0 = 7,                ///< fresnel() straight on,
-  kF90 = 10,              ///< and at grazing incidence.
+  kF0 = 7,                ///< fresnel() at normal incidence.
+  kF90 = 10,              ///< fresnel() at grazing incidence.
   kInverseTolerance = 13,
   kReceiverPlanes = 14
 };
@@ -52,11 +52,11 @@ enum SumPlane : int {
   kSumPlanes = 11
 };
 
-/// Rows of planes. There is room beside each row for what lanes and neighbours reach beyond it; it
-/// is all 0, which is no ray.
+/// Rows of planes. Each row is padded with zeros, which mean no ray, as lanes and neighbours reach
+/// beyond its ends.
 class RowPlanes {
  public:
-  /// Keeps what is there where the shape is the same.
+  /// Leaves the contents as they are where the shape is the same.
   void resize(int planes, int width, int rows) {
     const auto pitch = static_cast<std::size_t>(kBeside + width + kBeside);
     const std::size_t size =
@@ -66,13 +66,13 @@ class RowPlanes {
     pitch_ = pitch;
     numbers_.assign(size, 0.0f);
   }
-  /// Number of the row's first pixel; that of the next one follows.
+  /// Points to the number of the row's first pixel; those of the next pixels follow.
   float* at(int row, int plane) { return numbers_.data() + place(row, plane); }
   const float* at(int row, int plane) const { return numbers_.data() + place(row, plane); }
-  std::size_t pitch() const { return pitch_; }  ///< From plane to plane.
+  std::size_t pitch() const { return pitch_; }  ///< Numbers from one plane to the next.
 
  private:
-  static constexpr int kBeside = 16 + kReuse;  // lanes, and neighbours of the last one
+  static constexpr int kBeside = 16 + kReuse;  // the lanes, and the neighbours of the last one
   std::size_t place(int row, int plane) const {
     return (static_cast<std::size_t>(row) * static_cast<std::size_t>(planes_) +
             static_cast<std::size_t>(plane)) *
@@ -89,28 +89,28 @@ class RowPlanes {
 void set_coat(RowPlanes& coats, int row, int x, const CoatLobe& lobe, const CoatRay& ray);
 /// Writes that a pixel has no ray and does not receive.
 void set_no_coat(RowPlanes& coats, int row, int x);
-/// Writes what else a receiver needs.
+/// Writes the further numbers of a receiver.
 void set_receiver(RowPlanes& receivers, int row, int x, const CoatReceiver& at);
 
-/// A row of rays around that of the receivers.
+/// A row whose rays the receivers take.
 struct NeighbourRow {
-  int row;       ///< Of the planes.
-  float weight;  ///< Of its rays.
+  int row;       ///< Index of the row in the planes.
+  float weight;  ///< Weight of its rays.
   bool own;      ///< It is the receivers' own row.
 };
 
-/// Pixels of one row that take the rays around them.
+/// Pixels of one row that receive the light of the rays around them.
 struct ReuseRow {
   const RowPlanes& coats;
   const RowPlanes& receivers;
-  int row;           ///< Of the pixels, among the coats' rows.
-  int receiver_row;  ///< Among the receivers' rows, and the sums'.
+  int row;           ///< The pixels' row in `coats`.
+  int receiver_row;  ///< Their row in `receivers` and in the sums.
   int width;         ///< [pixels]
   uint emitter_samples;
   std::span<const NeighbourRow> around;
 };
 
-/// Sums up what pixels that receive make of the rays around them, as add_coat_ray().
+/// Computes the sums of the receiving pixels over the rays around them, see add_coat_ray().
 void reuse_row(const ReuseRow& row, RowPlanes& sums);
 
 /// The sums of a pixel.

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far away lies what coats see, in the common subset of C++ and GLSL. The includer provides the
-// type
+// Distance to the hits of the rays around a pixel, in the common subset of C++ and GLSL. The
+// includer provides the type
 //   CoatViewRef   pixels and their rays
 // and
-//   float fetch_distance(CoatViewRef view, ivec2 pixel)   to what its ray met [m]; below 0: no ray
+//   float fetch_distance(CoatViewRef view, ivec2 pixel)   to its ray's hit [m]; below 0: no ray
 //   ivec2 view_size(CoatViewRef view)                     of the picture [pixels]
 
-/// Mean of one over the distance to what a pixel's ray and those around it met [1/m]; 0 where none
-/// met anything. One ray alone would say little of what a rough coat sees, and rays that bring
-/// light would tell their pixels apart from others.
+/// Mean reciprocal of the distance to the hits of a pixel's ray and those around it [1/m]; 0 where
+/// none hit anything. A single ray says little about what a rough coat reflects, and the filter
+/// would treat a pixel whose ray found light differently from its neighbours.
 LAMBENT_FN float seen_inverse_distance(CoatViewRef view, ivec2 pixel, uint sample_index,
                                        uint rows) {
   ivec2 size = view_size(view);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where rays of coats, and rays through surfaces, go on from what they meet.
+// How paths continue from the surfaces that they hit.
 #ifndef LAMBENT_GLOSSY_WAY_MATH_H
 #define LAMBENT_GLOSSY_WAY_MATH_H
 
@@ -9,8 +9,8 @@
 
 LAMBENT_BEGIN
 
-/// Share of a coat's light that further rays bring where a ray met it: the `throughput` is the
-/// ray's so far.
+/// Share of a coat's light that further rays supply where a path hit it. `throughput` is the path's
+/// so far.
 LAMBENT_FN float further_coat_share(Reflectance surface, float n_dot_v, vec3 throughput,
                                     uint bounce) {
   if (bounce >= kMaxCoatBounces) return 0.0f;
@@ -20,11 +20,12 @@ LAMBENT_FN float further_coat_share(Reflectance surface, float n_dot_v, vec3 thr
   return max(carried.x, max(carried.y, carried.z)) < kMinThroughput ? 0.0f : share;
 }
 
-/// Takes a coat that a way met: returns the share of its light that further rays bring, and widens
-/// its lobe to the widest on the way, which blurs it as much, and to some roughness where no
-/// further ray looks for the lamps that it mirrors; none does for a clearcoat's. Narrower lobes
-/// would be found by hardly any ray, and be a spark where they are. Kaplanyan and Dachsbacher,
-/// "Path Space Regularization for Holistic and Robust Light Transport", Eurographics 2013.
+/// Prepares a coat that a path hit, and returns the share of its light that further rays supply.
+/// Widens its lobe to the widest on the path, which blurs it as much, and to at least
+/// kLeastEndAlpha where no further ray looks for the lamps that it mirrors; none does for a
+/// clearcoat's. Narrower lobes would be hit by hardly any ray, and would then be a bright speck.
+/// Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport",
+/// Eurographics 2013.
 LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
                            LAMBENT_INOUT(Reflectance) coat, CoatPath path) {
   coat.alpha = max(coat.alpha, path.alpha);
@@ -34,8 +35,8 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
   return share;
 }
 
-/// CoatRay::distance once its way has met what is next, so far from there [m]: the distance to what
-/// a ray met first, and of a way through surfaces that to the first which lets no light through.
+/// CoatRay::distance after a path's hit, which lies `further` from the one before [m]: the distance
+/// to the ray's first hit, or, of a path through surfaces, to the first opaque one.
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
   if (path.fork == kForkReflected) return so_far;
@@ -43,27 +44,27 @@ LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float fu
   return crossed_all ? so_far + further : so_far;
 }
 
-/// The distance to what a coat behind glass sees [m], which may lie behind further glass: the
-/// distance so far, below 0 where the coat's ray has met nothing yet, and what is to be added on
-/// the way of such a ray.
+/// The distance from an opaque surface behind glass to what its coat reflects [m], which may lie
+/// behind further glass. `so_far` is below 0 until the coat's ray has hit something; `further` is
+/// added on each hit of such a path.
 LAMBENT_FN float farther_seen(CoatPath path, float so_far, float further) {
   bool adds = path.stage == kStageCoatBehindGlass && path.fork != kForkReflected;
   return adds ? max(so_far, 0.0f) + further : so_far;
 }
 
-/// Whether a way has come to the first surface behind glass that lets no light through, whose light
-/// is kept apart to be filtered.
+/// Whether a path has reached the first opaque surface behind glass, whose light is stored apart to
+/// be filtered.
 LAMBENT_FN bool comes_behind_glass(CoatPath path, Transmission through) {
   return path.stage == kStageOther && path.fork != kForkReflected && !lets_light_through(through);
 }
 
-/// Branches count their bounces from here: none is on the first one, which finds distances.
+/// Bounce from which reflected branches count: distances are found on bounce 1, which none has.
 const uint kFirstBounceOfForks = 2u;
 
-// In place of the number by which chance decides for inner reflection where it is below its share.
+// Passed in place of the random number that decides on inner reflection, which is below its share.
 const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
-/// Adds light that a way met, but for what emissive surfaces send, to what its pixel's ray brings.
+/// Adds light at a path's hit, without its emission, to the light of its pixel's ray.
 LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
   if (path.stage >= kStageCoatBehindGlass) {
     ray.apart += path.throughput * light;
@@ -72,10 +73,10 @@ LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ra
   }
 }
 
-/// Adds what a surface emits that a way met to what its pixel's ray brings. The direct light of the
-/// coat that the way left last samples emitters, too, and the two estimates share them by weights.
-/// Coats that ways meet take `emitter_samples` samples. Those of pixels take others, and weigh
-/// what is kept apart themselves.
+/// Adds the emission at a path's hit to the light of its pixel's ray. The direct light of the coat
+/// that the path left last samples emitters, too, and multiple importance sampling combines the two
+/// estimates. Coats on paths take `emitter_samples` samples. Pixels' coats may take another number:
+/// their emission is stored apart, and weighted later.
 LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
                              LAMBENT_INOUT(CoatRay) ray) {
   if (path.stage == kStageOwnCoat) {
@@ -85,14 +86,14 @@ LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
   }
 }
 
-/// The tint without which light that comes through a surface is filtered.
+/// The tint that transmitted light is divided by before it is filtered.
 LAMBENT_FN vec3 filtered_tint(Transmission through) {
   return max(through.tint, vec3(kLeastFilteredAlbedo));
 }
 
 /// The lobe through which a rough surface shows what is behind it: that of a coat which faces away
-/// from the camera. Volumes spread light less than that, 0.6 times as wide where their ior is 1.5;
-/// they too are filtered over this lobe, see docs/math.md.
+/// from the camera. Volumes spread light less than that, 0.6 times as wide where their ior is 1.5,
+/// but are filtered over this lobe all the same, see docs/math.md.
 struct SeenLobe {
   vec3 to_viewer_ws;  ///< The viewer whose lobe such a coat would have; unit.
   float alpha;        ///< GGX width of its lobe; 0: what is behind is seen sharp.
@@ -103,20 +104,20 @@ LAMBENT_FN SeenLobe seen_lobe(Transmission through, vec3 normal_ws, vec3 to_view
   if (through.alpha <= kStraightAlpha) return lobe;
   vec3 onwards = -to_viewer_ws;
   if (through.kind != kCrossesPane) onwards = refract(-to_viewer_ws, normal_ws, through.eta);
-  if (onwards == vec3(0.0f)) return lobe;  // all is reflected inwards
+  if (onwards == vec3(0.0f)) return lobe;  // total internal reflection
   lobe.to_viewer_ws = reflect(-onwards, normal_ws);
   lobe.alpha = through.alpha;
   return lobe;
 }
 
-/// Where a way goes on.
+/// The ray on which a path continues.
 struct NextRay {
   vec3 direction_ws;
-  float side;  ///< 1: on the side of the surface that it came from; -1: behind it.
+  float side;  ///< 1: it starts on the side of the surface that the path came from; -1: behind it.
 };
 
-/// Has a way go on from a coat, of whose light further rays bring `coat_share`. The path's pdf
-/// becomes 0 where it does not go on.
+/// Continues a path by reflection from a coat, where further rays supply the share `coat_share` of
+/// its light. Sets the path's pdf to 0 where it ends.
 LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 normal_ws,
                                    vec3 geometric_normal_ws, vec3 to_viewer_ws, vec2 u,
                                    LAMBENT_INOUT(CoatPath) path) {
@@ -134,7 +135,7 @@ LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 norm
   return next;
 }
 
-/// Has a way go on through a surface, or from the inside of its volume.
+/// Continues a path through a surface, or from the inside of its volume, where it may be reflected.
 LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 normal_ws,
                                  vec3 to_viewer_ws, vec3 u, LAMBENT_INOUT(CoatPath) path) {
   ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
@@ -145,8 +146,8 @@ LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 no
   return next;
 }
 
-/// Probability with which a way that meets a surface on its so manieth bounce goes on through it.
-/// From the inside of a volume it always does: inner reflection is part of that.
+/// Probability with which a path goes on through the surface that it hit on bounce `bounce`. From
+/// the inside of a volume it is 1: go_on_through() decides on inner reflection.
 LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
                                  float n_dot_v, uint bounce) {
   if (bounce >= kMaxWays || !lets_light_through(through)) return 0.0f;
@@ -154,7 +155,7 @@ LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float c
                               coat_share * specular_albedo(coat, n_dot_v));
 }
 
-/// Whether a way is to be followed both through the surface that it met and back from there.
+/// Whether a path splits into a transmitted and a reflected branch at the surface that it hit.
 LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, float coat_share,
                       float n_dot_v, uint bounce) {
   if (path.fork != kForksNext || through.alpha > kStraightAlpha) return false;
@@ -163,8 +164,8 @@ LAMBENT_FN bool forks(CoatPath path, Transmission through, Reflectance coat, flo
   return crossing > 0.0f && crossing < 1.0f;
 }
 
-/// Has a way go on from what it met on its so manieth bounce: through the surface, or from its
-/// coat. Where it could do either, chance decides if the way does not fork.
+/// Continues a path from its hit on bounce `bounce`: through the surface, or by reflection from its
+/// coat. Where both are possible, one is drawn at random, unless the path has split there.
 LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_share, vec3 normal_ws,
                          vec3 geometric_normal_ws, vec3 to_viewer_ws, uint bounce,
                          RandomStream random, LAMBENT_INOUT(CoatPath) path) {
@@ -178,7 +179,7 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_shar
     return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, kNeverReflected), path);
   }
   float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce);
-  // Nothing further is drawn where nothing lets light through
+  // Draw no further number where the surface transmits nothing
   if (crossing > 0.0f && (crossing >= 1.0f || next_uniform(random) < crossing)) {
     path.throughput /= crossing;
     return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, next_uniform(random)),
@@ -188,8 +189,7 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_shar
   return go_on_from_coat(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u, path);
 }
 
-/// Where a way forks, has the branch that is reflected go on, and the way know that it is the
-/// other.
+/// Splits a path: returns the ray of the reflected branch, and marks `path` as the transmitted one.
 LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, float coat_share,
                                    vec3 normal_ws, vec3 geometric_normal_ws, vec3 to_viewer_ws,
                                    RandomStream random, LAMBENT_INOUT(CoatPath) path,

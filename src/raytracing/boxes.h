@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays against boxes.
+// Intersection tests of rays with boxes.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,7 +14,8 @@ inline bool overlap(const Bounds& a, const Bounds& b) {
   return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
 }
 
-/// Whether the ray meets the box between its origin and `t_max`. Kay and Kajiya, SIGGRAPH 1986.
+/// Whether the ray intersects the box between its origin and `t_max`. Kay and Kajiya, SIGGRAPH
+/// 1986.
 inline bool crosses(const Bounds& box, const glm::vec3& origin, const glm::vec3& direction,
                     float t_max) {
   float enter = 0.0f, leave = t_max;
@@ -32,7 +33,7 @@ inline bool crosses(const Bounds& box, const glm::vec3& origin, const glm::vec3&
   return enter <= leave;
 }
 
-/// Some boxes, and one around them all that most rays miss.
+/// A set of boxes, with a box around them all that most rays miss.
 class Boxes {
  public:
   void add(const Bounds& box) {
@@ -43,7 +44,7 @@ class Boxes {
   }
   bool empty() const { return boxes_.empty(); }
 
-  /// Whether the ray meets any of them.
+  /// Whether the ray intersects any of them.
   bool crossed_by(const glm::vec3& origin, const glm::vec3& direction, float t_max) const {
     if (boxes_.empty() || !crosses(around_, origin, direction, t_max)) return false;
     for (const Bounds& box : boxes_) {

@@ -18,7 +18,7 @@ struct CameraRecord {
   uint orthographic;
 };
 
-/// Where a ray comes from, and its way.
+/// Origin and direction of a ray of the camera.
 struct CameraRay {
   vec3 origin_ws;
   vec3 direction_ws;
@@ -43,13 +43,13 @@ LAMBENT_FN CameraRay camera_ray(CameraRecord camera, vec2 pixel) {
   return ray;
 }
 
-/// Where a picture shows a thing.
+/// The image of a point.
 struct ImagePoint {
-  vec2 pixel;   ///< As of camera_ray.
-  float depth;  ///< From the camera's plane [m]; not above 0: nowhere, as it is behind the camera.
+  vec2 pixel;   ///< See camera_ray().
+  float depth;  ///< From the camera's plane [m]; not above 0: the point is behind the camera.
 };
 
-/// A vector by its parts along the camera's axes, which need not be at right angles.
+/// Components of a vector along the camera's axes, which need not be orthogonal.
 LAMBENT_FN vec3 along_axes(CameraRecord camera, vec3 vector_ws) {
   vec3 across_right = cross(camera.axes[1], camera.axes[2]);
   vec3 across_up = cross(camera.axes[2], camera.axes[0]);
@@ -64,7 +64,7 @@ LAMBENT_FN vec2 pixel_of_plane(CameraRecord camera, vec2 plane) {
   return camera.half_size + camera.half_size.y * vec2(plane.x, -plane.y);
 }
 
-/// Where the picture shows a place: camera_ray backwards.
+/// The image of a point: the inverse of camera_ray().
 LAMBENT_FN ImagePoint image_point(CameraRecord camera, vec3 position_ws) {
   vec3 view = along_axes(camera, position_ws - camera.position_ws);
   float divisor = camera.half_view * (camera.orthographic != 0u ? 1.0f : -view.z);
@@ -72,8 +72,8 @@ LAMBENT_FN ImagePoint image_point(CameraRecord camera, vec3 position_ws) {
   return point;
 }
 
-/// Where the picture shows what lies infinitely far away in a direction. A camera of parallel rays
-/// sees one direction in all its pixels: the middle stands for them.
+/// The image of an infinitely distant point in a direction. An orthographic camera sees one
+/// direction in all its pixels, which the middle stands for.
 LAMBENT_FN ImagePoint image_point_of_sky(CameraRecord camera, vec3 direction_ws) {
   if (camera.orthographic != 0u) {
     ImagePoint middle = {camera.half_size, infinity()};

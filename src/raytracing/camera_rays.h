@@ -10,7 +10,7 @@ namespace lambent {
 /// A camera with a picture of this size [pixels].
 CameraRecord camera_record(const Camera& camera, int width, int height);
 
-/// The ray through a point of the image, in pixels, as of camera_math.h.
+/// The ray through a point of the image, in pixels; see camera_math.h.
 Ray camera_ray(const Camera& camera, int width, int height, float x, float y);
 
 /// Distance of a point from the camera's plane, along the axis of view [m].

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which light a coat reflects by rays of its own (src/glossy), and which it has from elsewhere, so
-// that every path of light counts once.
+// How a coat's light is split between rays of its own (src/glossy) and other sources, so that every
+// path of light counts once.
 //
-// Light that is not an emitter's reaches a coat by its rays, or else by the field. An emitter's
-// also comes with the direct light, which samples emitters: the two estimates of it are combined by
-// weights that sum to 1 for each direction.
+// Light other than emission reaches a coat by its rays, or else by the field. Emission is also part
+// of the direct light, which samples emitters: multiple importance sampling combines the two
+// estimates with weights that sum to 1 for each direction.
 #ifndef LAMBENT_RAYTRACING_COAT_SHARE_H
 #define LAMBENT_RAYTRACING_COAT_SHARE_H
 
@@ -12,25 +12,25 @@
 
 LAMBENT_BEGIN
 
-// Coats up to the first roughness have rays of their own, those from the second on reflect the
-// field's light along the mirror direction; in between a share of each, so that nobody sees where.
-// The lobe of the second is about as wide as the cosine's, with which the field's light is blurred.
+// Coats up to the first roughness have rays of their own. Those from the second on reflect the
+// field's light along the mirror direction. Between them, both have a share, so that the transition
+// is invisible. The second's lobe is about as wide as the cosine lobe that blurs the field's light.
 const float kLastTracedRoughness = 0.75f;
 const float kFirstCachedRoughness = 0.95f;
 
-// Density with which one sample of emitters is taken to be drawn [1/sr]: that of a lamp which
-// subtends a tenth of a steradian. Coats whose own rays are denser towards the lamp than all of its
-// samples see it in these. It decides over noise alone: the weights sum to 1 whatever it is.
+// Assumed density of one sample of emitters [1/sr]: that of a lamp which subtends a tenth of a
+// steradian. Where a coat's lobe is denser towards a lamp than all samples together, its rays
+// estimate the lamp's light. The value affects noise alone: the weights sum to 1 whatever it is.
 const float kEmitterDensity = 10.0f;
 
-/// Shares of the coat's and the clearcoat's light that rays of their own bring.
+/// Shares of the coat's and the clearcoat's light that come from rays of their own.
 struct CoatShares {
   float coat;
   float clearcoat;
 };
 
-/// Share of a coat's light that rays of its own bring, 0 to 1; of a clearcoat as of a coat, see
-/// clearcoat_alone()
+/// Share of a coat's light that comes from rays of its own, 0 to 1. For clearcoats, pass the result
+/// of clearcoat_alone().
 LAMBENT_FN float traced_coat_share(Reflectance surface) {
   if (surface.f90 <= 0.0f) return 0.0f;
   float roughness = sqrt(surface.alpha);
@@ -40,16 +40,15 @@ LAMBENT_FN float traced_coat_share(Reflectance surface) {
   return t * t * (3.0f - 2.0f * t);
 }
 
-/// Weight of an emitter that a coat's ray found, drawn with density `pdf` [1/sr], where its direct
-/// light takes so many samples of emitters. The power heuristic (Veach 1997, sec. 9.2) against a
-/// density that stands for that of the sampling: weights need not be of the true densities for sums
-/// without bias.
+/// Weight of an emitter that a coat's ray hit, drawn with density `pdf` [1/sr], where the direct
+/// light takes `emitter_samples` samples. The power heuristic (Veach 1997, sec. 9.2) with an
+/// assumed density in place of that of the sampling: sums remain unbiased for any densities.
 LAMBENT_FN float found_emitter_weight(float pdf, uint emitter_samples) {
   return pdf > 0.0f ? mis_power_weight(pdf, kEmitterDensity * float(emitter_samples)) : 0.0f;
 }
 
-/// Weight of an emitter's sample in a coat's direct light, where rays bring `coat_share` of the
-/// coat's light. Directions are in the frame of the normal.
+/// Weight of a sample of emitters in a coat's direct light, where rays supply the share
+/// `coat_share` of the coat's light. Directions are in the frame of the normal.
 LAMBENT_FN float sampled_emitter_weight(Reflectance surface, vec3 to_viewer, vec3 to_light,
                                         float coat_share, uint emitter_samples) {
   if (coat_share <= 0.0f) return 1.0f;
@@ -57,7 +56,7 @@ LAMBENT_FN float sampled_emitter_weight(Reflectance surface, vec3 to_viewer, vec
   return 1.0f - coat_share * found_emitter_weight(pdf, emitter_samples);
 }
 
-/// The same of a surface's clearcoat.
+/// The same for a surface's clearcoat.
 LAMBENT_FN float sampled_emitter_weight(SurfaceLayers layers, vec3 to_viewer, vec3 to_light,
                                         float coat_share, uint emitter_samples) {
   if (coat_share <= 0.0f) return 1.0f;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that sources send straight to a point: one candidate for each light that is asked, and some
-// samples of the light tree.
+// Direct light at a point: one candidate for each light that every point samples, and some samples
+// of the light tree.
 #pragma once
 
 #include "lambent/world.h"
@@ -19,20 +19,20 @@
 
 namespace lambent {
 
-/// The ray that asks whether a candidate reaches a point; the geometric normal is on the lit side.
+/// The shadow ray to a candidate; the geometric normal is on the lit side.
 inline Ray shadow_ray(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,
                       const LightCandidate& light) {
   const RayRecord ray = shadow_ray_record(position_ws, geometric_normal_ws, light);
   return {ray.origin_ws, ray.t_min, ray.direction_ws, ray.t_max, ray.mask};
 }
 
-/// A point on a surface that asks for light, with both its normals on the lit side; unit. A point
-/// in the air has normals of 0.
+/// A point on a surface that receives direct light, with both its normals on the lit side; unit. A
+/// point in the air has normals of 0.
 struct LitPoint {
   glm::vec3 position_ws;
   glm::vec3 normal_ws;
   glm::vec3 geometric_normal_ws;
-  /// encode_albedo_shape() where the light is to be reflected by an albedo towards the viewer.
+  /// encode_albedo_shape() where the light will be reflected to the viewer by an albedo; else 0.
   uint albedo_shape = 0;
   glm::vec3 to_viewer_ws{0.0f};  ///< Unit; read where there is a shape.
 };
@@ -40,40 +40,41 @@ struct LitPoint {
 /// How a surface reflects light to a viewer.
 struct Reflector {
   const Reflectance& reflectance;
-  Frame frame;          ///< Of the shading normal.
+  Frame frame;          ///< Frame of the shading normal.
   glm::vec3 to_viewer;  ///< Unit, in the frame.
-  /// Shares of the coats' light that rays of their own bring, and by how many samples lights are
-  /// found; see sampled_reflection.
+  /// Shares of the coats' light that come from rays of their own, and the number of samples of
+  /// emitters; see sampled_reflection().
   CoatShares shares{};
   uint samples = 1;
 };
 
-/// How fog sends light on to a viewer.
+/// How fog scatters light to a viewer.
 struct FogReceiver {
   const Media& media;
-  glm::vec3 view_direction_ws;  ///< Unit; of the ray from the viewer.
+  glm::vec3 view_direction_ws;  ///< Unit; direction of the ray from the viewer.
 };
 
-/// What candidates are drawn for: irradiance at a point, or what a reflector or fog there makes of
-/// it.
+/// What candidates are drawn for: irradiance at a point, or the light that a reflector or fog there
+/// sends to the viewer.
 struct LightReceiver {
   LitPoint point;
-  const Reflector* reflector = nullptr;  ///< Null: irradiance counts, unless there is fog.
+  const Reflector* reflector = nullptr;  ///< Null: for irradiance, unless there is fog.
   const FogReceiver* fog = nullptr;
 };
 
-/// What a point's candidates are drawn from.
+/// How a point's candidates are drawn.
 struct LightDraws {
   const World& world;
-  int tree_samples;  ///< Of the light tree, >= 1.
-  /// Directional, point and spot lights are left out.
+  int tree_samples;  ///< Samples of the light tree, >= 1.
+  /// Leaves out directional, point and spot lights.
   bool emitters_alone = false;
-  /// Candidates among which the samples of the tree choose, in all, 1 to kMostPicks. Each costs a
-  /// pick and a point on a light, but no ray; more make less noise. See candidates_per_sample().
+  /// Total number of candidates from which the samples of the tree are resampled, 1 to kMostPicks.
+  /// Each costs a pick and a point on a light, but no ray; more make less noise. See
+  /// candidates_per_sample().
   uint candidates = kCandidates;
 };
 
-// What direct_light.inl.h asks for.
+// What direct_light.inl.h requires of its includer.
 using LitPointRef = const LitPoint&;
 using ReceiverRef = const LightReceiver&;
 using DrawsRef = const LightDraws&;
@@ -119,7 +120,7 @@ inline vec3 emitted_radiance(const LightDraws& draws, const EmitterRecord& emitt
 
 #include "raytracing/direct_light.inl.h"
 
-/// Radiance that fog sends on of a candidate's light, over what it extinguishes.
+/// Radiance that fog scatters of a candidate's light, divided by its extinction.
 inline vec3 scattered_light(const FogReceiver& fog, const vec3& position_ws,
                             const LightCandidate& light) {
   return light.perpendicular_irradiance *
@@ -143,8 +144,9 @@ inline PickLobe lobe_of(const LightReceiver& receiver) {
   return pick_lobe(to.reflectance, to.frame, to.to_viewer);
 }
 
-/// Calls visit(LightCandidate) for every light that is asked and reaches the receiver unoccluded,
-/// and for each sample of the light tree, whose expected sum is what its lights send.
+/// Calls visit(LightCandidate) for every light that all points sample and whose light the receiver
+/// would reflect, and for each sample of the light tree. The expected sum of the latter is the
+/// light of all lights in the tree. Occlusion is not tested.
 template <class Visit>
 void for_each_light(const LightDraws& draws, const LightReceiver& receiver, RandomStream& random,
                     Visit visit) {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Candidates of direct light at a point, in the common subset of C++ and GLSL. They come in slots:
-// one a light that is asked, then one a sample of the light tree, which holds emissive triangles
-// or pieces of them and, where they are many, point and spot lights. The includer provides the
-// types
-//   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws;
-//                these are 0 of points in the air, which light reaches from all around; and with
-//                the albedo_shape of who reflects by an albedo towards the viewer, else 0
-//   ReceiverRef  what light is to be drawn for: its member `point` is such a point
-//   DrawsRef     lights to draw from
+// one for each light that every point samples ("asked" lights), then one for each sample of the
+// light tree. The tree holds emissive triangles or pieces of them and, where they are many, point
+// and spot lights. The includer provides the types
+//   LitPointRef  a point with position_ws and, on its lit side, normal_ws and geometric_normal_ws,
+//                which are 0 for points in the air, lit from all around; and with albedo_shape
+//                where it will reflect by an albedo towards the viewer, else 0
+//   ReceiverRef  what light is drawn for: its member `point` is such a point
+//   DrawsRef     the lights to draw from
 // and
-//   bool emitters_alone(DrawsRef draws)                    the tree's other lights are left out
-//   uint asked_lights(DrawsRef draws)
-//   uint fetch_asked(DrawsRef draws, uint slot)            which light is asked in a slot
+//   bool emitters_alone(DrawsRef draws)                    leaves out the tree's other lights
+//   uint asked_lights(DrawsRef draws)                      number of asked lights
+//   uint fetch_asked(DrawsRef draws, uint slot)            index of a slot's light
 //   LightRecord fetch_light(DrawsRef draws, uint light)
-//   uint tree_samples(DrawsRef draws)                      0: nothing is in the tree
+//   uint tree_samples(DrawsRef draws)                      0: the tree is empty
 //   uint tree_candidates(DrawsRef draws)                   <= kMostPicks; see candidates_per_sample
 //   PickLobe bounded_lobe(DrawsRef draws, vec3 position_ws, vec3 normal_ws, PickLobe lobe)
 //   void pick_lights(DrawsRef draws, vec3 position_ws, vec3 normal_ws, PickLobe lobe, uint count,
@@ -23,17 +23,16 @@
 //   vec3 emitted_radiance(DrawsRef draws, EmitterRecord emitter, vec2 barycentrics,
 //                         vec3 direction_ws)
 
-/// Luminance of what a receiver would send on of a candidate's light if nothing is in the way. The
-/// includer defines it after this file.
+/// Luminance of the light that a receiver would send on of an unoccluded candidate: the target
+/// function of resampling. The includer defines it after this file.
 LAMBENT_FN float target_of(ReceiverRef receiver, LightCandidate light);
 
-/// How a receiver sends light on, by which lights are picked for it. The includer defines it after
-/// this file.
+/// The lobe in which a receiver sends light on, which guides the choice of lights. The includer
+/// defines it after this file.
 LAMBENT_FN PickLobe lobe_of(ReceiverRef receiver);
 
-/// Irradiance that a candidate brings to a point unless something is in the way [W/m^2]; of points
-/// with an albedo_shape, weighted by the share of it that is reflected to the viewer over the
-/// albedo.
+/// Irradiance of an unoccluded candidate at a point [W/m^2]. For points with an albedo_shape, it is
+/// weighted by the share that is reflected to the viewer over the albedo.
 LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
   float cosine = dot(point.normal_ws, light.to_light);
   float side = dot(point.geometric_normal_ws, light.to_light);
@@ -43,9 +42,9 @@ LAMBENT_FN vec3 unoccluded_irradiance(LitPointRef point, LightCandidate light) {
   return light.perpendicular_irradiance * (cosine * reflected);
 }
 
-/// What a surface makes of that for a viewer [W/(m^2 sr)]. `frame` is that of the point's normal,
-/// in which `to_viewer` is given. What rays of coats bring of emitters is left out, where these are
-/// found by so many samples.
+/// Radiance that a surface reflects of an unoccluded candidate to a viewer [W/(m^2 sr)]. `frame` is
+/// that of the point's normal, in which `to_viewer` is given. The share of emitters' light that
+/// rays of coats supply is left out, given that `samples` samples of emitters are taken.
 LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame, vec3 to_viewer,
                                             LitPointRef point, LightCandidate light,
                                             CoatShares shares, uint samples) {
@@ -69,19 +68,19 @@ LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame
   return reflected;
 }
 
-/// Slots of a point.
+/// Number of slots at a point.
 LAMBENT_FN uint slot_count(DrawsRef draws) {
   return asked_lights(draws) + tree_samples(draws);
 }
 
-/// A light without extent.
+/// The candidate for a light without extent.
 LAMBENT_FN LightCandidate punctual_candidate(LightRecord light, LitPointRef point) {
   PunctualSample sampled = sample_punctual(light, point.position_ws);
   LightCandidate candidate = {sampled.to_light, sampled.distance, sampled.irradiance, 0u};
   return candidate;
 }
 
-/// A light of the tree that was picked, and a point on it; `second` is uniform.
+/// The candidate for a picked light of the tree, at a random point on it; `second` is uniform.
 LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, LightPick pick,
                                           float second) {
   if (pick.probability <= 0.0f) return no_candidate();
@@ -109,14 +108,14 @@ LAMBENT_FN LightCandidate drawn_candidate(DrawsRef draws, LitPointRef point, Lig
   return candidate;
 }
 
-/// A sample of the tree: one of several candidates, chosen by what the receiver would make of it.
-/// What all samples of a point bring sums up, on average, to what the tree's lights send.
+/// A sample of the tree: one of several candidates, resampled by the receiver's target function.
+/// The expected sum of all samples of a point is the light of all lights in the tree.
 LAMBENT_FN LightCandidate resampled_candidate(DrawsRef draws, ReceiverRef receiver,
                                               uint sample_index, LAMBENT_INOUT(LightPicks) picks,
                                               LAMBENT_INOUT(RandomStream) random) {
   uint samples = tree_samples(draws);
   uint count = candidates_per_sample(tree_candidates(draws), samples);
-  // Each candidate of each sample has a stratum of the pick to itself; the second coordinate is
+  // Each candidate of each sample has a stratum of the pick of its own; the second coordinate is
   // spread evenly over the candidates of a sample
   float share = 1.0f / float(samples * count);
   uint per_descent = max(kMostPicks / count, 1u);
@@ -142,8 +141,8 @@ LAMBENT_FN LightCandidate resampled_candidate(DrawsRef draws, ReceiverRef receiv
   return resampled(resampling, share);
 }
 
-/// The candidate of a slot; slots are asked in their order, all with the same `picks`, which are
-/// made here.
+/// The candidate of a slot. Call it for all slots in order, with the same `picks`, which it fills
+/// in.
 LAMBENT_FN LightCandidate candidate_of_slot(DrawsRef draws, ReceiverRef receiver, uint slot,
                                             LAMBENT_INOUT(LightPicks) picks,
                                             LAMBENT_INOUT(RandomStream) random) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Emissive triangles as lights: points drawn on them as they are seen from what they light.
+// Emissive triangles as lights: points on them are sampled by their solid angle at the lit point.
 #ifndef LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 #define LAMBENT_RAYTRACING_EMITTER_SAMPLING_H
 
@@ -13,21 +13,21 @@
 
 LAMBENT_BEGIN
 
-/// Light from one direction, if nothing is in the way.
+/// Unoccluded light from one direction.
 struct LightCandidate {
   vec3 to_light;                  ///< Unit.
   float distance;                 ///< To the source [m]; infinite for directional lights.
   vec3 perpendicular_irradiance;  ///< On a surface that faces the source [W/m^2].
-  uint from_emitter;              ///< 1: an emissive surface sends it, which rays can meet.
+  uint from_emitter;              ///< 1: the source is an emissive surface, which rays can hit.
 };
 
-/// A candidate that brings nothing.
+/// A candidate without light.
 LAMBENT_FN LightCandidate no_candidate() {
   LightCandidate none = {vec3(0.0f), 0.0f, vec3(0.0f), 0u};
   return none;
 }
 
-/// The ray that asks whether a candidate reaches a point; the geometric normal is on the lit side.
+/// The shadow ray to a candidate; the geometric normal is on the lit side.
 LAMBENT_FN RayRecord shadow_ray_record(vec3 position_ws, vec3 geometric_normal_ws,
                                        LightCandidate light) {
   bool endless = floatBitsToUint(light.distance) == kMissedDistanceBits;
@@ -40,30 +40,31 @@ LAMBENT_FN RayRecord shadow_ray_record(vec3 position_ws, vec3 geometric_normal_w
   return ray;
 }
 
-/// A direction about a normal, drawn by the cosine.
+/// A direction about a normal, drawn in proportion to the cosine.
 LAMBENT_FN vec3 sample_cosine_about(vec3 normal, vec2 u) {
   return to_world(make_frame(normal), sample_cosine_hemisphere(u));
 }
 
-/// A triangle whose corners lie so close together [rad] is drawn from by area: distance and cosine
+/// Angle between a triangle's corners [rad] below which it is sampled by area: distance and cosine
 /// vary over it by a few percent, and that is cheaper.
 const float kSmallTriangle = 0.02f;
 
-/// Height of a point over the plane of a triangle that is around it, in the triangle's size, below
-/// which the point counts as lying on it: the corners' rounding is of that order.
+/// Height of a point over the plane of a triangle that surrounds it, relative to the triangle's
+/// size, below which the point counts as lying on it: the rounding of the corners is of that order.
 const float kOnTriangle = 1e-6f;
 
-/// A point drawn on a triangle, as seen from another place.
+/// A point sampled on a triangle, as seen from a lit point.
 struct TrianglePointSeen {
   vec2 barycentrics;
   vec3 to_point;   ///< Unit.
   float distance;  ///< [m]
-  float pdf;       ///< Over solid angle [1/sr]; 0: nothing was drawn, the triangle is not seen.
+  float pdf;       ///< Over solid angle [1/sr]; 0: there is no sample, the triangle is not visible.
 };
 
-/// A point of a triangle given by its corners relative to who looks, for a uniform point of the
-/// unit square: drawn evenly from the solid angle that the triangle subtends, or from its area
-/// where it is small. So what it sends is bounded by its radiance, however near it is.
+/// Samples a point of a triangle, given by its corners relative to the lit point, from a uniform
+/// point of the unit square: evenly over the solid angle that the triangle subtends, or over its
+/// area where it is small. The light of a sample is therefore bounded, however near the triangle
+/// is.
 LAMBENT_FN TrianglePointSeen draw_on_triangle(vec3 a, vec3 edge1, vec3 edge2, vec2 u) {
   TrianglePointSeen seen = {vec2(0.0f), vec3(0.0f), 0.0f, 0.0f};
   vec3 b = a + edge1;
@@ -83,7 +84,7 @@ LAMBENT_FN TrianglePointSeen draw_on_triangle(vec3 a, vec3 edge1, vec3 edge2, ve
     SphericalTriangle triangle = spherical_triangle(unit_a, unit_b, unit_c);
     bool around = triangle.solid_angle > kPi;
     if (triangle.solid_angle <= 0.0f || (around && triangle.volume < kOnTriangle)) return seen;
-    // Find the point by the volumes that its direction spans with the triangle's edges
+    // Find the barycentrics by the volumes that the direction spans with the triangle's edges
     vec3 direction = sample_spherical_triangle(triangle, u);
     float total = dot(direction, normal);
     if (total == 0.0f) return seen;
@@ -107,13 +108,13 @@ LAMBENT_FN TrianglePointSeen draw_on_triangle(vec3 a, vec3 edge1, vec3 edge2, ve
   return seen;
 }
 
-/// Rounding of a world position over its distance from the world's origin: eight steps of a float,
-/// for what transforms and barycentrics add to the one of the result.
+/// Rounding of a world position relative to its distance from the world's origin: eight float
+/// steps, to allow for the transform and the barycentrics besides the result.
 const float kPositionRounding = 1e-6f;
 
-/// Whether a point from which a triangle fills more than half of a hemisphere lies on it, as far as
-/// the rounding of world positions can tell. A point of an emissive triangle receives nothing from
-/// it; where rounding puts the point above, it would receive all of the triangle's radiance.
+/// Whether a point at which a triangle fills more than half of a hemisphere lies on it, within the
+/// rounding of world positions. A point of an emissive triangle receives nothing from the triangle;
+/// where rounding puts it above, it would receive all of the triangle's radiance.
 LAMBENT_FN bool lies_on_triangle(vec3 position_ws, vec3 corner_ws, vec3 edge1, vec3 edge2,
                                  TrianglePointSeen seen) {
   if (seen.pdf * kPi >= 1.0f) return false;
@@ -122,26 +123,27 @@ LAMBENT_FN bool lies_on_triangle(vec3 position_ws, vec3 corner_ws, vec3 edge1, v
   return abs(dot(normal, corner_ws - position_ws)) <= rounding * length(normal);
 }
 
-/// Candidates among which a point's samples of the light tree choose, in all and at least for each
-/// sample. Candidates cost no ray; more of them let fewer rays go where little light is.
+/// Total number of candidates from which a point's samples of the light tree are resampled, and the
+/// least number for each sample. Candidates cost no ray; with more of them, fewer rays go where
+/// there is little light.
 const uint kCandidates = 4u;
 const uint kMinCandidates = 2u;
 
-/// Candidates among which one sample of the light tree chooses, kMinCandidates or more: an equal
-/// share of a point's `candidates`, 1 to kMostPicks (kCandidates unless a pass asks for fewer),
-/// among its `samples`, >= 1.
+/// Number of candidates for one sample of the light tree, at least kMinCandidates: an equal share
+/// of a point's `candidates`, 1 to kMostPicks (kCandidates unless a pass asks for fewer), among its
+/// `samples`, >= 1.
 LAMBENT_FN uint candidates_per_sample(uint candidates, uint samples) {
   return max(candidates / samples, kMinCandidates);
 }
 
-/// Resampled importance sampling of one out of several candidates that come one after the other.
-/// Talbot, Cline and Egbert, "Importance Resampling for Global Illumination", EGSR 2005; with one
-/// number for all of its choices.
+/// Resampled importance sampling of one out of a stream of candidates. Talbot, Cline and Egbert,
+/// "Importance Resampling for Global Illumination", EGSR 2005; with one random number for all of
+/// its choices.
 struct Resampling {
   LightCandidate chosen;
   float chosen_target;
-  float sum;  ///< Of the targets so far.
-  float u;    ///< Uniform number that decides.
+  float sum;  ///< Sum of the targets so far.
+  float u;    ///< Uniform number that decides the next choice.
 };
 
 LAMBENT_FN Resampling begin_resampling(float u) {
@@ -149,7 +151,7 @@ LAMBENT_FN Resampling begin_resampling(float u) {
   return resampling;
 }
 
-/// Offers a candidate, which is to be kept in proportion to its target.
+/// Offers a candidate, which is chosen with a probability in proportion to its target.
 LAMBENT_FN void offer(LAMBENT_INOUT(Resampling) resampling, LightCandidate candidate,
                       float target) {
   if (!(target > 0.0f)) return;
@@ -164,8 +166,8 @@ LAMBENT_FN void offer(LAMBENT_INOUT(Resampling) resampling, LightCandidate candi
   }
 }
 
-/// The chosen one, so weighted that it brings on average what all candidates bring together, times
-/// `scale`.
+/// The chosen candidate, weighted such that its expected light is that of all candidates together,
+/// times `scale`.
 LAMBENT_FN LightCandidate resampled(Resampling resampling, float scale) {
   LightCandidate candidate = resampling.chosen;
   if (resampling.sum > 0.0f) {

@@ -17,46 +17,46 @@
 namespace lambent {
 namespace {
 
-// Rays from each place. A room's place sees its window, or its lamp, if one place in hundreds does.
+// Rays from each place. A room's lamp or window is found if one of its hundreds of places sees it.
 constexpr int kRays = 32;
 constexpr std::size_t kPlacesPerTask = 64;
-// Neighbours of a place towards larger coordinates: one along each axis.
+// Neighbours of a place towards larger coordinates, one along each axis.
 constexpr int kAxes = 3;
-// Rays that leave a region of joined places for it to be open, and one in how many rays at least:
-// single rays slip through cracks between triangles.
+// A region of connected places is open if at least kMinLeaving of its rays leave the scene, and
+// at least one in kRaysOfLeaving: single rays slip through cracks between triangles.
 constexpr std::size_t kMinLeaving = 4;
 constexpr std::size_t kRaysOfLeaving = 5000;
 // Fewer sightings of a triangle, or of an instance, prove nothing: rays pass through cracks.
 constexpr std::uint32_t kMinSightings = 4;
-// A surface that open space sees from one side in this share of the sightings or more bounds
-// solid matter with its other one. The rest is cracks and places that straddle a wall.
+// A surface that open space sees from one side in this share of the sightings or more bounds solid
+// matter with its other side. The rest is due to cracks and to places that straddle a wall.
 constexpr float kOneSided = 0.9f;
 
-// Rays that rise or fall less than this tell whether a place has walls around it; a ceiling is not
-// asked for, so that courts and roofless models count.
+// Greatest slope of the rays that find out whether a place has walls around it. Ceilings are
+// ignored, so that courts and roofless models count.
 constexpr float kMaxWallSlope = 0.5f;
-// A place is enclosed where at least this share of those rays meets a surface: there may be a
-// window or a door.
+// A place is enclosed where at least this share of those rays hits a surface: there may be a window
+// or a door.
 constexpr float kMinEnclosed = 0.75f;
-// Where this share of a scene's open places is enclosed, it is a room or a building seen from
-// within, and what is seen from outside counts beside that only if the caller says so.
+// Where this share of a scene's open places is enclosed, the scene is a room or a building seen
+// from within, and views from outside count only if the caller says so.
 constexpr float kMinRoomShare = 0.6f;
-// A field is outside of the scene if it has places this far from it [its spacing]: a margin of
-// rounding, or of a box that was given in round numbers, is not.
+// A field extends beyond the scene if it has places this far from it [its spacing]: less may be a
+// margin of rounding, or of a box that was given in round numbers.
 constexpr float kLeastBeyond = 0.1f;
-// Places stand off the grid and within its hull, so far from its edge [places]: scenes and grids
-// are made in round numbers, and a place in a wall's own plane would be on either side of it by
-// chance.
+// Offset of places from the grid, into its hull [places]: scenes and grids are made in round
+// numbers, and a place in a wall's own plane would be on either side of it by chance.
 const vec3 kOffPlanes(0.437f, 0.511f, 0.473f);
-// Places of the grid over the whole scene, and of the one that reaches around it, about.
+// Approximate number of places of the grid over the whole scene, and of the one that also covers
+// its surroundings.
 constexpr float kScenePlaces = 2048.0f, kPlacesAround = 512.0f;
-// Flat scenes get no more than this along an axis.
+// Limit for flat scenes, whose places would all lie along the longer axes.
 constexpr int kMaxPlacesAlongAxis = 64;
-// The scene is looked at from so much of its longest side around it, too, at least so far [m]: what
-// an object is can only be seen from outside.
+// Margin of the second grid around the scene, as a share of the scene's longest side, and its least
+// size [m]: objects can only be seen from outside.
 constexpr float kAround = 0.1f, kLeastAround = 1e-3f;
 
-/// How often open space saw the front and the back of something.
+/// Number of times that open space saw the front and the back of a triangle or an instance.
 struct Sightings {
   std::uint32_t front = 0, back = 0;
 
@@ -70,11 +70,11 @@ struct Sightings {
   }
 };
 
-/// The places whose sightings count: all, those that are open, and of these the enclosed ones and
-/// the others.
+/// The places whose sightings count: all; the open ones; and of these, the enclosed ones or the
+/// others.
 enum class Voters { all, open, enclosed, exposed };
 
-/// The places of a grid, what they see, and which of them are open.
+/// The places of a grid, the hits of their rays, and which of them are open.
 class Places {
  public:
   Places(const World& world, const PlaceGrid& grid)
@@ -106,7 +106,7 @@ class Places {
     return open > 0.0f ? enclosed / open : 0.0f;
   }
 
-  /// Calls `see` with all hits of some places.
+  /// Calls `see` with all hits of the chosen places.
   template <class See>
   void for_each_sighting(Voters voters, See see) const {
     for (std::size_t place = 0; place < count(); ++place) {
@@ -155,7 +155,7 @@ class Places {
     return material.emission != vec3(0.0f);
   }
 
-  /// Traces rays from each place, and counts those that leave the scene or meet a lamp.
+  /// Traces rays from each place, and counts those that leave the scene or hit a lamp.
   void look_around() {
     hits_.resize(kRays * count());
     std::vector<vec3> directions;
@@ -179,7 +179,7 @@ class Places {
     }
   }
 
-  /// Finds which neighbours see each other.
+  /// Tests which neighbouring places are mutually visible.
   void look_across() {
     std::vector<Ray> rays(joined_.size());
     for (std::size_t place = 0; place < count(); ++place) {
@@ -187,7 +187,7 @@ class Places {
       for (int axis = 0; axis < kAxes; ++axis) {
         ivec3 there = here;
         ++there[axis];
-        // A ray without length stands in for the neighbours that the last places do not have
+        // The last places lack neighbours: a ray of length 0 stands in
         there = min(there, grid_.count - 1);
         const vec3 from = position(here), way = position(there) - from;
         const float distance = length(way);
@@ -206,7 +206,7 @@ class Places {
     }
   }
 
-  /// Counts all rays of the places around each point and spot light that see it.
+  /// Counts all rays as leaving for places next to a point or spot light from which it is visible.
   void mark_lights() {
     for (const Light& light : world_.scene().lights) {
       if (light.type == Light::Type::directional) continue;
@@ -219,7 +219,7 @@ class Places {
     }
   }
 
-  /// Opens the regions of joined places that enough rays leave.
+  /// Opens the regions of connected places that enough rays leave.
   void open_regions() {
     std::vector<std::uint8_t> visited(count(), 0);
     std::vector<std::size_t> region;
@@ -233,7 +233,7 @@ class Places {
     }
   }
 
-  /// Finds all places that are joined to the first, over any number of others.
+  /// Finds all places that are connected to the first one, directly or through others.
   void find_region(std::size_t first, std::vector<std::uint8_t>& visited,
                    std::vector<std::size_t>& region) const {
     region.assign(1, first);
@@ -257,13 +257,13 @@ class Places {
 
   const World& world_;
   PlaceGrid grid_;
-  std::vector<Hit> hits_;               // kRays a place
-  std::vector<std::uint32_t> leaving_;  // rays that leave the scene or meet a lamp
+  std::vector<Hit> hits_;               // kRays for each place
+  std::vector<std::uint32_t> leaving_;  // number of rays that leave the scene or hit a lamp
   std::vector<std::uint8_t> open_;      // 1: open
-  std::vector<std::uint8_t> joined_;    // 1: sees the next place along an axis; kAxes a place
+  std::vector<std::uint8_t> joined_;  // 1: sees the next place along an axis; kAxes for each place
 };
 
-/// A grid over a box.
+/// A grid of about `places` places over a box.
 PlaceGrid grid_over(const Bounds& box, float places) {
   const vec3 size = box.max - box.min;
   const float spacing = std::cbrt(size.x * size.y * size.z / places);
@@ -274,7 +274,7 @@ PlaceGrid grid_over(const Bounds& box, float places) {
   return grid;
 }
 
-/// A box with what is around it.
+/// A box enlarged by the margin around the scene.
 Bounds widened(const Bounds& box) {
   const vec3 size = box.max - box.min;
   const float around = std::max(kAround * std::max({size.x, size.y, size.z}), kLeastAround);
@@ -292,12 +292,12 @@ bool reaches_out_of(const Bounds& box, const PlaceGrid& grid) {
   return false;
 }
 
-/// The sides that bound solid matter if nothing but a surface's winding is known.
+/// The sides that bound solid matter according to a surface's winding alone.
 std::uint32_t sides_by_winding(const Scene& scene, const Instance& instance) {
   return scene.materials[scene.meshes[instance.mesh].material].double_sided ? 0u : kSolidBack;
 }
 
-/// What some of the places see of each triangle and of each instance.
+/// Sightings of each triangle and of each instance, from the chosen places.
 struct Votes {
   Votes(const Scene& scene, std::span<const Places> places, Voters voters)
       : triangles(scene.instances.size()), instances(scene.instances.size()) {
@@ -311,13 +311,13 @@ struct Votes {
     }
   }
 
-  std::vector<std::vector<Sightings>> triangles;  // empty where an instance was not seen
+  std::vector<std::vector<Sightings>> triangles;  // empty where an instance was never seen
   std::vector<Sightings> instances;
 };
 
-/// The sides of a triangle that bound solid matter, by the first votes that know it or at least its
-/// instance; none where nobody saw either. Few triangles of a wall are seen so seldom from within a
-/// room that those outside would tell more.
+/// The sides of a triangle that bound solid matter, by the first votes with sightings of it or at
+/// least of its instance; none where there are no sightings of either. Few triangles of a wall are
+/// seen so seldom from within a room that sightings from outside would be better.
 std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t instance,
                                    std::uint32_t triangle) {
   for (const Votes& some : votes) {
@@ -332,8 +332,8 @@ std::optional<std::uint32_t> judge(std::span<const Votes> votes, std::uint32_t i
   return std::nullopt;
 }
 
-/// The sides of a triangle that both some votes and others leave solid. What the others know of the
-/// instance alone counts only if they see it from one side.
+/// The sides of a triangle that are solid by `sides` and by other votes. Where the others have
+/// sightings of the instance alone, these count only if they are of one side.
 std::uint32_t solid_in_both(std::uint32_t sides, const Votes& others, std::uint32_t instance,
                             std::uint32_t triangle) {
   const std::vector<Sightings>& seen = others.triangles[instance];
@@ -357,19 +357,19 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   const Scene& scene = world.scene();
   std::vector<Places> places;
   const Bounds bounds = world_bounds(scene), wide = widened(bounds);
-  // A flat scene has nothing within its bounds
+  // A flat scene has no volume within its bounds
   const bool flat = glm::any(glm::lessThanEqual(bounds.max, bounds.min));
   places.emplace_back(world, grid_over(flat ? wide : bounds, kScenePlaces));
   places.emplace_back(world, grid_over(wide, kPlacesAround));
   const bool room = places.front().enclosed_share() >= kMinRoomShare;
   const std::size_t of_scene = grids.empty() ? 0 : places.size();
   for (const PlaceGrid& grid : grids) places.emplace_back(world, grid);
-  // Where a field is that no light reaches, lamps are out: it was not put into solid matter
+  // A field in which no place is open was not put into solid matter: its lamps are off
   const std::span<const Places> asked = std::span(places).subspan(of_scene);
   const bool some_open =
       std::any_of(asked.begin(), asked.end(), [](const Places& some) { return some.any_open(); });
 
-  // Count what open space sees of each triangle. In a room, what is seen from within tells more
+  // Count sightings from open space. In a room, those from within decide first
   std::vector<Votes> votes;
   if (!some_open) {
     votes.emplace_back(scene, asked, Voters::all);
@@ -383,7 +383,7 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   SolidSides sides = no_solid_sides(scene);
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
-    // There is light inside glass, and on both its sides
+    // Light reaches both sides of glass
     if (lets_light_through(scene.materials[scene.meshes[instance.mesh].material])) continue;
     const auto count = static_cast<std::uint32_t>(scene.meshes[instance.mesh].triangles.size());
     for (std::uint32_t t = 0; t < count; ++t) {

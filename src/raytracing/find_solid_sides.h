@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sides of surfaces bound solid matter, found from where light can come from.
+// Finds which sides of surfaces bound solid matter, from where light can come from.
 #pragma once
 
 #include <span>
@@ -9,16 +9,16 @@
 
 namespace lambent {
 
-/// Finds the sides that bound solid matter, from places within the scene's bounds, around them, and
-/// in the cells of some grids: those of a field, or none. Open space is where rays leave the scene
-/// or meet emissive surfaces, where a point or spot light shines, and whatever a chain of
-/// neighbouring places that see each other joins to these. A side of a triangle bounds solid matter
-/// if open space sees the other side only. Triangles that open space sees too seldom are judged by
-/// their instance, and instances by their winding. Where no place of the grids is open, all of them
-/// are taken to be. docs/math.md, "What is solid".
+/// Finds the sides that bound solid matter, from sample places within the scene's bounds, around
+/// them, and in the cells of the given grids (those of a field, or none). A place is in open space
+/// where rays from it leave the scene or hit emissive surfaces, where a point or spot light shines,
+/// or where a chain of neighbouring, mutually visible places leads to such a place. A side of a
+/// triangle bounds solid matter if only the other side is visible from open space. Triangles that
+/// are visible too seldom are judged by their instance, and instances by their winding. Where no
+/// place of the grids is open, all of them are taken to be. docs/math.md, "What is solid".
 ///
-/// What sees a room from outside counts for nothing beside what sees it from within, unless
-/// `outside_counts`: the outsides of its walls are then open, too.
+/// Views of a room from outside are ignored where there are views from within, unless
+/// `outside_counts`: then the outsides of its walls are open, too.
 SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids,
                             bool outside_counts = false);
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// When a hierarchy that was fitted to moved vertices is better built anew.
+// When a hierarchy that was refitted to moved vertices should be rebuilt.
 #pragma once
 
 #include "lambent/scene.h"
 
 namespace lambent {
 
-/// A refitted hierarchy is built anew once its box has grown or shrunk by this factor in area: its
-/// nodes have come to overlap by then.
+/// A refitted hierarchy is rebuilt once its box has grown or shrunk by this factor in area: by then
+/// its nodes overlap.
 inline constexpr float kMaxAreaChange = 1.5f;
 
 /// Half the area of the box around a mesh's vertices [m^2].
@@ -19,7 +19,7 @@ inline float half_area(const Mesh& mesh) {
   return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-/// Whether a hierarchy that was built over a box of so much half area no longer suits.
+/// Whether a hierarchy that was built for a box with this half area should be rebuilt.
 inline bool outgrown(float when_built, float now) {
   return now > when_built * kMaxAreaChange || now * kMaxAreaChange < when_built;
 }

@@ -35,7 +35,7 @@ Placement placement_of(const Scene& scene, const Instance& instance) {
 std::size_t hash_of(const Placement& placement) {
   std::size_t hash = static_cast<std::size_t>(placement.mesh) * 2 + placement.receives_gi;
   for (int i = 0; i < 16; ++i) {
-    // A multiplier of Knuth's: each number of the transform must count
+    // Combine with a multiplier of Knuth's, as each number of the transform must count
     const float value = placement.world_from_object[i / 4][i % 4] + 0.0f;
     hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15ull;
     hash ^= hash >> 29;
@@ -50,7 +50,7 @@ bool uses_texture(const Material& m, const std::vector<std::uint8_t>& edited) {
   return false;
 }
 
-/// Whether rays that one lets pass are stopped by the other, or light that passes is another.
+/// Whether the materials stop different rays or transmit different light.
 bool coverage_differs(const Material& a, const Material& b, bool texture_edited) {
   if (a.alpha_mode != b.alpha_mode) return true;
   if (lets_light_through(a) || lets_light_through(b)) return true;
@@ -118,8 +118,8 @@ class Comparison {
     edits_.geometry_differs = !edits_.geometry.remade.empty() || !edits_.geometry.deformed.empty();
   }
 
-  /// Finds for each instance what it was before: the same thing, perhaps at another place in the
-  /// list; else one of the same mesh, which has moved then.
+  /// Finds the previous index of each instance: that of an equal instance, perhaps at another place
+  /// in the list; else that of one with the same mesh, which has then moved.
   void match_instances() {
     const std::vector<Placement>& was = before_.placements;
     const std::vector<Placement>& is = after_.placements;
@@ -133,7 +133,7 @@ class Comparison {
     const std::size_t common = std::min(was.size(), is.size());
     const bool same_length = was.size() == is.size();
     for (std::size_t i = 0; i < common; ++i) {
-      // In a list of the same length, what is in the same place is taken for the same thing
+      // In lists of the same length, instances of one mesh at the same index count as the same
       if (was[i] == is[i] || (same_length && was[i].mesh == is[i].mesh)) match(i, i);
     }
     std::unordered_multimap<std::size_t, std::size_t> same;
@@ -179,7 +179,7 @@ class Comparison {
       const Placement& was = before_.placements[then];
       if (then != i) {
         edits_.geometry_differs = true;
-        // Tables of emitters know instances by their place
+        // Tables of emitters refer to instances by index
         if (emits(after_, is)) edits_.emitters_differ = true;
       }
       const bool moved = was.world_from_object != is.world_from_object;
@@ -194,7 +194,7 @@ class Comparison {
     }
   }
 
-  /// Pairs lights by their place, counted from the end for those after an insertion or removal.
+  /// Pairs lights by index, counted from the end for those after an insertion or removal.
   void compare_lights() {
     const std::vector<Light>& was = before_.lights;
     const std::vector<Light>& is = after_.lights;
@@ -227,15 +227,15 @@ class Comparison {
   const SceneSnapshot& before_;
   const SceneSnapshot& after_;
   SceneEdits edits_;
-  std::vector<std::uint8_t> see_through_;  // by material: other rays pass
-  std::vector<std::uint8_t> bent_;         // by mesh: looks or stops rays in another way
+  std::vector<std::uint8_t> see_through_;  // by material: stops other rays than before
+  std::vector<std::uint8_t> bent_;         // by mesh: its look or the rays it stops differ
 };
 
 std::string place(const char* list, std::size_t index) {
   return std::string(list) + "[" + std::to_string(index) + "]";
 }
 
-/// Whether instances that moved, and those of meshes that bent, are where things can be.
+/// Whether instances that moved, and those of deformed meshes, are within the permitted range.
 Expected<void> check_reach(const Scene& scene, const SceneSnapshot& before) {
   std::vector<Bounds> bounds(scene.meshes.size());
   std::vector<std::uint8_t> bent(scene.meshes.size(), 0);

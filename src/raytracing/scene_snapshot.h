@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene was like, in as few words as it takes to tell what was edited since.
+// Compact copies of a scene's state, to find later edits.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace lambent {
 
-/// All that decides what rays see and what they bring back, without vertices and texels: for these
-/// stand their revisions.
+/// All that affects the hits of rays and their light. Vertices and texels are represented by their
+/// revisions.
 struct SceneSnapshot {
   struct Placement {
     int mesh;
@@ -33,7 +33,7 @@ struct SceneSnapshot {
     float rotation;
     std::uint32_t revision;
     int width, height;
-    const float* pixels;  // never read: another map is at another address
+    const float* pixels;  // compared, never dereferenced: another map has another address
     bool operator==(const Sky&) const = default;
   };
   std::vector<Placement> placements;
@@ -44,22 +44,23 @@ struct SceneSnapshot {
   Sky sky;
 };
 
-/// World-space box of a placement: the corners of its mesh's, carried along [m].
+/// World-space box around the transformed corners of the box of a placement's mesh [m].
 Bounds world_box(const SceneSnapshot& snapshot, const SceneSnapshot::Placement& placement);
 
-/// The scene as it is. Meshes that are as in `before` keep its bounds; null: there is no before.
+/// A snapshot of the scene. Bounds of meshes that are unchanged since `before` are copied from it;
+/// null: there is none.
 SceneSnapshot take_snapshot(const Scene& scene, const SceneSnapshot* before);
 
 /// What differs between two snapshots of a scene.
 struct SceneEdits {
   WorldChanges changes;
   GeometryEdits geometry;
-  bool geometry_differs = false;  ///< In a way that the ray tracer must hear of.
-  bool emitters_differ = false;   ///< Emissive surfaces do, or their places in the list.
+  bool geometry_differs = false;  ///< The ray tracer must be updated.
+  bool emitters_differ = false;   ///< Emissive surfaces differ, or their order.
 };
 SceneEdits compare(const SceneSnapshot& before, const SceneSnapshot& after);
 
-/// Checks what `after` has that `before` has not, as validate would. `after` is of the scene.
+/// Checks what is new in the scene since `before`, as validate would.
 Expected<void> validate_edits(const Scene& scene, const SceneSnapshot& before);
 
 }  // namespace lambent

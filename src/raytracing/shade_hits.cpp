@@ -25,7 +25,7 @@ void queue_direct_light(const World& world, const DirectLightQuery& query, std::
   });
 }
 
-/// Finds what is left of light on its way along rays that may cross glass.
+/// Finds the share of light that passes along rays which may cross glass.
 void find_what_passes(const RayTracer& tracer, std::span<const Ray> rays, std::span<const Hit> hits,
                       ShadeHitsScratch& scratch) {
   scratch.to_hits.assign(rays.begin(), rays.end());
@@ -48,7 +48,7 @@ std::size_t direct_irradiance(const World& world, std::span<const DirectLightQue
     irradiance[i] = glm::vec3(0.0f);
     queue_direct_light(world, queries[i], i, settings, scratch);
   }
-  // Add the light that does reach
+  // Add the light that arrives
   scratch.shadows.trace(tracer_of(world), scratch.shadow_rays);
   for (std::size_t i = 0; i < scratch.pending.size(); ++i) {
     const ShadeHitsScratch::PendingLight& light = scratch.pending[i];
@@ -80,7 +80,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
       continue;
     }
 
-    // Record the surface
+    // Store the surface
     const Surface surface =
         surface_at(scene, rays[i], hits[i], settings.cone_width * hits[i].distance);
     result.point = {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws,
@@ -90,7 +90,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     result.surface = shaded_surface(surface, direction, settings.max_albedo, from_inside ? 1u : 0u);
 
     if (glass) {
-      // Rays that a pane stopped stand for those that it let pass, too
+      // Rays that a pane stopped also stand for those that it let pass
       float weight = 1.0f;
       if (lets_light_through(surface.transmission) && crosses_glass(rays[i].mask)) {
         const SeenTriangle seen{hits[i].instance, hits[i].triangle, hits[i].barycentrics,
@@ -101,7 +101,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
           seen_through_glass(result.surface, scratch.through[i], weight, settings.max_albedo);
     }
 
-    // Ask for the light that may reach it
+    // Queue points that reflect direct light
     if (result.surface.albedo_over_pi == glm::vec3(0.0f)) continue;
     scratch.queries.push_back({result.point, first_index + i});
     scratch.hits.push_back(i);

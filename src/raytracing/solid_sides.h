@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which sides of triangles bound solid matter. A ray that meets such a side comes from inside.
+// Which sides of triangles bound solid matter. A ray that hits such a side comes from inside.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace lambent {
 
-/// A regular grid of places from which the scene is looked at.
+/// A regular grid of places at which visibility is sampled.
 struct PlaceGrid {
   glm::vec3 origin_ws{0.0f};  ///< Its first corner [m].
   glm::mat3 axes{1.0f};       ///< Columns: the grid's axes in world space, unit and orthogonal.
   glm::vec3 spacing{1.0f};    ///< Size of a cell along each axis [m], > 0.
-  glm::ivec3 count{2};        ///< Places along each axis, >= 2. Cost is in proportion.
+  glm::ivec3 count{2};        ///< Number of places along each axis, >= 2. Cost is in proportion.
 
   /// A point in cells from the first corner, along the grid's axes.
   glm::vec3 cells_at(const glm::vec3& point_ws) const {
@@ -32,21 +32,21 @@ struct PlaceGrid {
 /// A grid of places, and which of them are open.
 struct OpenPlaces {
   PlaceGrid grid;
-  std::vector<std::uint8_t> open;  ///< 1: light can come there. Along x first, then y.
+  std::vector<std::uint8_t> open;  ///< 1: light can arrive there. Along x first, then y.
 
   /// Whether one of the places around a point is open.
   bool reach(const glm::vec3& point_ws) const;
 };
 
-/// For each triangle of each instance, which of its sides bound solid matter: neither, as with
-/// leaves, curtains and all that is open on both sides, the back, or the front where a mesh is
-/// wound the other way round.
+/// For each triangle of each instance, which of its sides bound solid matter: neither, as for
+/// leaves, curtains and all that is open on both sides; the back; or the front, where a mesh has
+/// the opposite winding.
 struct SolidSides {
   std::vector<std::uint32_t> first_word;  ///< For each instance, the index of its first word.
   std::vector<std::uint32_t> words;       ///< See solid_sides_math.h.
-  std::vector<OpenPlaces> open_space;     ///< Where it was looked from.
+  std::vector<OpenPlaces> open_space;     ///< The places from which it was determined.
 
-  /// Whether the side that a ray met bounds solid matter. A ray that met nothing meets none.
+  /// Whether the side that a ray hit bounds solid matter; false for misses.
   bool is_solid(const Hit& hit) const {
     if (hit.missed()) return false;
     const std::uint32_t word = words[first_word[hit.instance] + solid_sides_word(hit.triangle)];
@@ -56,7 +56,7 @@ struct SolidSides {
     words[first_word[instance] + solid_sides_word(triangle)] |= sides
                                                                 << solid_sides_shift(triangle);
   }
-  /// Whether it was made for the scene's instances and triangles as they are now.
+  /// Whether it was made for the scene's present instances and triangles.
   bool fits(const Scene& scene) const;
   /// Whether a point was found to be in open space.
   bool is_open(const glm::vec3& point_ws) const {
@@ -65,20 +65,20 @@ struct SolidSides {
   }
 };
 
-/// A mesh of which triangles face solid matter, as their vertices run.
+/// A mesh whose winding makes triangles face solid matter.
 struct MiswoundMesh {
   int mesh = 0;               ///< Index into Scene::meshes.
-  std::size_t triangles = 0;  ///< So many of them do, in the instance where most do.
+  std::size_t triangles = 0;  ///< Number of such triangles, in the instance that has most.
 };
 
-/// The meshes that are wound, in whole or in part, against what open space sees of them. Nothing
-/// depends on it here; other programs may leave such triangles out.
+/// The meshes whose winding contradicts, in whole or in part, which sides open space sees. Nothing
+/// in this library depends on it; other programs may cull such triangles.
 std::vector<MiswoundMesh> miswound_meshes(const Scene& scene, const SolidSides& sides);
 
-/// Sides that all bound nothing.
+/// Solid sides of a scene in which no side bounds solid matter.
 SolidSides no_solid_sides(const Scene& scene);
 
-/// Takes the word of whoever made the meshes: backs of single-sided surfaces bound solid matter.
+/// Trusts the winding of the meshes: backs of single-sided surfaces bound solid matter.
 SolidSides solid_sides_by_winding(const Scene& scene);
 
 }  // namespace lambent

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the sides of triangles that bound solid matter are packed: two bits a triangle, kSolidBack
-// and kSolidFront, kSidesPerWord triangles a word; each instance begins with a word of its own.
+// The encoding of sides of triangles that bound solid matter: two bits a triangle, kSolidBack and
+// kSolidFront, kSidesPerWord triangles a word; each instance begins with a word of its own.
 #ifndef LAMBENT_RAYTRACING_SOLID_SIDES_MATH_H
 #define LAMBENT_RAYTRACING_SOLID_SIDES_MATH_H
 
@@ -17,7 +17,7 @@ LAMBENT_FN uint solid_sides_word(uint triangle) {
   return triangle / kSidesPerWord;
 }
 
-/// The place of a triangle's bits in their word.
+/// Position of a triangle's bits in their word.
 LAMBENT_FN uint solid_sides_shift(uint triangle) {
   return 2u * (triangle % kSidesPerWord);
 }

@@ -6,7 +6,7 @@
 namespace lambent {
 namespace {
 
-// What surface.inl.h asks for.
+// What surface.inl.h requires of its includer.
 using HitRef = const Hit&;
 
 vec3 fetch_normal(const Mesh& mesh, uint vertex) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a hit to what shading needs to know about the surface there.
+// The surface at a hit, for shading.
 #pragma once
 
 #include <span>
@@ -10,12 +10,12 @@
 
 namespace lambent {
 
-/// The surface at a hit (not a miss) of `ray`. `footprint` is the width that the ray's cone has
-/// there [m] and picks the nearest texel of one MIP level; 0 reads full resolution, filtered.
+/// The surface at a hit (not a miss) of `ray`. `footprint`: width of the ray's cone there [m],
+/// which selects the nearest texel of one MIP level; 0 reads full resolution, filtered.
 Surface surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint = 0.0f);
 
-/// The same for rays whose surfaces are looked at: texels and levels are blended, and where the
-/// footprint averages over a normal map, the coat is as much rougher.
+/// The same for surfaces that pixels show: texels and levels are blended, and where the footprint
+/// averages over a normal map, the coat's roughness rises accordingly.
 Surface seen_surface_at(const Scene& scene, const Ray& ray, const Hit& hit, float footprint);
 
 /// A point of a triangle.
@@ -26,16 +26,15 @@ struct SeenTriangle {
   bool from_front;
 };
 
-/// Share of the light along a straight ray that passes a triangle whose material lets light
-/// through.
+/// Share of the light along a straight ray that passes a triangle of a transmissive material.
 glm::vec3 straight_share_of(const Scene& scene, const SeenTriangle& seen,
                             const glm::vec3& direction_ws);
 
-/// Whether a ray that crosses glass passes it.
+/// Whether a ray for which crosses_glass() holds passes the triangle.
 bool passes_glass_at(const Scene& scene, const SeenTriangle& seen, const Ray& ray);
 
-/// Has the mesh data of surfaces that will be asked for under way to the caches. Calling it for a
-/// batch of hits before surface_at hides most of the wait for memory.
+/// Prefetches the mesh data of surfaces that will be looked up. Calling it for a batch of hits
+/// before surface_at hides most of the memory latency.
 void prefetch_surfaces(const Scene& scene, std::span<const Hit> hits);
 
 }  // namespace lambent

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a hit to the surface that shading sees, in the common subset of C++ and GLSL. Included after
+// The surface at a hit, for shading, in the common subset of C++ and GLSL. Included after
 // attributes.inl.h. The includer provides, besides what that asks for, the type
 //   HitRef  with instance, triangle, barycentrics and front_face
 // and
@@ -12,7 +12,7 @@
 //   bool bounds_volume(MaterialRef material)
 //   bool has_layers(MaterialRef material)
 
-/// Tangent with handedness, in object space, that a texture is laid out by.
+/// Tangent with handedness, in object space, for the layout of a texture.
 LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p, vec3 edge1,
                            vec3 edge2) {
   if (has_tangents(mesh)) {
@@ -24,8 +24,8 @@ LAMBENT_FN vec4 tangent_at(MeshRef mesh, TextureViewRef view, TrianglePointRef p
   return tangent_from_uvs(edge1, edge2, uvs.b - uvs.a, uvs.c - uvs.a);
 }
 
-/// The vector that a normal map holds, in tangent space. Where the footprint covers all of the map,
-/// it is the mean.
+/// The vector of a normal map, in tangent space. Where the footprint covers all of the map, it is
+/// the map's mean.
 LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, TextureViewRef view, float scale,
                               TrianglePointRef p, ConeShare cone_share, bool mean_alone) {
   vec4 texel = mean_alone
@@ -34,8 +34,8 @@ LAMBENT_FN vec3 map_vector_at(SceneRef scene, MeshRef mesh, TextureViewRef view,
   return map_vector(vec3(texel), scale);
 }
 
-/// A normal in object space, of any length, as a normal map bends it; and the mean of the normals
-/// that the footprint covers, in tangent space, as map_vector_at() finds it.
+/// A normal in object space, of any length, bent by a normal map; and the mean of the map's vectors
+/// over the footprint, in tangent space, see map_vector_at().
 struct BentNormal {
   vec3 normal;
   vec3 mean;
@@ -48,7 +48,7 @@ LAMBENT_FN BentNormal bent_normal_at(SceneRef scene, MeshRef mesh, TextureViewRe
   if (view.texture < 0) return bent;
   bool mean_alone = shows_mean_alone(scene, mesh, view, p, cone_share);
   bent.mean = map_vector_at(scene, mesh, view, scale, p, cone_share, mean_alone);
-  // Bumps that the footprint averages over leave the surface flat
+  // Where the footprint averages over all bumps, the surface is flat
   if (mean_alone) return bent;
   vec4 tangent = tangent_at(mesh, view, p, edge1, edge2);
   bent.normal = normalize_or(normal, vec3(0.0f, 0.0f, 1.0f));
@@ -57,13 +57,14 @@ LAMBENT_FN BentNormal bent_normal_at(SceneRef scene, MeshRef mesh, TextureViewRe
   return bent;
 }
 
-/// What a surface makes of light from outside, and the share of what enters that passes.
+/// A surface's reflectance for light from outside, and its tint: the share of entering light that
+/// is transmitted.
 struct Optics {
   Reflectance reflectance;
   vec3 tint;
 };
 
-/// What lies on a surface.
+/// The layers above a surface's base and coat.
 LAMBENT_FN SurfaceLayers layers_at(SceneRef scene, MeshRef mesh, MaterialRef material,
                                    TrianglePointRef p, ConeShare cone_share) {
   vec3 sheen = material.sheen_color;
@@ -126,9 +127,9 @@ LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
   return optics;
 }
 
-/// Share of the light along a straight ray that passes a triangle which lets light through. What
-/// the far side of a volume reflects inwards leaves it elsewhere: nothing is lost there, so that a
-/// volume reflects and lets pass all light together.
+/// Share of the light along a straight ray that passes a triangle of a transmissive material. Inner
+/// reflection at the far side of a volume is not subtracted, as that light leaves the volume
+/// elsewhere: reflection and transmission of a volume together conserve energy.
 LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint triangle,
                                   vec2 barycentrics, bool from_front, vec3 direction_ws) {
   InstanceRef instance = fetch_instance(scene, instance_index);
@@ -144,7 +145,7 @@ LAMBENT_FN vec3 straight_share_at(SceneRef scene, uint instance_index, uint tria
   return straight_share(optics.tint, optics.reflectance, dot(normal_ws, direction_ws));
 }
 
-/// A random number in [0, 1) that belongs to a ray at a triangle. It hangs on no hit's rounding, so
+/// A random number in [0, 1) for a ray at a triangle. It does not depend on a hit's rounding, so
 /// that rays of probes, which start at the same places everywhere, are decided alike on all
 /// devices.
 LAMBENT_FN float uniform_of_ray(vec3 origin_ws, vec3 direction_ws, uint triangle) {
@@ -157,12 +158,13 @@ LAMBENT_FN float uniform_of_ray(vec3 origin_ws, vec3 direction_ws, uint triangle
   return uniform_from_bits(mixed.x);
 }
 
-/// Whether a ray that crosses glass passes a triangle that lets this share of light through.
+/// Whether a ray for which crosses_glass() holds passes a triangle that transmits this share of
+/// light.
 LAMBENT_FN bool passes_glass(vec3 share, uint triangle, vec3 origin_ws, vec3 direction_ws) {
   return passing_probability(share) > uniform_of_ray(origin_ws, direction_ws, triangle);
 }
 
-/// How a surface lets light through that a ray sees from its front or its back.
+/// How a surface transmits light to a ray that sees its front or its back.
 LAMBENT_FN Transmission transmission_of(MaterialRef material, Optics optics, bool from_outside) {
   Transmission through = {optics.tint, kCrossesPane, vec3(0.0f), 1.0f, optics.reflectance.alpha};
   if (optics.tint == vec3(0.0f) || !bounds_volume(material)) return through;
@@ -172,14 +174,13 @@ LAMBENT_FN Transmission transmission_of(MaterialRef material, Optics optics, boo
   return through;
 }
 
-/// The cross section of a footprint over the area of a triangle, of which the double is given.
+/// Cross section of a footprint over the area of a triangle, given twice that area.
 LAMBENT_FN ConeShare cone_share_of(Footprint footprint, float double_area) {
   ConeShare share = {share_of_triangle(footprint.width, double_area), footprint.blended};
   return share;
 }
 
-/// Variance of the slopes of the bumps that a footprint averages over; 0 where it averages over
-/// none.
+/// Variance of the slopes of the bumps that a footprint averages over; 0 where there are none.
 LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef material,
                                  TrianglePointRef p, ConeShare cone_share, vec3 mean) {
   if (cone_share.blended == 0u || cone_share.of_triangle <= 0.0f) return 0.0f;
@@ -189,8 +190,8 @@ LAMBENT_FN float averaged_slopes(SceneRef scene, MeshRef mesh, MaterialRef mater
   return level > 0.0f ? slope_variance(mean, material.normal_scale) : 0.0f;
 }
 
-/// optics_at(), of a coat that is rougher where its bumps are averaged over; `mean` is their
-/// map_vector().
+/// optics_at(), with a coat that is rougher where bumps are averaged over; `mean`: the mean of
+/// their map_vector().
 LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef material,
                                   TrianglePointRef p, ConeShare cone_share, vec3 mean) {
   Optics optics = optics_at(scene, mesh, material, p, cone_share);
@@ -201,15 +202,15 @@ LAMBENT_FN Optics bumpy_optics_at(SceneRef scene, MeshRef mesh, MaterialRef mate
   return optics;
 }
 
-/// A triangle as a ray sees it.
+/// The orientation of a triangle relative to a ray.
 struct FacingTriangle {
-  vec3 geometric_normal_ws;  ///< Turned to where the ray comes from; unit.
-  vec3 direction_ws;         ///< Of the ray; unit.
-  bool along_winding;        ///< As of normal_towards_viewer(),
-  bool from_front;           ///< as this.
+  vec3 geometric_normal_ws;  ///< Faces the ray's origin; unit.
+  vec3 direction_ws;         ///< Direction of the ray; unit.
+  bool along_winding;        ///< See normal_towards_viewer().
+  bool from_front;           ///< See normal_towards_viewer().
 };
 
-/// The normal of shading for one that vertices and a normal map make, which is of any length.
+/// The shading normal, given the normal of vertices and normal map, which is of any length.
 LAMBENT_FN vec3 seen_normal(FacingTriangle seen, vec3 normal, TextureViewRef map) {
   vec3 of_front = seen.from_front ? seen.geometric_normal_ws : -seen.geometric_normal_ws;
   vec3 facing = normal_towards_viewer(normalize_or(normal, of_front), seen.along_winding,
@@ -218,8 +219,8 @@ LAMBENT_FN vec3 seen_normal(FacingTriangle seen, vec3 normal, TextureViewRef map
   return reflecting_normal(facing, seen.direction_ws, seen.geometric_normal_ws);
 }
 
-/// The surface at a hit (not a miss) of a ray along a direction, whose footprint there has a width
-/// [m]; 0 reads textures at full resolution.
+/// The surface at a hit (not a miss) of a ray with this direction. `footprint`: that of the ray's
+/// cone there; width 0 reads textures at full resolution.
 LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Footprint footprint) {
   InstanceRef instance = fetch_instance(scene, hit.instance);
   MeshRef mesh = fetch_mesh(scene, instance.mesh);
@@ -239,14 +240,14 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
   surface.position_ws = transform_point(instance.world_from_object, position);
   surface.geometric_normal_ws = normalize_or(area_normal, -direction_ws);
 
-  // Compute the shading normal on the side that the vertices call the front
+  // Compute the normal on the side that the winding declares the front
   vec3 normal = interpolate(fetch_normal(mesh, p.vertices.x), fetch_normal(mesh, p.vertices.y),
                             fetch_normal(mesh, p.vertices.z), p.weights);
   bool along_winding = dot(normal, face_normal) >= 0.0f;
   BentNormal bent = bent_normal_at(scene, mesh, material.normal_texture, material.normal_scale, p,
                                    edge1, edge2, normal, cone_share);
 
-  // Turn both normals to the side the ray came from
+  // Turn both normals to the side that the ray came from
   bool from_front = dot(surface.geometric_normal_ws, direction_ws) <= 0.0f;
   if (!from_front) surface.geometric_normal_ws = -surface.geometric_normal_ws;
   FacingTriangle facing = {surface.geometric_normal_ws, direction_ws, along_winding, from_front};
@@ -273,7 +274,7 @@ LAMBENT_FN Surface surface_at(SceneRef scene, vec3 direction_ws, HitRef hit, Foo
           ? horizon_share(length(bent.mean), dot(surface.normal_ws, surface.geometric_normal_ws))
           : 0.0f;
   if (surface.transmission.kind == kLeavesVolume) {
-    // Inner reflection is a matter of rays that go on; no light of the room is in there
+    // Rays that go on account for inner reflection; no light of the room arrives inside
     surface.reflectance = lambert_reflectance(vec3(0.0f));
     surface.gi_share = 0.0f;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The formulas between a hit and the surface that shading sees.
+// The formulas for the surface at a hit.
 #ifndef LAMBENT_RAYTRACING_SURFACE_MATH_H
 #define LAMBENT_RAYTRACING_SURFACE_MATH_H
 
@@ -7,16 +7,16 @@
 
 LAMBENT_BEGIN
 
-// Transmission::kind
+// Values of Transmission::kind
 const uint kCrossesPane = 0u;   ///< The surface is thin: light goes straight on.
-const uint kEntersVolume = 1u;  ///< The ray comes from outside of a volume that refracts,
-const uint kLeavesVolume = 2u;  ///< and from inside, where reflection is inner reflection alone.
+const uint kEntersVolume = 1u;  ///< The ray comes from outside a volume, whose surface refracts it.
+const uint kLeavesVolume = 2u;  ///< From inside, where the only reflection is inner reflection.
 
-/// How a surface lets light through.
+/// How a surface transmits light.
 struct Transmission {
-  vec3 tint;        ///< Share of the light that enters which passes, by color; 0: none does.
+  vec3 tint;        ///< Share of the entering light that is transmitted, by color; 0: opaque.
   uint kind;        ///< kCrossesPane, ...
-  vec3 absorption;  ///< Of the volume that the ray came through [1/m].
+  vec3 absorption;  ///< Absorption of the volume that the ray came through [1/m].
   float eta;        ///< Index of refraction of the ray's side over that of the other one.
   float alpha;      ///< GGX width of the surface.
 };
@@ -25,20 +25,20 @@ struct Transmission {
 struct Surface {
   vec3 position_ws;          ///< On the triangle [m].
   vec3 normal_ws;            ///< Shading normal: interpolated, normal-mapped; unit.
-  vec3 geometric_normal_ws;  ///< Of the triangle; unit.
-  Reflectance reflectance;   ///< Nothing where the ray comes from inside a volume.
+  vec3 geometric_normal_ws;  ///< Normal of the triangle; unit.
+  Reflectance reflectance;   ///< 0 where the ray comes from inside a volume.
   Transmission transmission;
-  vec3 emission;  ///< Radiance along the ray, through a clearcoat [W/(m^2 sr)].
+  vec3 emission;  ///< Emitted radiance along the ray, through a clearcoat [W/(m^2 sr)].
   uint material;  ///< Index into Scene::materials.
-  /// Share of the field's irradiance that it receives, 0 to 1: see horizon_share(). 0: it receives
+  /// Share of the field's irradiance that it receives, 0 to 1; see horizon_share(). 0: it receives
   /// direct light alone.
   float gi_share;
 };
 
-// A shading normal turned away from the viewer is bent back to where this cosine is left, so that
-// smooth silhouettes and steep normal maps neither go black nor divide by zero.
+// A shading normal that faces away from the viewer is bent back until this cosine is left, so that
+// smooth silhouettes and steep normal maps neither turn black nor divide by zero.
 const float kMinViewCosine = 1e-3f;
-// Squared lengths below this are no direction.
+// Vectors of less squared length have no direction.
 const float kMinSquaredLength = 1e-30f;
 
 LAMBENT_FN vec3 normalize_or(vec3 v, vec3 fallback) {
@@ -46,19 +46,19 @@ LAMBENT_FN vec3 normalize_or(vec3 v, vec3 fallback) {
   return squared > kMinSquaredLength ? v * (1.0f / sqrt(squared)) : fallback;
 }
 
-/// What a ray covers of a surface, by which its textures are read.
+/// The part of a surface that a ray covers, which selects MIP levels.
 struct Footprint {
-  float width;   ///< Across the ray [m]; 0: textures are read at full resolution.
-  uint blended;  ///< As of ConeShare.
+  float width;   ///< Width across the ray [m]; 0: textures are read at full resolution.
+  uint blended;  ///< See ConeShare.
 };
 
-/// A point given in object space.
+/// Transforms a point from object space.
 LAMBENT_FN vec3 transform_point(mat4 world_from_object, vec3 position) {
   return vec3(world_from_object * vec4(position, 1.0f));
 }
 
-/// det(M) * inverse(M)^T: takes normals to the world, but for their length and, in mirrored
-/// instances, their sign, which facing the viewer settles anyway.
+/// det(M) * inverse(M)^T: transforms normals to world space, except for their length and, in
+/// mirrored instances, their sign, which is set later by facing the viewer.
 LAMBENT_FN mat3 cofactors(mat4 m) {
   vec3 x = vec3(m[0]);
   vec3 y = vec3(m[1]);
@@ -66,14 +66,14 @@ LAMBENT_FN mat3 cofactors(mat4 m) {
   return mat3(cross(y, z), cross(z, x), cross(x, y));
 }
 
-/// Cross section of a cone of this width over a triangle's area, 0 where there is no cone.
+/// Cross section of a cone of this width over a triangle's area; 0 where there is no cone.
 LAMBENT_FN float share_of_triangle(float footprint, float double_area) {
   if (footprint <= 0.0f || double_area <= 0.0f) return 0.0f;
   return 2.0f * footprint * footprint / double_area;
 }
 
-/// Tangent and handedness that the texture coordinates tell, for meshes that come without tangents;
-/// from the edges between a triangle's first vertex and the others.
+/// Tangent and handedness from texture coordinates, for meshes that come without tangents, given
+/// the edges from a triangle's first vertex to the others.
 LAMBENT_FN vec4 tangent_from_uvs(vec3 edge1, vec3 edge2, vec2 uv1, vec2 uv2) {
   float determinant = uv1.x * uv2.y - uv1.y * uv2.x;
   float orientation = determinant < 0.0f ? -1.0f : 1.0f;
@@ -81,24 +81,23 @@ LAMBENT_FN vec4 tangent_from_uvs(vec3 edge1, vec3 edge2, vec2 uv1, vec2 uv2) {
   return vec4(orientation * (edge1 * uv2.y - edge2 * uv1.y), -orientation);
 }
 
-/// `tangent` made orthogonal to a unit normal; 0 where it has no direction of its own.
+/// `tangent` made orthogonal to a unit normal; 0 where the two are parallel.
 LAMBENT_FN vec3 orthogonal_tangent(vec3 normal, vec3 tangent) {
   return normalize_or(tangent - normal * dot(normal, tangent), vec3(0.0f));
 }
 
-/// The vector that a normal map's texel holds, in tangent space. A mean over many texels is shorter
-/// than 1, the shorter the more their normals scatter.
+/// The vector in a normal map's texel, in tangent space. A mean over many texels is shorter than 1:
+/// the more their normals scatter, the shorter.
 LAMBENT_FN vec3 map_vector(vec3 texel, float normal_scale) {
   vec3 n = texel * 2.0f - 1.0f;
   return vec3(n.x * normal_scale, n.y * normal_scale, n.z);
 }
 
-// Vectors of maps are of 8 bits a component: their means are shorter than 1 by up to so much where
-// all normals are the same.
+// Maps have 8 bits a component: means of equal normals are shorter than 1 by up to this rounding.
 const float kLengthRounding = 1.0f / 255.0f;
 
-/// Variance of the slopes, along each axis, of the bumps whose mean map_vector() is this. Of small
-/// slopes p the normals' mean is shorter than 1 by their mean of |p|^2 / 2.
+/// Variance of the slopes, along each axis, of bumps with this mean of map_vector(). For small
+/// slopes p the normals' mean is shorter than 1 by the mean of |p|^2 / 2.
 LAMBENT_FN float slope_variance(vec3 mean, float normal_scale) {
   float scale = max(abs(normal_scale), kLengthRounding);
   float mean_length = length(vec3(mean.x / scale, mean.y / scale, mean.z));
@@ -107,21 +106,21 @@ LAMBENT_FN float slope_variance(vec3 mean, float normal_scale) {
 
 /// GGX width of a coat over bumps whose slopes have this variance. Toksvig, "Mipmapping Normal
 /// Maps", 2004; Kaplanyan et al., "Filtering Distributions of Normals for Shading Antialiasing",
-/// HPG 2016, Eq. 6: lobes of slopes add up by their squares.
+/// HPG 2016, Eq. 6: the squares of widths add up.
 LAMBENT_FN float widened_alpha(float alpha, float slope_variance) {
   if (slope_variance <= 0.0f) return alpha;
   return min(sqrt(alpha * alpha + 2.0f * slope_variance), max(alpha, 1.0f));
 }
 
-/// The normal that a map's vector says, in the space of the unit vectors normal and tangent.
+/// The normal for a normal map's vector, in the space of the unit vectors normal and tangent.
 LAMBENT_FN vec3 mapped_normal(vec3 normal, vec3 tangent, float handedness, vec3 n) {
   vec3 b = cross(normal, tangent) * (handedness < 0.0f ? -1.0f : 1.0f);
   return normalize_or(tangent * n.x + b * n.y + normal * n.z, normal);
 }
 
-/// A shading normal on the viewer's side. `along_winding`: it points to where the vertices run
-/// counter-clockwise; `from_front`: that is where the ray comes from. `geometric_normal` is on the
-/// viewer's side already.
+/// A shading normal on the viewer's side. `along_winding`: it points to the side from which the
+/// vertices run counter-clockwise; `from_front`: the ray comes from that side. `geometric_normal`
+/// faces the viewer already.
 LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from_front,
                                       vec3 direction, vec3 geometric_normal) {
   vec3 n = along_winding != from_front ? -normal : normal;
@@ -130,17 +129,17 @@ LAMBENT_FN vec3 normal_towards_viewer(vec3 normal, bool along_winding, bool from
   return normalize_or(n + (view_cosine - kMinViewCosine) * direction, geometric_normal);
 }
 
-// Mirror directions of smooth surfaces leave the triangle at least at this cosine, or at so much of
-// the viewer's own where that is less.
+// Mirror directions of smooth surfaces leave the triangle at least at this cosine, or at this share
+// of the viewer's own where that is less.
 const float kMinMirrorCosine = 0.01f;
 const float kMinMirrorShare = 0.9f;
 
-/// The normal that vertices interpolate, bent towards the triangle's where the mirror direction of
-/// a ray that arrives along `direction` would run below the triangle: nothing is reflected from
-/// there, and smooth shapes would have dark rims. `normal` and `geometric_normal` face the ray's
-/// origin, unit. The mirror direction and the geometric normal then have a cosine of just
-/// kMinMirrorCosine: with the viewer's direction (g, u) in the plane of the two normals, and the
-/// normal at an angle t to the geometric one, it is g cos 2t + u sin 2t.
+/// The interpolated normal, bent towards the triangle's where the mirror direction of a ray that
+/// arrives along `direction` would be below the triangle: nothing is reflected from there, and
+/// smooth shapes would have dark rims. `normal` and `geometric_normal` face the ray's origin, unit.
+/// The mirror direction and the geometric normal then have a cosine of just kMinMirrorCosine: with
+/// the viewer's direction (g, u) in the plane of the two normals, and the normal at an angle t to
+/// the geometric one, it is g cos 2t + u sin 2t.
 LAMBENT_FN vec3 reflecting_normal(vec3 normal, vec3 direction, vec3 geometric_normal) {
   float viewer_cosine = -dot(geometric_normal, direction);
   float least = min(kMinMirrorShare * viewer_cosine, kMinMirrorCosine);
@@ -155,7 +154,7 @@ LAMBENT_FN vec3 reflecting_normal(vec3 normal, vec3 direction, vec3 geometric_no
   return normalize_or((1.0f + cos_2t) * geometric_normal + sin_2t * beside, geometric_normal);
 }
 
-/// Gives a clearcoat its normal, in the frame of the shading normal, for a ray along a direction.
+/// Sets a clearcoat's normal, in the frame of the shading normal, for a ray along `direction_ws`.
 LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal_ws,
                                 vec3 clearcoat_normal_ws, vec3 direction_ws) {
   if (clearcoat_normal_ws != normal_ws) {
@@ -164,26 +163,26 @@ LAMBENT_FN void place_clearcoat(LAMBENT_INOUT(SurfaceLayers) layers, vec3 normal
   layers.clearcoat_cosine = -dot(clearcoat_normal_ws, direction_ws);
 }
 
-/// Share of uniform light from all around that a surface receives although nothing arrives from
-/// below its geometric horizon: over the directions above both horizons, the integral of
-/// dot(n, w) is pi (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that for many normals
-/// their mean does, with its length: `length` is that of the mean, `cosine` dot(n, n_g).
+/// Share of uniform light from all around that a surface receives, as nothing arrives from below
+/// its geometric horizon. The integral of dot(n, w) over the directions w above both horizons is
+/// pi (1 + dot(n, n_g)) / 2. It is linear in the normal n, so that the mean of many normals, with
+/// its length, stands for them: `length` is that of the mean, `cosine` is dot(n, n_g).
 LAMBENT_FN float horizon_share(float length, float cosine) {
   return 0.5f + 0.5f * min(length, 1.0f) * cosine;
 }
 
-// The share of the hemisphere about a normal that is above the surface is taken to be at least
-// this, which bounds above_horizon().
+// Lower bound of the share of the hemisphere about a normal that is above the surface, which bounds
+// above_horizon().
 const float kLeastAbove = 0.1f;
 
-/// By how much irradiance from rays above the geometric horizon exceeds what a surface with this
-/// share of indirect light receives. Rays about a MIP's mean normal leave out less than those about
-/// the normals that it is the mean of.
+/// Factor from irradiance of rays above the geometric horizon to what a surface with this share of
+/// indirect light receives. Rays about the mean normal of a MIP level leave out less than those
+/// about the normals that it averages.
 LAMBENT_FN float above_horizon(float gi_share, float cosine_of_normals) {
   return gi_share / max(kLeastAbove, 0.5f + 0.5f * cosine_of_normals);
 }
 
-/// Of a surface that lets no light through.
+/// The value for opaque surfaces.
 LAMBENT_FN Transmission no_transmission() {
   Transmission none = {vec3(0.0f), kCrossesPane, vec3(0.0f), 1.0f, 1.0f};
   return none;
@@ -193,26 +192,27 @@ LAMBENT_FN bool lets_light_through(Transmission transmission) {
   return transmission.tint != vec3(0.0f);
 }
 
-/// Share of light that crosses a surface straight on, by color. Volumes are crossed straight by
-/// shadow rays and rays of probes: where light enters at this angle, it also leaves.
+/// Share of light that passes a surface straight on, by color. Shadow rays and rays of probes pass
+/// volumes straight: light that enters at this angle also leaves.
 LAMBENT_FN vec3 straight_share(vec3 tint, Reflectance from_outside, float cosine) {
   vec3 share = tint * (vec3(1.0f) - fresnel(from_outside, abs(cosine)));
   if (!has_layers(from_outside.layers)) return share;
   return share * passes_layers(from_outside.layers, abs(cosine));
 }
 
-/// Probability with which a ray that crosses glass passes what lets this share through.
+/// Probability with which a ray that crosses glass passes a surface that transmits this share.
 LAMBENT_FN float passing_probability(vec3 share) {
   return clamp(max(share.x, max(share.y, share.z)), 0.0f, 1.0f);
 }
 
-/// Weight of rays that were stopped although they might have passed. A pane of glass stops few.
+/// Least probability of being stopped, in the weight of rays that were stopped although they might
+/// have passed. A pane of glass stops few.
 const float kLeastStopping = 1e-4f;
 LAMBENT_FN float weight_of_stopped(vec3 share) {
   return 1.0f / max(1.0f - passing_probability(share), kLeastStopping);
 }
 
-/// What reflects as Lambert says, exactly.
+/// An exactly Lambertian reflectance.
 LAMBENT_FN Reflectance lambert_reflectance(vec3 diffuse) {
   Reflectance result = {diffuse, 1.0f, vec3(0.0f), 0.0f, no_layers()};
   return result;
@@ -230,7 +230,8 @@ LAMBENT_FN Reflectance coated_reflectance(vec3 base, float metallic, float rough
   return result;
 }
 
-/// KHR_materials_sheen and KHR_materials_clearcoat, whose normal is the shading normal for now.
+/// KHR_materials_sheen and KHR_materials_clearcoat. The clearcoat's normal is set later, and is the
+/// shading normal until then.
 LAMBENT_FN SurfaceLayers layers_of(vec3 sheen, float sheen_roughness, float clearcoat,
                                    float clearcoat_roughness) {
   SurfaceLayers layers = no_layers();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through surfaces that let light through: panes, which light crosses straight on, and the
-// boundaries of volumes, which refract it.
+// Rays through transmissive surfaces: panes, which light crosses straight on, and the boundaries of
+// volumes, which refract it.
 //
 // Based on: Walter, Marschner, Li and Torrance, "Microfacet Models for Refraction through Rough
 // Surfaces", EGSR 2007; Khronos Group, KHR_materials_transmission and KHR_materials_volume.
@@ -12,18 +12,18 @@
 
 LAMBENT_BEGIN
 
-/// Narrower lobes leave light that passes as sharp as a picture can show: of roughness 0.05, which
-/// are a sixth of a degree wide.
+/// Below this GGX width, that of roughness 0.05, transmitted light stays sharp: such lobes are a
+/// sixth of a degree wide.
 const float kStraightAlpha = 0.0025f;
 
-/// Whether light goes straight on through a surface.
+/// Whether light passes a surface straight on.
 LAMBENT_FN bool goes_straight(Transmission through) {
   return through.kind == kCrossesPane && through.alpha <= kStraightAlpha;
 }
 
-/// Share of light that the boundary of a volume reflects inwards, by the cosine on the inside and
-/// the index of refraction, which is greater than 1 there. Schlick's approximation holds for the
-/// angle in the thinner medium; where there is none, all is reflected.
+/// Share of light that the boundary of a volume reflects inwards, given the cosine on the inside
+/// and the index of refraction, which is greater than 1 there. Schlick's approximation holds for
+/// the angle in the thinner medium; where there is no such angle, all light is reflected.
 LAMBENT_FN float inner_reflection(float cosine, float ior) {
   float squared_sine = ior * ior * (1.0f - cosine * cosine);
   if (squared_sine >= 1.0f) return 1.0f;
@@ -33,15 +33,15 @@ LAMBENT_FN float inner_reflection(float cosine, float ior) {
   return f0 + (1.0f - f0) * m * m * m * m * m;
 }
 
-/// Where a ray goes on from a surface that lets light through.
+/// The continuation of a ray at a transmissive surface.
 struct ThroughDraw {
   vec3 direction_ws;  ///< Unit.
-  vec3 weight;        ///< Share of the light from there that the ray brings; 0: none.
-  uint crosses;       ///< 1: it goes on behind the surface; 0: it is reflected inwards.
+  vec3 weight;        ///< Share of the light from there that the ray carries; 0: none.
+  uint crosses;       ///< 1: the ray goes on behind the surface; 0: it is reflected inwards.
 };
 
-/// Draws a direction of those in which light passes. From outside, what the surface reflects is
-/// left to others; from inside, chance decides between what passes and inner reflection.
+/// Draws a direction from which light is transmitted. From outside, reflection is not included;
+/// from inside, one of transmission and inner reflection is drawn at random.
 LAMBENT_FN ThroughDraw draw_through(Transmission through, Reflectance reflectance, vec3 normal_ws,
                                     vec3 to_viewer_ws, vec3 u) {
   ThroughDraw drawn = {-to_viewer_ws, vec3(0.0f), 1u};
@@ -66,12 +66,12 @@ LAMBENT_FN ThroughDraw draw_through(Transmission through, Reflectance reflectanc
 
   vec3 l = through.kind == kCrossesPane || drawn.crosses == 0u ? reflect(-v, h)
                                                                : refract(-v, h, through.eta);
-  // The lobe of a rough pane is that of its reflection, seen on the other side
+  // The lobe of a rough pane is that of its reflection, mirrored to the other side
   if (through.kind == kCrossesPane) l.z = -l.z;
   bool is_behind = l.z < 0.0f;
   if (is_behind != (drawn.crosses != 0u)) drawn.weight = vec3(0.0f);
   if (rough) {
-    // Smith's shadowing of the way out, of that which the draw does not account for
+    // Apply Smith's shadowing of the outgoing direction, which sampling visible normals leaves out
     float lambda_l = ggx_lambda(abs(l.z), through.alpha);
     float lambda_v = ggx_lambda(v.z, through.alpha);
     bool same_side = through.kind == kCrossesPane || drawn.crosses == 0u;
@@ -82,21 +82,20 @@ LAMBENT_FN ThroughDraw draw_through(Transmission through, Reflectance reflectanc
   return drawn;
 }
 
-/// Probability with which a path goes on through a surface where it could also reflect a share of
-/// light of this size.
+/// Probability of transmission at a surface that transmits and reflects these shares of light.
 LAMBENT_FN float crossing_probability(vec3 passing, vec3 reflected) {
   float passes = max(passing.x, max(passing.y, passing.z));
   float turns = max(reflected.x, max(reflected.y, reflected.z));
   return passes > 0.0f ? passes / (passes + max(turns, 0.0f)) : 0.0f;
 }
 
-/// Share of light that a surface lets pass as it is seen from a direction, for that.
+/// The transmitted share that crossing_probability() takes, as seen from a direction.
 LAMBENT_FN vec3 passing_share(Transmission through, Reflectance reflectance, float n_dot_v) {
   if (through.kind == kLeavesVolume) return vec3(1.0f);
   return straight_share(through.tint, reflectance, n_dot_v);
 }
 
-/// Share of light that is left after a way through the volume that a ray comes from [m].
+/// Transmittance of the volume that a ray comes from, over a distance [m].
 LAMBENT_FN vec3 left_of_light(Transmission through, float distance) {
   return exp(-through.absorption * distance);
 }

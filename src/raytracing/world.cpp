@@ -48,7 +48,7 @@ void update_tracer(DeviceWorld* on_device, RayTracer& tracer, const SceneEdits& 
 
 #else
 
-// No device can be opened then
+// Without Vulkan, no device can be opened
 std::shared_ptr<DeviceWorld> make_device_world(const Scene&, const EmissiveTriangles&,
                                                const LightTree&, std::shared_ptr<vulkan::Device>) {
   return nullptr;
@@ -71,7 +71,7 @@ void update_tracer(DeviceWorld*, RayTracer& tracer, const SceneEdits& edits,
 struct World::State::History {
   SceneSnapshot snapshot;
   std::uint64_t revision = 0;
-  std::deque<WorldChanges> log;  // the last of them
+  std::deque<WorldChanges> log;  // the most recent changes
 };
 
 World::State::State(const Scene& scene, std::shared_ptr<vulkan::Device> lent)

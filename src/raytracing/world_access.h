@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes find in a world besides its public interface.
+// Access to the parts of a world that its public interface does not show.
 #pragma once
 
 #include <memory>
@@ -15,7 +15,7 @@ class RayTracer;
 struct ScenePose;
 
 struct World::State {
-  /// Builds everything; on the device, where it is not null.
+  /// Builds everything, on the device where that is not null.
   State(const Scene& scene, std::shared_ptr<vulkan::Device> device);
   ~State();
 
@@ -28,32 +28,32 @@ struct World::State {
   std::shared_ptr<const ScenePose> pose;
 };
 
-/// Opens a world to the functions below.
+/// Gives the functions below access to a world's state.
 struct WorldAccess {
   static const World::State& state_of(const World& world) { return *world.state_; }
 };
 
-/// What finds hits and occlusion. Lives as long as the world.
+/// The world's ray tracer. Lives as long as the world.
 inline const RayTracer& tracer_of(const World& world) {
   return *WorldAccess::state_of(world).tracer;
 }
 
-/// What draws points on emissive surfaces. Lives until the world's next update.
+/// The world's emissive triangles. Lives until the world's next update.
 inline const EmissiveTriangles& emissive_of(const World& world) {
   return *WorldAccess::state_of(world).emissive;
 }
 
-/// All lights, and the tree that points draw them from. Lives as long as the world.
+/// All lights, and the tree that samples are drawn from. Lives as long as the world.
 inline const LightTree& lights_of(const World& world) {
   return *WorldAccess::state_of(world).lights;
 }
 
-/// Where everything is. Another object after each update that found geometry to differ.
+/// The poses of all instances. A new object after each update in which geometry differed.
 inline const std::shared_ptr<const ScenePose>& pose_of(const World& world) {
   return WorldAccess::state_of(world).pose;
 }
 
-/// The world as passes on its device find it; null on the processor. Lives as long as the world.
+/// The world in its device's memory; null on the processor. Lives as long as the world.
 inline const DeviceWorld* device_world_of(const World& world) {
   return WorldAccess::state_of(world).on_device.get();
 }

@@ -10,8 +10,8 @@
 namespace lambent::reference {
 namespace {
 
-// Surfaces that a path crosses, and panes that a shadow ray does, at most: more are a flaw of the
-// scene, such as an endless stack of faces.
+// Most surfaces that a path passes, and most panes that a shadow ray passes: more are an error in
+// the scene, such as an endless stack of faces.
 constexpr int kMaxCrossed = 256;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths of the reference through surfaces that let light through.
+// Paths of the reference through transmissive surfaces.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,28 @@
 
 namespace lambent::reference {
 
-/// Density of directions whose lights are found by scattering alone.
+/// The density of directions for which only scattered rays find emitters, and samples of lights
+/// cannot.
 inline constexpr float kFoundByScatteringAlone = std::numeric_limits<float>::infinity();
 
-/// A scattered ray on its way to the next surface that scatters it.
+/// The state of a scattered ray until the next surface that scatters it.
 struct Traveller {
   float pdf;       ///< Density with which its direction was drawn [1/sr].
-  float distance;  ///< Behind it, through panes [m].
-  int crossed;     ///< Surfaces.
+  float distance;  ///< Length of its path so far, through panes [m].
+  int crossed;     ///< Number of surfaces that it has passed.
 };
 
 /// The ray that leaves a surface on the side of its geometric normal.
 Ray ray_from(const glm::vec3& position_ws, const glm::vec3& geometric_normal_ws,
              const glm::vec3& direction_ws);
 
-/// Share of light that arrives along a shadow ray. It goes straight through smooth panes. Where a
-/// surface scatters or refracts it, scattered rays find the light; but for punctual lights, which
-/// none can find: their light is taken to go straight there, too.
+/// Share of light that arrives along a shadow ray, which passes smooth panes straight. Where a
+/// surface scatters or refracts light, scattered rays find emitters instead, and the result is 0.
+/// As no scattered ray can hit a punctual light, shadow rays to these pass straight there, too.
 glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::uint64_t& rays);
 
-/// Whether a path goes on through a surface, which chance decides; `ray` is then the one behind it.
-/// Else the throughput is that of what the surface reflects.
+/// Whether a path goes on through a surface, drawn at random; `ray` is then the one behind it.
+/// Otherwise, the throughput is divided by the probability of reflection.
 bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, Traveller& traveller,
            SobolSampler& random);
 

@@ -16,12 +16,12 @@
 namespace lambent::reference {
 namespace {
 
-// Of the rays that the first surface scatters, at most this share samples its specular lobe: the
-// rest also measures irradiance, which even a mirror has.
+// Largest share of the rays scattered by the first surface that samples its specular lobe: the
+// others also measure irradiance, which even a mirror has.
 constexpr float kMaxFirstSpecularShare = 0.75f;
-// Bounces before Russian roulette may end a path: fewer would add noise to what carries most light.
+// Bounces before Russian roulette may end a path: fewer would add noise to the brightest light.
 constexpr int kBouncesBeforeRoulette = 2;
-// The roulette's highest chance of survival: paths end even where nothing is absorbed.
+// Largest probability of survival in Russian roulette: paths end even where nothing is absorbed.
 constexpr float kMaxSurvival = 0.95f;
 
 float max_component(const glm::vec3& v) {
@@ -40,14 +40,14 @@ PathIntegrator::PathIntegrator(const World& world, int max_bounces, Strategy str
       environment_(world.scene().environment),
       media_(world.scene().fog) {}
 
-// Weight of light that a scattered ray of density `pdf` found, and that could also have been drawn.
+// Weight of light hit by a scattered ray of density `pdf`, which light sampling could find, too.
 float PathIntegrator::found_weight(float pdf, float light_pdf) const {
   if (light_pdf <= 0.0f || strategy_ == Strategy::scatter) return 1.0f;
   if (pdf == kFoundByScatteringAlone) return 1.0f;
   return strategy_ == Strategy::light ? 0.0f : mis_power_weight(pdf, light_pdf);
 }
 
-// Weight of light that was drawn, and that a scattered ray could also have found.
+// Weight of sampled light, which a scattered ray could hit, too.
 float PathIntegrator::drawn_weight(float light_pdf, float pdf) const {
   return strategy_ == Strategy::light ? 1.0f : mis_power_weight(light_pdf, pdf);
 }
@@ -67,7 +67,7 @@ glm::vec3 PathIntegrator::emission_found(const Surface& surface, const Ray& ray,
   return surface.emission * found_weight(traveller.pdf, light_pdf);
 }
 
-// Picks one light with probability proportional to what it sends here if nothing is in between.
+// Samples one light with a probability in proportion to its unoccluded light at the vertex.
 void PathIntegrator::add_punctual(const Vertex& vertex, float u, Lighting& lighting) const {
   const auto importance = [&](const PunctualSample& light) {
     return vertex.is_lit_from(light.to_light)
@@ -150,7 +150,7 @@ PathIntegrator::Lighting PathIntegrator::sample_lights(const Vertex& vertex, Sob
   return lighting;
 }
 
-// The point in fog at which a ray's light is scattered before `t_max`, if it is.
+// The vertex in fog at which a ray's light is scattered before `t_max`, if it is.
 std::optional<PathIntegrator::Vertex> PathIntegrator::scatter_in_fog(const Ray& ray, float t_max,
                                                                      SobolSampler& random) const {
   if (media_.empty()) return std::nullopt;
@@ -180,14 +180,14 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
           throughput * emission_found(surface, ray, hit, traveller);
       if (cross(surface, ray, throughput, traveller, random)) {
         traveller.distance += hit.distance;
-        --bounce;  // of diffuse and glossy bounces alone
+        --bounce;  // only diffuse and glossy bounces count
         continue;
       }
       found.emplace(surface, -ray.direction, 1.0f);
     }
     if (bounce > max_bounces_) return incident;
 
-    // Add the light that the vertex reflects straight from lights
+    // Add the direct light that the vertex reflects
     const Vertex& vertex = *found;
     if (vertex.is_black()) return incident;
     const Lighting lighting = sample_lights(vertex, random, rays);
@@ -197,7 +197,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
           throughput * (reflected.diffuse + reflected.specular) * lighting.samples[i].weight;
     }
 
-    // Scatter, and let Russian roulette end paths that carry little
+    // Scatter, and let Russian roulette end paths of low throughput
     const glm::vec3 direction_ws = vertex.sample(random.next3());
     pdf = vertex.pdf(direction_ws);
     if (!(pdf > 0.0f) || !vertex.is_lit_from(direction_ws)) return incident;
@@ -213,7 +213,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
   }
 }
 
-// Light that comes through a surface along a camera ray.
+// Light transmitted through a surface along a camera ray.
 glm::vec3 PathIntegrator::sample_through(const Surface& surface, const Ray& ray,
                                          SobolSampler& random, std::uint64_t& rays) const {
   const ThroughDraw drawn = draw_through(surface.transmission, surface.reflectance,
@@ -226,12 +226,12 @@ glm::vec3 PathIntegrator::sample_through(const Surface& surface, const Ray& ray,
   return drawn.weight * (incident.emitted + incident.other);
 }
 
-// Light that fog scatters to the eye along a camera ray, where the optical depth up to `t_max` is
+// Light that fog scatters to the camera along a ray, where the optical depth up to `t_max` is
 // `depth`.
 glm::vec3 PathIntegrator::sample_fog(const Ray& ray, float t_max, float depth, SobolSampler& random,
                                      std::uint64_t& rays) const {
   if (!(depth > 0.0f)) return glm::vec3(0.0f);
-  // An event is drawn among those before `t_max` alone: its weight is their whole share
+  // Sample an event among those before `t_max` alone: its weight is their total probability
   const float share = -std::expm1(-depth);
   const glm::vec2 u = random.next2();
   const float event_depth = std::min(-std::log1p(-u.x * share), depth);
@@ -266,7 +266,7 @@ PixelSample PathIntegrator::sample_pixel(const Ray& ray, SobolSampler& random,
   return sample;
 }
 
-// What a camera ray sees at its end, without what is on the way.
+// Light of the surface that a camera ray hits, without the fog in front.
 PixelSample PathIntegrator::sample_seen(const Ray& ray, const Hit& hit, SobolSampler& random,
                                         std::uint64_t& rays) const {
   PixelSample sample;

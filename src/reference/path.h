@@ -20,17 +20,17 @@
 
 namespace lambent::reference {
 
-/// One sample of a pixel, its light split by how the surface that is seen reflects it. Fog between
-/// takes its share of each part but of `irradiance`, `albedo` and `normal`.
+/// One sample of a pixel, split by how the visible surface reflects the light. All parts except
+/// `irradiance`, `fog`, `albedo` and `normal` are attenuated by the fog in front of the surface.
 struct PixelSample {
   glm::vec3 direct{0.0f};        ///< Diffuse, from punctual lights and emissive surfaces.
   glm::vec3 indirect{0.0f};      ///< Diffuse, all other light.
-  glm::vec3 irradiance{0.0f};    ///< What `indirect` reflects [W/m^2].
+  glm::vec3 irradiance{0.0f};    ///< The irradiance that `indirect` reflects [W/m^2].
   glm::vec3 glossy{0.0f};        ///< Specular, all light.
-  glm::vec3 transmission{0.0f};  ///< Through the surface.
+  glm::vec3 transmission{0.0f};  ///< Transmitted through the surface.
   glm::vec3 emission{0.0f};      ///< Emitted towards the camera; the sky where nothing is hit.
-  glm::vec3 fog{0.0f};           ///< Scattered to the camera on the way, all light.
-  glm::vec3 albedo{0.0f};        ///< Of the diffuse part.
+  glm::vec3 fog{0.0f};           ///< Scattered to the camera by fog, all light.
+  glm::vec3 albedo{0.0f};        ///< Albedo of the diffuse part.
   glm::vec3 normal{0.0f};        ///< Shading normal.
 
   glm::vec3 radiance() const { return direct + indirect + glossy + transmission + emission + fog; }
@@ -42,18 +42,19 @@ struct IrradianceSample {
   glm::vec3 indirect{0.0f};
 };
 
-/// Follows light paths backwards through a world. Const and safe to call from many threads at once.
+/// Traces light paths backwards through a world. Const and safe to call from many threads at once.
 class PathIntegrator {
  public:
-  /// Refers to the world, which must outlive it. `max_bounces` counts the bounces of indirect
-  /// light, off surfaces and in fog; `unlit_radiance` is as of FrameSettings.
+  /// Refers to the world, which must outlive it. `max_bounces`: largest number of bounces of
+  /// indirect light, off surfaces and in fog. `unlit_radiance`: see FrameSettings.
   PathIntegrator(const World& world, int max_bounces, Strategy strategy,
                  float unlit_radiance = 1.0f);
 
-  /// An unbiased estimate of what arrives along a camera ray. Adds the rays it took to `rays`.
+  /// An unbiased estimate of the light along a camera ray. Adds the number of rays traced to
+  /// `rays`.
   PixelSample sample_pixel(const Ray& ray, SobolSampler& random, std::uint64_t& rays) const;
 
-  /// An unbiased estimate of the irradiance at a point of a surface of that unit normal.
+  /// An unbiased estimate of the irradiance at a point of a surface with this unit normal.
   IrradianceSample sample_irradiance(const glm::vec3& position_ws, const glm::vec3& normal_ws,
                                      SobolSampler& random, std::uint64_t& rays) const;
 

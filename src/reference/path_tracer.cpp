@@ -45,7 +45,7 @@ constexpr std::array<LayerSource, 9> kLayers = {{
     {"normal", &PixelSample::normal, false},
 }};
 
-// Everything that is kept of a pixel between passes.
+// The sums of a pixel over passes.
 struct PixelStatistics {
   std::array<glm::dvec3, kLayers.size()> sums{};
   std::array<glm::dvec3, kLayers.size()> sums_of_squares{};  // of pass means, times samples
@@ -79,7 +79,7 @@ class Renderer {
   std::atomic<std::uint64_t> rays_ = 0;
 };
 
-// Adds `samples` paths of one pass to a pixel; returns the rays traced.
+// Adds `samples` paths of one pass to a pixel; returns the number of rays traced.
 std::uint64_t Renderer::sample_pixel(int x, int y, int pass, int samples) {
   const std::size_t index = static_cast<std::size_t>(y) * settings_.width + x;
   const uvec3 seed = hash_pcg3d(
@@ -156,8 +156,7 @@ void Renderer::write_first_hits(LayeredImage& image) const {
   }
 }
 
-// Writes "error" and, where asked for, "NAME.error"; returns the relative standard error of the
-// whole.
+// Writes "error" and, if requested, "NAME.error"; returns the relative standard error of the total.
 double Renderer::write_errors(LayeredImage& image) const {
   Image& error = image.require("error", 3);
   double squared_error = 0.0;
@@ -196,7 +195,7 @@ void Renderer::write_layers(ReferenceResult& result) const {
       put(layer, p, pixels_[p].sums[l] / static_cast<double>(settings_.samples));
     }
   }
-  // The whole is the sum of its parts to the bit
+  // Add up the parts, so that the total is their sum to the bit
   Image& whole = *image.find("");
   for (const char* part : {"direct", "indirect", "glossy", "transmission", "emission", "fog"}) {
     const Image& layer = *image.find(part);

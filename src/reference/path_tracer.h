@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The yardstick: an unbiased path tracer that every method's error is measured against.
+// The reference: an unbiased path tracer that every method's error is measured against.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace lambent {
 
 inline constexpr int kUnboundedBounces = std::numeric_limits<int>::max();
 
-/// What a reference image costs and how good it is.
+/// Cost and quality of a reference image.
 struct ReferenceSettings {
   int width = 1280;  ///< Pixels, 1 to 16384.
   int height = 720;  ///< Pixels, 1 to 16384.
@@ -27,25 +27,26 @@ struct ReferenceSettings {
       kUnboundedBounces;   ///< Bounces of indirect light, >= 0; Russian roulette ends longer paths.
   std::uint32_t seed = 1;  ///< Images of different seeds have independent noise.
   bool layer_errors =
-      false;  ///< Also keep the standard error of each layer of light ("direct.error", ...).
+      false;  ///< Also store the standard error of each layer of light ("direct.error", ...).
   reference::Strategy strategy =
-      reference::Strategy::combined;  ///< How lights are found; for tests.
-  float unlit_radiance = 1.0f;        ///< As of FrameSettings.
+      reference::Strategy::combined;  ///< How lights are sampled; for tests.
+  float unlit_radiance = 1.0f;        ///< See FrameSettings.
 };
 
-/// A reference image, made progressively in independent passes that tell how far they agree.
+/// A reference image, rendered in independent passes whose differences give the error.
 struct ReferenceResult {
-  /// Pixel means (box filter): "" (= direct + indirect + glossy + emission + fog), direct,
-  /// indirect, irradiance, glossy, emission, fog, albedo, normal. Of the ray through the pixel's
-  /// middle: position, depth (both 0 where nothing is hit). "error" is the standard error of "".
+  /// Pixel means (box filter): "" (= direct + indirect + glossy + transmission + emission + fog),
+  /// direct, indirect, irradiance, glossy, transmission, emission, fog, albedo, normal. From the
+  /// ray through the pixel's middle: position, depth (both 0 where nothing is hit). "error" is the
+  /// standard error of "".
   LayeredImage image;
-  /// Root mean square of "error" over the mean of "", of luminance; infinite with a single sample.
+  /// Root mean square of "error" over the mean of "", in luminance; infinite with a single sample.
   double relative_standard_error = 0.0;
-  std::uint64_t rays = 0;  ///< Traced, of all kinds.
+  std::uint64_t rays = 0;  ///< Number of rays traced, of all kinds.
   double ms = 0.0;         ///< Wall-clock time.
 };
 
-/// Renders on all threads that the task scheduler has; the same bits whatever their number.
+/// Renders on all threads of the task scheduler; the result does not depend on their number.
 ReferenceResult render_reference(const World& world, const Camera& camera,
                                  const ReferenceSettings& settings,
                                  const ProgressFn& progress = {});
@@ -62,17 +63,17 @@ struct Estimate {
   glm::vec3 standard_error{0.0f};
 };
 
-/// Which light counts, as in the layers of the image.
+/// The part of the light to estimate, as in the layers of the image.
 enum class LightKind : std::uint8_t { all, direct, indirect };
 
-/// Irradiance [W/m^2] at points, `samples` (>= 2) paths each. On all threads; the same bits
-/// whatever their number.
+/// Irradiance [W/m^2] at points, from `samples` (>= 2) paths each. Uses all threads; the result
+/// does not depend on their number.
 std::vector<Estimate> reference_irradiance(
     const World& world, std::span<const SurfacePoint> points, int samples, std::uint32_t seed,
     LightKind which = LightKind::all, reference::Strategy strategy = reference::Strategy::combined,
     int max_bounces = kUnboundedBounces);
 
-/// Radiance [W/(m^2 sr)] that arrives against a ray, of `samples` (>= 2) paths.
+/// Radiance [W/(m^2 sr)] that arrives against a ray, from `samples` (>= 2) paths.
 Estimate reference_radiance(const World& world, const Ray& ray, int samples, std::uint32_t seed,
                             reference::Strategy strategy = reference::Strategy::combined);
 

@@ -10,7 +10,7 @@
 
 namespace lambent::reference {
 
-/// Second dimension of Sobol's sequence, as bits after the binary point, for a point's index.
+/// Second dimension of Sobol's sequence for a point's index, as bits after the binary point.
 inline std::uint32_t sobol_second_dimension(std::uint32_t index) {
   std::uint32_t result = 0;
   for (std::uint32_t v = 1u << 31; index != 0; index >>= 1, v ^= v >> 1) {
@@ -19,9 +19,10 @@ inline std::uint32_t sobol_second_dimension(std::uint32_t index) {
   return result;
 }
 
-/// Numbers for one sample of a path: every pair is a point of a two-dimensional Sobol sequence over
-/// the samples of its pixel, scrambled and shuffled independently of all other pairs, hence
-/// stratified but uncorrelated. Each number on its own is uniform, so estimates stay unbiased.
+/// Random numbers for one sample of a path: every pair is a point of a two-dimensional Sobol
+/// sequence over the samples of its pixel, scrambled and shuffled independently of all other pairs,
+/// and hence stratified but uncorrelated. Each number on its own is uniform, so that estimates stay
+/// unbiased.
 class SobolSampler {
  public:
   /// `pixel_seed` must differ between pixels, and between sets of samples that are to be
@@ -31,9 +32,9 @@ class SobolSampler {
 
   glm::vec2 next2() {
     const uvec3 hash = hash_pcg3d(uvec3(seed_, dimension_++, 0u));
-    // Shuffle the order of the points, so that pairs do not march in step
+    // Shuffle the order of the points, so that pairs are not correlated
     const std::uint32_t index = bitfieldReverse(scramble_reversed(reversed_index_, hash.x));
-    // The first dimension is the index reversed: scrambling wants it reversed again
+    // The first dimension is the reversed index, which scrambling needs reversed once more
     const std::uint32_t x = bitfieldReverse(scramble_reversed(index, hash.y));
     const std::uint32_t y =
         bitfieldReverse(scramble_reversed(bitfieldReverse(sobol_second_dimension(index)), hash.z));

@@ -5,11 +5,11 @@
 
 namespace lambent::reference {
 
-/// How light from emissive surfaces and environment maps is found. All give the same mean.
+/// How light from emissive surfaces and environment maps is sampled. All give the same mean.
 enum class Strategy : std::uint8_t {
-  combined,  ///< Both of the below, weighted by the power heuristic.
+  combined,  ///< Both of the following, weighted by the power heuristic.
   scatter,   ///< Only by rays that surfaces scatter.
-  light,     ///< Only by points drawn on emissive surfaces and directions drawn from the map.
+  light,     ///< Only by points sampled on emissive surfaces and directions sampled from the map.
 };
 
 }  // namespace lambent::reference

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where paths of the reference scatter, and the light that they find there.
+// Vertices of the reference's paths, and the light there.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,15 @@
 
 namespace lambent::reference {
 
-// A point at which a path scatters: of a surface, or in fog.
+// A point at which a path scatters, on a surface or in fog.
 struct PathIntegrator::Vertex {
   glm::vec3 position_ws;
   glm::vec3 geometric_normal_ws;  // 0: the point is in fog
-  Frame frame;                    // around the shading normal, or the way of light to the viewer
+  Frame frame;                    // around the shading normal; in fog, around the ray
   glm::vec3 to_viewer;            // in the frame
   Reflectance reflectance;        // in fog the diffuse part is the albedo
   LobeShares shares;
-  float anisotropy = 0.0f;  // of fog
+  float anisotropy = 0.0f;  // of the fog
 
   Vertex(const Surface& surface, const glm::vec3& to_viewer_ws, float max_specular_share)
       : position_ws(surface.position_ws),
@@ -33,7 +33,7 @@ struct PathIntegrator::Vertex {
         reflectance(surface.reflectance),
         shares(limited_shares(lobe_shares(reflectance, to_viewer.z), max_specular_share)) {}
 
-  // In fog, where a ray comes to an event.
+  // A vertex in fog, at a scattering event of a ray.
   Vertex(const Ray& ray, const MediumEvent& event)
       : position_ws(ray.origin + event.distance * ray.direction),
         geometric_normal_ws(0.0f),
@@ -45,13 +45,13 @@ struct PathIntegrator::Vertex {
 
   bool in_fog() const { return geometric_normal_ws == glm::vec3(0.0f); }
   bool is_black() const { return has_no_base(reflectance) && has_no_coat(reflectance); }
-  // Light reaches the surface only where both normals agree that it does; a clearcoat has a normal
-  // of its own.
+  // Light reaches the surface only where it is above the horizon of both normals; a clearcoat has a
+  // normal of its own.
   bool is_lit_from(const glm::vec3& direction_ws) const {
     return in_fog() ||
            (glm::dot(geometric_normal_ws, direction_ws) > 0.0f && cosine(direction_ws) > 0.0f);
   }
-  // Share of light from a direction that counts, whatever the reflectance.
+  // The cosine that light from a direction is weighted by; 1 in fog.
   float cosine(const glm::vec3& direction_ws) const {
     if (in_fog()) return 1.0f;
     const float cosine = glm::dot(frame.normal, direction_ws);
@@ -85,14 +85,14 @@ struct PathIntegrator::Vertex {
   }
 };
 
-// Light that arrives at a vertex straight from lights drawn at random.
+// Direct light at a vertex, from randomly sampled lights.
 struct PathIntegrator::Lighting {
   struct Sample {
     glm::vec3 to_light_ws;
     float distance;
     glm::vec3 weight;  // radiance over density; times BRDF and cosine it is the estimate
     bool from_sky;
-    bool punctual = false;  // no scattered ray can find it
+    bool punctual = false;  // scattered rays cannot hit the light
   };
   std::array<Sample, 3> samples;
   int count = 0;
@@ -102,7 +102,7 @@ struct PathIntegrator::Lighting {
 
 // Light that arrives along a scattered ray.
 struct PathIntegrator::Incident {
-  glm::vec3 emitted{0.0f};  // by the surface that the ray meets
+  glm::vec3 emitted{0.0f};  // by the surface that the ray hits
   glm::vec3 other{0.0f};
 };
 

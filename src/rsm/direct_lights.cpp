@@ -9,10 +9,10 @@
 namespace lambent {
 namespace {
 
-// Keeps these random numbers apart from others.
+// Makes these random numbers independent of others.
 constexpr uint kLightSalt = 0x4c494748u;
 
-/// 0 to count - 1 in an irregular order.
+/// The numbers 0 to count - 1 in random order.
 std::vector<std::uint32_t> shuffled(std::size_t count, std::uint32_t index, std::uint32_t seed) {
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
@@ -34,7 +34,7 @@ DealtLights deal_direct_lights(std::size_t lights, const RsmSettings& settings) 
   result.per_sub_map =
       wanted == 0 ? lights : std::min(lights, std::max(wanted, (lights + subs - 1) / subs));
 
-  // Deal round after round of all lights, so that each is asked by as many sub-maps but for one
+  // Deal round after round of all lights: numbers of sub-maps that test a light differ by at most 1
   std::vector<std::uint32_t> asked(lights, 0);
   const std::vector<std::uint32_t> order = shuffled(lights, 0, settings.seed);
   const std::vector<std::uint32_t> turn = shuffled(subs, 1, settings.seed);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// From direct light of a view's pixels to a frame's samples, in the common subset of C++ and GLSL.
-// The includer provides, of the view,
+// Upsampling of direct light from a view's pixels to a frame's samples, in the common subset of C++
+// and GLSL. The includer provides, for the view,
 //   vec3 fetch_position(int pixel)              [m]
 //   vec3 fetch_normal(int pixel)                unit; 0 where nothing is seen
 //   ReflectedPair fetch_direct(int pixel)
 // In C++ it is included in the body of a struct that has these as members.
 
-/// Light at a surface that lies at `place` of the view, interpolated between pixels that show it: a
-/// sample that is a pixel's own has that pixel's light alone, so that shadows keep their edges.
-/// Where none of the four around shows it, from all 3 x 3 that do; else from any.
-/// `inverse_tolerance` as relit_bilateral_weight takes it.
+/// Light at a surface at `place` of the view, interpolated between pixels that show the surface. A
+/// sample at a pixel of the view has that pixel's light alone, so that shadows keep their edges.
+/// Where none of the four pixels around shows the surface, it is the mean of those 3 x 3 that do;
+/// where none of these does, of all. `inverse_tolerance`: see relit_bilateral_weight().
 LAMBENT_FN ReflectedPair upsample_direct(ivec2 size, vec2 place, vec3 position_ws, vec3 normal_ws,
                                          float inverse_tolerance) {
   ivec2 middle = ivec2(int(floor(place.x + 0.5f)), int(floor(place.y + 0.5f)));
-  // Where the view is as fine as the frame, places are pixels: most show their own
+  // Where the view is as fine as the frame, places are pixels, and most show the sample's surface
   bool inside = middle.x >= 0 && middle.y >= 0 && middle.x < size.x && middle.y < size.y;
   if (inside && place == vec2(middle)) {
     int own = middle.y * size.x + middle.x;

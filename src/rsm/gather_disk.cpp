@@ -10,7 +10,7 @@
 namespace lambent {
 namespace {
 
-/// Which sub-map a lane gathers from, and where in the texels its own lie.
+/// The sub-map that each lane gathers from, and the addresses of its texels.
 struct LaneMaps {
   int column[kLanes];  // of the sub-map
   int width[kLanes];   // of the sub-map [texels]
@@ -34,7 +34,7 @@ LaneMaps lane_maps(const DiskGather& disk, int first_column, int column_step, in
   return lanes;
 }
 
-/// Reads one sample of a lane's texels into its column of the fields.
+/// Reads one sample of a lane into its column of the fields.
 void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub_row,
                  const vec2& place, float weight, float (*fields)[kLanes]) {
   const int n = disk.sub_maps;
@@ -42,7 +42,7 @@ void read_sample(const DiskGather& disk, const LaneMaps& maps, int lane, int sub
   const ivec2 at = nearest_in_sub_map(place, {maps.column[lane], sub_row}, n);
   if (at.x < 0 || at.y < 0 || at.x >= maps.width[lane] || at.y >= height) {
     for (int k = 0; k < kTexelFields; ++k) fields[k][lane] = 0.0f;
-    fields[6][lane] = 1.0f;  // any softening, so that nothing is divided by 0
+    fields[6][lane] = 1.0f;  // any softening above 0, to avoid a division by 0
     return;
   }
   const RsmTexelRecord t = weigh_disk_texel(
@@ -89,7 +89,7 @@ void gather_disk(const GatherRow& row, const DiskGather& disk, int first_column,
     for (int k = 0; k < static_cast<int>(disk.samples.size()) / subs; ++k) {
       float fields[kTexelFields][kLanes];
       for (int l = 0; l < kLanes; ++l) {
-        // Sub-maps share the disk's samples, and each stands for all of them
+        // Sub-maps share out the disk's samples, and each represents all of them
         const DiskSample& sample =
             disk.samples[k * subs + sub_map_of({maps.column[l], sub_row}, n)];
         read_sample(disk, maps, l, sub_row, middle[l] + sample.offset,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gathers for one instruction set: see core/simd_levels.h. bounded_geometry_term for lanes of
-// pixels, and what surrounds it.
+// The gathers for one instruction set; see core/simd_levels.h. bounded_geometry_term() for lanes of
+// pixels, and the loops around it.
 #include "core/guide_lanes.inl.h"
 
-/// Pixels that gather, in registers.
+/// Pixels that gather light, in registers.
 struct GatherLanes : GuideLanes {
   Lanes light[kLightPlanes];
   Lanes ways[kWayPlanes];
@@ -25,22 +25,23 @@ LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row
   for (int c = 0; c < kWayPlanes && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
 }
 
-/// A texel as a gather reads it; flux is over pi. `T` is a float where all pixels ask the same
-/// texel, or Lanes where each asks one of its own.
+/// The fields of a texel that a gather reads; flux is over pi. `T` is a float where all pixels read
+/// the same texel, or Lanes where each reads its own.
 template <class T>
 struct TexelFields {
   T x, y, z, nx, ny, nz, softening, red, green, blue;
 };
 
-/// From pixels to a texel.
+/// The vector from a pixel to a texel, and terms that depend on it.
 struct Way {
   Lanes x, y, z;       // [m]
-  Lanes below_texel;   // of its plane [m]
+  Lanes below_texel;   // negative height of the pixel over the texel's plane [m]
   Lanes fourth_power;  // of the softened distance [m^4]
-  LaneInts lit;        // where each is above the other's plane
+  LaneInts lit;        // set where each is above the other's plane
 };
 
-/// Finds the way to a texel, and what bounded_geometry_term divides by its fourth power, times pi.
+/// Computes the vector to a texel, and pi times the numerator of bounded_geometry_term(), whose
+/// denominator is way.fourth_power.
 template <class T>
 LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, Way& way, const GatherLanes& p,
                                           const TexelFields<T>& t) {
@@ -58,7 +59,7 @@ LAMBENT_FORCE_INLINE void texel_numerator(Lanes& numerator, Way& way, const Gath
   numerator = t.softening * compensation - way.below_texel * above_point;
 }
 
-/// bounded_geometry_term times pi.
+/// Pi times bounded_geometry_term().
 template <class T>
 LAMBENT_FORCE_INLINE void texel_term(Lanes& term, const GatherLanes& p, const TexelFields<T>& t) {
   Way way;
@@ -74,7 +75,7 @@ LAMBENT_FORCE_INLINE void add_light(GatherLanes& p, const TexelFields<T>& t, con
   p.light[2] += term * t.blue;
 }
 
-/// Adds what a texel brings to the pixels, and if asked the ways to it.
+/// Adds a texel's light to the pixels and, if `ways`, the vectors to it.
 template <class T>
 LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, bool ways) {
   Lanes term;
@@ -82,7 +83,7 @@ LAMBENT_FORCE_INLINE void add_texel(GatherLanes& p, const TexelFields<T>& t, boo
     texel_term(term, p, t);
     return add_light(p, t, term);
   }
-  // Divide once for both
+  // Share the one division
   Way way;
   texel_numerator(term, way, p, t);
   Lanes inverse = 1.0f / way.fourth_power;
@@ -101,7 +102,7 @@ LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
           t.flux.y * kInvPi, t.flux.z * kInvPi};
 }
 
-/// Adds texels that all pixels ask alike; texel_at(k) finds the k-th.
+/// Gathers the same texels at all pixels; texel_at(k) returns texel k.
 template <class TexelAt>
 LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
                                        const TexelAt& texel_at, bool ways) {
@@ -137,7 +138,7 @@ static void scattered(const GatherRow& row, const RsmTexel* rendered, const std:
   gather_alike(row, count, texel_at, false);
 }
 
-/// A field of the texels that lanes ask for: `floats` points to that field of the first texel.
+/// Loads a field of each lane's texel: `floats` points to that field of the first texel.
 LAMBENT_FORCE_INLINE void fetch(Lanes& lanes, const float* floats, const std::uint32_t* places) {
   constexpr std::size_t kStride = sizeof(RsmTexel) / sizeof(float);
   float values[kLanes];
@@ -174,8 +175,8 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
   }
 }
 
-/// Adds the light of one texel a pixel, its fields already fetched: position, normal, softening,
-/// flux over pi.
+/// Adds the light of one texel for each pixel, given its fields: position, normal, softening, flux
+/// over pi.
 static void add_fetched(const GatherRow& row, int first, const float (*fields)[kLanes], bool ways) {
   GatherLanes pixels;
   load_guide(pixels, row.guide, first);
@@ -187,7 +188,7 @@ static void add_fetched(const GatherRow& row, int first, const float (*fields)[k
   store_light(pixels, row, first, ways);
 }
 
-/// reorientation() of shared/reorient_irradiance.h, for lanes.
+/// reorientation() of shared/reorient_irradiance.h for lanes.
 static void reorientable(const GatherRow& row) {
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes p;

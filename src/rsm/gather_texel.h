@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a point gathers of one texel; gather_kernel.inl.h does the same for lanes of pixels.
+// The light of one texel at a point; gather_kernel.inl.h does the same for lanes of pixels.
 #ifndef LAMBENT_RSM_GATHER_TEXEL_H
 #define LAMBENT_RSM_GATHER_TEXEL_H
 
@@ -9,22 +9,22 @@
 
 LAMBENT_BEGIN
 
-/// Ways are kept of every so-manieth texel, which is enough for a mean. Raising it saves up to a
-/// twentieth of a gather: a way costs as much again as a third of a texel.
+/// The vectors to texels are summed for every kTexelsPerWay-th texel, which is enough for a mean.
+/// Raising it saves up to a twentieth of a gather: a vector costs a third more than a texel alone.
 const int kTexelsPerWay = 8;
 
-/// Light at a point, and where it comes from.
+/// Light gathered at a point, and its mean direction.
 struct GatheredLight {
   vec3 light;  ///< Irradiance [W/m^2].
-  vec3 ways;   ///< Ways to the light, summed by the luminance that they bring; of any length.
+  vec3 ways;   ///< Sum of vectors to texels, weighted by their luminance; of any length.
 };
 
-/// A texel seen from a point. `inverse` is one over the fourth power of the softened distance
+/// A texel as seen from a point. `inverse` is one over the fourth power of the softened distance
 /// [1/m^4], or 0 where one is behind the other's plane.
 struct TexelSight {
   vec3 to_texel;      ///< [m]
   float above_texel;  ///< Height of the point over the texel's plane [m].
-  float above_point;  ///< And of the texel over the point's [m].
+  float above_point;  ///< Height of the texel over the point's plane [m].
   float inverse;
 };
 
@@ -38,7 +38,7 @@ LAMBENT_FN TexelSight see_texel(vec3 position_ws, vec3 normal_ws, RsmTexelRecord
   return sight;
 }
 
-/// Adds what a texel brings, whose flux is over pi: bounded_geometry_term.
+/// Adds the light of a texel whose flux is over pi, by bounded_geometry_term().
 LAMBENT_FN void gather_texel(LAMBENT_INOUT(GatheredLight) sum, vec3 normal_ws, TexelSight sight,
                              RsmTexelRecord texel) {
   float compensation = softening_compensation(dot(normal_ws, texel.normal_ws));
@@ -46,7 +46,7 @@ LAMBENT_FN void gather_texel(LAMBENT_INOUT(GatheredLight) sum, vec3 normal_ws, T
   sum.light += texel.flux * (numerator * sight.inverse);
 }
 
-/// Adds the way to a texel.
+/// Adds the vector to a texel, weighted by its light.
 LAMBENT_FN void gather_way(LAMBENT_INOUT(GatheredLight) sum, TexelSight sight,
                            RsmTexelRecord texel) {
   sum.ways += sight.to_texel * (sight.above_texel * sight.inverse * luminance(texel.flux));

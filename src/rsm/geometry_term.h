@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Based on: Dachsbacher and Stamminger, "Reflective Shadow Maps", I3D 2005. Light from a texel to a
-// point, and how it is bounded where the two are close.
+// Based on: Dachsbacher and Stamminger, "Reflective Shadow Maps", I3D 2005. The light from a texel
+// to a point, bounded where the two are close.
 #ifndef LAMBENT_RSM_GEOMETRY_TERM_H
 #define LAMBENT_RSM_GEOMETRY_TERM_H
 
@@ -46,13 +46,13 @@ const float kSofteningLinear = 0.6155f;
 const float kSofteningSquare = -0.1366f;
 const float kSofteningCube = -0.1155f;
 
-/// k above, from the cosine between the two normals.
+/// k above, given the cosine between the two normals.
 LAMBENT_FN float softening_compensation(float cosine) {
   float c = -cosine;
   return kSofteningCorner + c * (kSofteningLinear + c * (kSofteningSquare + c * kSofteningCube));
 }
 
-/// geometry_term, bounded as above. `softening` in m^2, > 0.
+/// geometry_term(), bounded as derived above. `softening`: [m^2], > 0.
 LAMBENT_FN float bounded_geometry_term(vec3 position_ws, vec3 normal_ws, vec3 texel_ws,
                                        vec3 texel_normal_ws, float softening) {
   vec3 to_texel = texel_ws - position_ws;
@@ -64,8 +64,8 @@ LAMBENT_FN float bounded_geometry_term(vec3 position_ws, vec3 normal_ws, vec3 te
   return kInvPi * (above_texel * above_point + softening * compensation) / (square * square);
 }
 
-/// Softening of a texel that stands for an area, per m^2: that of a disk of as much area, whose
-/// squared radius it is.
+/// Softening of a texel that represents an area, per m^2: the squared radius of a disk of that
+/// area.
 const float kSofteningPerArea = kInvPi;
 
 /// Texels are moved off their surface by this share of the square root of their area, so that

@@ -11,11 +11,11 @@ namespace {
 constexpr int kFirstLight = kGuidePlanes, kSecondLight = kFirstLight + kLightPlanes;
 constexpr int kPlanes = kSecondLight + kLightPlanes;
 
-// Places of a sub-image that are filled before those of the next: what is read of the view for the
-// first is still in the nearest cache for the others.
+// Places of a sub-image that are filled before those of the next: what was read of the view for the
+// first is then still in the nearest cache for the others.
 constexpr int kPlacesAtOnce = 64;
 
-/// Quotient rounded down, of any sign.
+/// Quotient rounded down, also for negative values.
 int floor_div(int value, int divisor) {
   return value >= 0 ? value / divisor : -((divisor - 1 - value) / divisor);
 }
@@ -33,7 +33,7 @@ void copy_strided(const glm::vec3* from, int step, int count, float* __restrict 
   }
 }
 
-/// One over every `step`-th depth; 0 for a depth of 0, where nothing is seen.
+/// One over every `step`-th depth; 0 where the depth is 0 and nothing is seen.
 void invert_strided(const float* from, int step, int count, float* __restrict to) {
   for (int k = 0; k < count; ++k) {
     const float depth = from[static_cast<std::ptrdiff_t>(k) * step];

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The camera's picture as p x p sub-images, or as one where it is not restructured (p = 1).
 //
-// Sub-images lie one after the other, (0, 0), (1, 0), ..., all with the layout of the largest. Each
-// is row after row, and each row its planes one after the other, so that what passes read together
-// lies together: position x, y, z, normal x, y, z, one over depth, light (LightPlanes), light that
-// is being blurred. A place that a smaller sub-image does not have sees nothing.
+// Sub-images are stored one after the other, (0, 0), (1, 0), ..., all with the layout of the
+// largest. Each is stored row after row, and each row plane after plane, so that data that passes
+// read together is close together: position x, y, z, normal x, y, z, one over depth, light
+// (LightPlanes), light that is being blurred. Places that a smaller sub-image lacks have no
+// surface.
 #pragma once
 
 #include <utility>
@@ -17,8 +18,8 @@ namespace lambent {
 
 class Mosaic {
  public:
-  /// Makes room for a picture. Keeps its memory where the shape is the same as before.
-  /// `reach` is how many pixels of the picture a blur looks away from its own.
+  /// Makes room for a picture. Leaves the contents as they are where the shape is the same.
+  /// `reach`: the farthest pixel of the picture that a blur reads, in pixels from its own.
   void reshape(int width, int height, int sub_images, int reach);
 
   int width() const { return width_; }
@@ -29,13 +30,13 @@ class Mosaic {
   /// Copies row y of the view to its places in sub-images (0, y mod p), (1, y mod p), ...
   void fill_row(const RsmView& view, int y);
 
-  /// First pixel of a row of sub-image (i, j), `dx`, `dy` pixels of the picture away from there:
-  /// the neighbour's sub-image may be another. Up to `reach` pixels away.
+  /// First pixel of a row of sub-image (i, j), offset by (dx, dy) pixels of the picture, which may
+  /// lead to another sub-image. Offsets are at most `reach`.
   ConstPlanes guide(int i, int j, int row, int dx = 0, int dy = 0) const;
-  /// The light that passes read, and the planes that they may write meanwhile.
+  /// The light that passes read, and the planes that they may write at the same time.
   enum class Light { current, next };
   Planes light(Light which, int i, int j, int row, int dx = 0, int dy = 0);
-  /// Makes what was written what is read.
+  /// Makes the light that was written the light that is read.
   void swap_lights() { std::swap(current_, next_); }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The order of the passes of a gather, written once: the CPU and devices supply the passes.
+// The order of the passes of a gather, for all backends, which implement the passes.
 #pragma once
 
 #include <span>
@@ -9,15 +9,15 @@
 
 namespace lambent {
 
-/// Points of a gather at which its light so far can be kept, as a picture.
+/// Stages of a gather whose light can be stored as a picture.
 enum class RsmStage { gathered, interleaved, blurred };
 inline constexpr int kRsmStages = 3;
 
-/// The passes, which work on buffers of their own.
+/// The passes, which process buffers of their own.
 class RsmPasses {
  public:
   virtual ~RsmPasses() = default;
-  /// Around each group of passes that is timed together.
+  /// Called around each group of passes that is timed together.
   virtual void begin(const char* name) = 0;
   virtual void end() = 0;
   /// Restructures the view and gathers light at every pixel.
@@ -26,17 +26,17 @@ class RsmPasses {
   virtual void blur_sub_images(std::span<const BlurTap> taps) = 0;
   /// Interleaves the light into the picture; with taps, blurs it at the picture's resolution.
   virtual void interleave(std::span<const BlurTap> taps) = 0;
-  /// Keeps the picture of a stage; `blurred` is the picture itself.
+  /// Stores the picture of a stage; `blurred` is the final picture itself.
   virtual void keep(RsmStage stage) = 0;
 };
 
 /// Runs the passes that the settings ask for.
 void run_rsm_passes(const RsmSettings& settings, bool keep_stages, RsmPasses& passes);
 
-/// How far the blurs look [pixels of the picture].
+/// Farthest pixel that the blurs read [pixels of the picture].
 int blur_reach(const RsmSettings& settings);
 
-/// What was kept as layers: "rsm.mosaic", and others as the stages are called.
+/// Adds a stored stage as layers: "rsm.mosaic", and otherwise the stage's name.
 void add_stage_layers(RsmStage stage, std::span<const glm::vec3> picture,
                       const RsmSettings& settings, RsmIrradiance& result);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of a gather over a mosaic, in their order; each runs on all cores and alone.
+// The passes of a gather over a mosaic, in order. Each uses all cores; they run one at a time.
 #pragma once
 
 #include <atomic>
@@ -12,17 +12,17 @@
 
 namespace lambent {
 
-/// Whether anything is blurred, and light therefore gathered so that it can be relit.
+/// Whether light is blurred, and therefore gathered such that it can be relit.
 bool blurs(const RsmSettings& settings);
 
-/// Copies the view into the mosaic, which restructures it where there is more than one sub-image,
-/// and gathers `lights` at every pixel: RsmPattern::whole. Both row by row, so that what was copied
-/// is still in the cache. Returns the rays traced for visibility.
+/// RsmPattern::whole: copies the view into the mosaic, which restructures it where there are
+/// several sub-images, and gathers `lights` at every pixel. Both happen row by row, so that copied
+/// rows are still in the cache. Returns the number of rays traced for visibility.
 std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
                            const RsmSettings& settings, Mosaic& mosaic);
 
-/// Copies the view likewise, and gathers the texels of each of `maps` maps around every pixel's
-/// projection: RsmPattern::disk.
+/// RsmPattern::disk: copies the view in the same way, and gathers the texels of each of `maps` maps
+/// around every pixel's projection.
 void gather_disks(const RsmView& view, std::size_t maps, const FetchMap& fetch,
                   const RsmSettings& settings, Mosaic& mosaic);
 

@@ -9,12 +9,12 @@
 namespace lambent {
 namespace {
 
-// Rows that a task blurs together. More repeat less of their neighbours' work, fewer stay in the
-// second-level cache.
+// Rows that a task blurs together. With more, less of the neighbours' work is repeated; fewer stay
+// in the second-level cache.
 constexpr int kRowsPerTask = 32;
 
-/// The last few rows of light that were blurred horizontally, found by their number. Few enough to
-/// stay in the cache until they were blurred vertically, too.
+/// The most recent rows of horizontally blurred light, by number. They are few enough to stay in
+/// the cache until they are blurred vertically.
 class RowRing {
  public:
   RowRing(int rows, int width)
@@ -27,14 +27,14 @@ class RowRing {
   AlignedFloats floats_;
 };
 
-/// Farthest tap.
+/// Distance of the farthest tap.
 int reach(std::span<const BlurTap> taps) {
   int farthest = 0;
   for (const BlurTap& tap : taps) farthest = std::max(farthest, tap.distance);
   return farthest;
 }
 
-/// Blurs row `row` of sub-image (i, j) along the picture's rows, taps `unit` pixels apart.
+/// Blurs row `row` of sub-image (i, j) horizontally, with taps `unit` pixels of the picture apart.
 void blur_along_row(Mosaic& mosaic, int i, int j, int row, int unit, std::span<const BlurTap> taps,
                     const Planes& out, float tolerance) {
   std::vector<BlurSource> neighbours;
@@ -65,7 +65,7 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
     std::vector<BlurSource> neighbours;
     int ready = from;
     for (int row = first; row < last; ++row) {
-      // Blur rows horizontally just before they are needed: their guides stay in the cache
+      // Blur rows horizontally just before they are needed, so that their guides stay in the cache
       for (; ready < std::min(to, row + margin + 1); ++ready) {
         blur_along_row(mosaic, i, j, ready, unit, taps, band.row(ready), settings.plane_tolerance);
       }
@@ -86,7 +86,7 @@ void blur_sub_images(std::span<const BlurTap> taps, const RsmSettings& settings,
 
 namespace {
 
-/// Writes a row of the picture, given as a row of each of its sub-images.
+/// Writes a row of the picture from one row of each of its sub-images.
 void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes> subs,
                     std::span<glm::vec3> picture) {
   glm::vec3* to = picture.data() + static_cast<std::size_t>(y) * mosaic.width();
@@ -100,7 +100,7 @@ void interleave_row(const Mosaic& mosaic, int y, std::span<const ConstPlanes> su
   }
 }
 
-/// Blurs rows [first, last) of the picture, and writes them there.
+/// Blurs rows [first, last) of the picture, and writes them.
 void interleave_band(std::span<const BlurTap> taps, const RsmSettings& settings, Mosaic& mosaic,
                      int first, int last, std::span<glm::vec3> picture) {
   const int p = mosaic.sub_images(), width = mosaic.layout().width, margin = reach(taps);

@@ -11,7 +11,7 @@
 namespace lambent {
 namespace {
 
-// Rows of the picture that a task works on.
+// Rows of the picture that a task processes.
 constexpr std::size_t kRowsPerTask = 16;
 
 /// A row of a sub-image.
@@ -19,8 +19,8 @@ struct RowOf {
   int i, j, row;
 };
 
-/// For every row of the picture, on all cores: calls body(RowOf, ways) for the rows of sub-images
-/// that hold its pixels, after before(y). `ways` has room for those of one row.
+/// For every row of the picture, on all cores: calls before(y), then body(RowOf, ways) for the rows
+/// of sub-images that hold its pixels. `ways` has room for one row.
 template <class Before, class Body>
 void for_each_row(const Mosaic& mosaic, Before before, Body body) {
   const auto p = static_cast<std::size_t>(mosaic.sub_images());
@@ -49,7 +49,7 @@ void clear(const GatherRow& row) {
   for (int c = 0; c < kWayPlanes; ++c) std::fill_n(row.ways.at(c), row.count, 0.0f);
 }
 
-/// A part of a row, `count` pixels from `first` on.
+/// Part of a row: `count` pixels from `first` on.
 GatherRow part_of(const GatherRow& row, int first, int count) {
   GatherRow part = row;
   part.guide.first += first;
@@ -59,8 +59,8 @@ GatherRow part_of(const GatherRow& row, int first, int count) {
   return part;
 }
 
-/// For each row of sub-maps and each place of a row's first pixel among them: where the texels of
-/// kLanes neighbouring pixels lie, as gather_per_pixel reads it.
+/// For each row of sub-maps, and for each column of a row's first pixel: the tables of texel
+/// indices for kLanes neighbouring pixels that gather_per_pixel() reads.
 struct PlaceTables {
   PlaceTables(const RsmLights& lights, const RsmSettings& settings)
       : sub_maps(settings.sub_maps), count(lights.count(0)) {
@@ -86,7 +86,7 @@ struct PlaceTables {
   std::vector<std::uint32_t> tables;
 };
 
-/// Gathers a row of a picture that is not restructured: neighbours ask different sub-maps.
+/// Gathers a row of a picture that is not restructured, where neighbours use different sub-maps.
 void gather_mixed_row(const GatherRow& row, int y, const RsmLights& lights,
                       const RsmSettings& settings, const PlaceTables& tables) {
   const RsmTexel* texels =
@@ -110,7 +110,7 @@ std::span<const RsmTexel> sub_map(const RsmLights& lights, int index) {
 std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLights& lights,
                            const RsmSettings& settings, Mosaic& mosaic) {
   const int p = mosaic.sub_images(), n = settings.sub_maps;
-  // Where the picture is not restructured, neighbouring pixels ask different sub-maps
+  // Where the picture is not restructured, neighbouring pixels use different sub-maps
   const bool mixed = p == 1 && n > 1;
   std::optional<PlaceTables> tables;
   if (mixed) tables.emplace(lights, settings);
@@ -144,7 +144,7 @@ void gather_disks(const RsmView& view, std::size_t maps, const FetchMap& fetch,
                   const RsmSettings& settings, Mosaic& mosaic) {
   const int n = settings.sub_maps, p = mosaic.sub_images();
   const auto count = static_cast<uint>((settings.texels + n * n - 1) / (n * n) * n * n);
-  // Ways are kept where blurs will write
+  // The vectors to texels are stored in the planes that blurs will write
   const bool blurred = blurs(settings);
   const auto row_at = [&](const RowOf& at) {
     return gather_row(mosaic, at,

@@ -24,15 +24,15 @@ constexpr int kMaxResolution = 4096, kMaxTexels = 65536, kMaxSubImages = 16, kMa
 constexpr int kMaxVisibilityRays = 64, kMaxDownscale = 16, kMaxDirectLights = 65536;
 constexpr float kMaxDiskRadius = 2.0f, kMinSoftening = 0.01f, kMaxSoftening = 100.0f;
 
-// Distances of the taps of the irregular blur [pixels of a sub-image]: beyond the regular one's,
-// and without a common divisor, so that they do not fall into step with a pattern.
+// Distances of the taps of the irregular blur [pixels of a sub-image]: farther than the regular
+// blur's, and without a common divisor, so that they are not in step with a pattern.
 constexpr int kIrregularDistances[] = {2, 5, 7};
 
 /// Fails where a value is not in [low, high]; written so that a NaN fails, too.
 template <class T>
 Expected<void> within(const char* name, T value, T low, T high) {
   if (value >= low && value <= high) return {};
-  // Not to_string: it writes small numbers as zeros
+  // Avoid to_string, which writes small numbers as zeros
   std::ostringstream cause;
   cause << value << " is not ";
   if (low == std::numeric_limits<T>::min()) {
@@ -71,7 +71,7 @@ Layer layer_of(const char* name, std::span<const glm::vec3> pixels, int width, i
   return layer;
 }
 
-/// The sub-images side by side.
+/// A layer of all sub-images side by side.
 Layer mosaic_layer(std::span<const glm::vec3> interleaved, int width, int height, int sub_images) {
   Layer layer{"rsm.mosaic", Image(width, height, 3)};
   for (int y = 0; y < height; ++y) {
@@ -176,9 +176,9 @@ void run_rsm_passes(const RsmSettings& settings, bool keep_stages, RsmPasses& pa
 
 struct RsmGatherer::Buffers {
   Mosaic mosaic;
-  ReflectiveShadowMap map;  // that is being read, of those that are made here
+  ReflectiveShadowMap map;  // the map being read, where maps are rendered one at a time
 
-  /// Of settings and a view in range.
+  /// Settings and view must be in range.
   void gather(const World& world, std::size_t maps, const FetchMap& fetch, const RsmView& view,
               const RsmSettings& settings, RsmIrradiance& result, bool keep_stages);
 };
@@ -240,7 +240,7 @@ void RsmGatherer::Buffers::gather(const World& world, std::size_t maps, const Fe
   result.stages.clear();
   result.rays = 0;
 
-  // Choose the lights and lay them out as they will be read
+  // Choose the lights and lay them out in the order in which they will be read
   Stopwatch watch;
   const bool whole = settings.pattern == RsmPattern::whole;
   const RsmLights lights = whole ? choose_lights(maps, fetch, view, settings) : RsmLights();
@@ -282,7 +282,7 @@ Expected<void> RsmGatherer::gather(const World& world, const Camera& camera, flo
   const std::size_t maps = settings.from_camera ? 1 : world.scene().lights.size();
   buffers_->gather(world, maps, fetch, view, settings, result, keep_stages);
 
-  // Maps are made while they are chosen from, or gathered
+  // Maps are rendered within the pass that chooses texels, or that gathers
   const char* within = settings.pattern == RsmPattern::whole ? "rsm.choose" : "rsm.gather";
   for (PassTime& pass : result.passes) {
     if (pass.name == within) pass.ms -= map_ms;

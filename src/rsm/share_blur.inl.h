@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blur of what arrives and what is sent, in the common subset of C++ and GLSL. The includer
-// provides, of pixels of the view,
+// The blur of arriving and unoccluded light, in the common subset of C++ and GLSL. The includer
+// provides, for pixels of the view,
 //   vec3 fetch_position(int pixel)       [m]
 //   vec3 fetch_normal(int pixel)         unit; 0 where nothing is seen
 //   float fetch_depth(int pixel)         [m]
 //   LightShare fetch_share(int pixel)
 // In C++ it is included in the body of a struct that has these as members.
 
-/// The sums of both around a pixel along `axis`, (1, 0) or (0, 1), over a box as wide as `period`,
-/// of pixels of its surface. Sums, not means: only their ratio counts. `inverse_plane_tolerance` is
-/// one over RsmSettings::plane_tolerance.
+/// Sums of arriving and unoccluded light around a pixel along `axis`, (1, 0) or (0, 1), over a box
+/// as wide as `period`, of pixels of the same surface. They need not be means, as only their ratio
+/// is used. `inverse_plane_tolerance`: one over RsmSettings::plane_tolerance.
 LAMBENT_FN LightShare blurred_share(ivec2 at, ivec2 size, ivec2 axis, int period,
                                     float inverse_plane_tolerance) {
   int here = at.y * size.x + at.x;

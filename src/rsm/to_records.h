@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps of the public interface as records, and back.
+// Conversion of maps between the public interface and records.
 #pragma once
 
 #include <bit>

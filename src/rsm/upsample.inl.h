@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upsampling, in the common subset of C++ and GLSL. The includer provides, of the small picture,
+// Upsampling, in the common subset of C++ and GLSL. The includer provides, for the small picture,
 //   vec3 fetch_position(int pixel)   [m]
 //   vec3 fetch_normal(int pixel)     unit; 0 where nothing is seen
 //   vec3 fetch_light(int pixel)
 // In C++ it is included in the body of a struct that has these as members.
 
-/// Light at a surface that lies at `place` of the small picture, from the 3 x 3 pixels around that
-/// show the same surface; where none does, from all that show any. `inverse_tolerance` as
-/// relit_bilateral_weight takes it.
+/// Light at a surface at `place` of the small picture, from those of the 3 x 3 pixels around that
+/// show the same surface; where none does, from all that show any. `inverse_tolerance`: see
+/// relit_bilateral_weight().
 LAMBENT_FN vec3 upsample_light(ivec2 size, vec2 place, vec3 position_ws, vec3 normal_ws,
                                float inverse_tolerance) {
   ivec2 middle = ivec2(int(floor(place.x + 0.5f)), int(floor(place.y + 0.5f)));

@@ -17,7 +17,7 @@ Ray ray_between(const vec3& position_ws, const vec3& normal_ws, const vec3& texe
   return {r.origin_ws, r.t_min, r.direction_ws, r.t_max, r.mask};
 }
 
-/// Draws texels for a point, stratified over what they bring, and appends the rays to them.
+/// Samples texels for a point, stratified over the light they contribute, and appends rays to them.
 void draw_rays(const vec3& position_ws, const vec3& normal_ws, std::span<const RsmTexel> texels,
                std::vector<float>& brought, int count, RandomStream random,
                std::vector<Ray>& rays) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the light of texels arrives, asked of the few that bring most.
+// Visibility of texels, tested for the few that contribute most.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@
 
 namespace lambent {
 
-/// Dims each pixel of a row by the share of its light that arrives: the share of `rays` shadow rays
-/// that find nothing in their way to texels drawn with probability in proportion to what they
-/// bring. Unbiased in luminance. `first_pixel` and `pixel_step` number the row's pixels, each with
-/// random numbers of its own. Returns the rays traced.
+/// Scales the light of each pixel of a row by the share that arrives: the share of `rays` shadow
+/// rays that are unoccluded, to texels sampled with probabilities in proportion to their light.
+/// Unbiased in luminance. `first_pixel` and `pixel_step` number the row's pixels, each of which has
+/// random numbers of its own. Returns the number of rays traced.
 std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
                                 std::span<const RsmTexel> texels, int rays, std::size_t first_pixel,
                                 std::size_t pixel_step, std::uint32_t seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadow rays to texels that are drawn in proportion to what they bring.
+// Shadow rays to texels that are sampled in proportion to their light.
 #ifndef LAMBENT_RSM_VISIBILITY_RAYS_H
 #define LAMBENT_RSM_VISIBILITY_RAYS_H
 
@@ -11,17 +11,17 @@
 
 LAMBENT_BEGIN
 
-/// Keeps these random numbers apart from those of other passes.
+/// Makes these random numbers independent of those of other passes.
 const uint kVisibilitySalt = 0x56495349u;
 
-/// What a texel brings a point, in luminance.
+/// Luminance that a texel contributes at a point.
 LAMBENT_FN float texel_worth(vec3 position_ws, vec3 normal_ws, RsmTexelRecord texel) {
   return luminance(texel.flux) * bounded_geometry_term(position_ws, normal_ws, texel.position_ws,
                                                        texel.normal_ws, texel.softening);
 }
 
-/// Draw `index` of `count`, stratified, from a sum of worths: the texel at which the sum so far
-/// first exceeds this. `shift` is uniform in [0, 1).
+/// Draw `index` of `count`, stratified, from the total of all texels: it selects the texel at which
+/// the running sum first exceeds this value. `shift` is uniform in [0, 1).
 LAMBENT_FN float drawn_worth(float total, int index, float shift, int count) {
   return total * (float(index) + shift) / float(count);
 }

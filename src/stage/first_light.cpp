@@ -14,42 +14,43 @@
 namespace lambent {
 namespace {
 
-// Emission lights a view where it reaches this share of what the camera sees.
+// Emission lights a view where it reaches at least this share of what the camera sees.
 constexpr float kMinLitShare = 0.4f;
-// Outdoors and around objects emitters are often signs and screens, whose glow leaves the rest in
-// the dark: there they light a view where the median of what they light is no darker than this,
-// beside those of them that are seen.
+// Outdoors and around objects, emitters are often signs and screens, whose glow leaves the rest in
+// the dark. There, they light a view only if the median radiance of what they light is at least
+// this share of their own, as far as they are visible.
 constexpr float kMinEmissionRatio = 0.1f;
-// A camera is indoors where surfaces close this share of the sphere around it,
+// A camera is indoors where at least this share of the directions around it end at a surface.
 constexpr float kMinEnclosure = 0.75f;
-// and a room is closed where less than this share of the sky reaches what is seen.
+// A room is closed where at most this share of the sky is visible from what the camera sees.
 constexpr float kMaxSkyIndoors = 0.08f;
-// A building has a court where this share of its enclosed air has no ceiling.
+// A building has a court where at least this share of its enclosed air has no ceiling.
 constexpr float kMinCourt = 0.05f;
-// Sky light in closed rooms with windows, as a share of that outdoors: so that windows are not
+// Sky light in closed rooms with windows, as a share of that outdoors, so that windows are not
 // black.
 constexpr float kSkyThroughWindows = 0.5f;
 
-// Rays down onto a scene's footprint, along each edge.
+// Number of rays down onto a scene's footprint, along each edge.
 constexpr int kRaysAlongEdge = 16;
-// A scene has a ground where rays meet something over this share of its footprint, this share of
-// them at one height, and this share at least above that: things that stand on it. One height is
-// a band as thick as this share of the footprint's longer side.
+// A scene has a ground where rays hit something over the first share of its footprint, where at
+// least the second share of these hits is at one height, and at least the third share above it, on
+// things that stand there. One height is a band of this thickness, as a share of the footprint's
+// longer side.
 constexpr float kMinFootprint = 0.9f, kMinGround = 0.35f, kMinThings = 0.02f;
 constexpr float kGroundBand = 0.03f;
-// What is flatter than this share of its width is a ground itself; and so is a terrain, which is
-// larger [m] and covers its footprint.
+// A scene flatter than this share of its width is a ground itself. So is a terrain, which is
+// higher, but large [m] and without holes in its footprint.
 constexpr float kFlatShare = 0.1f;
 constexpr float kTerrainShare = 0.4f, kMinTerrain = 20.0f;
 
-// Ways that the light of the sun may travel, the customary one first: from above one shoulder of
-// somebody who looks along -Z.
+// Directions in which the sun's light may travel, the customary one first: from above one shoulder
+// of an observer who looks along -Z.
 constexpr std::array kSunWays = {
     glm::vec3(-0.5f, -1.0f, -0.35f), glm::vec3(0.5f, -1.0f, -0.35f), glm::vec3(-0.5f, -1.0f, 0.35f),
     glm::vec3(0.5f, -1.0f, 0.35f),   glm::vec3(0.1f, -1.0f, -0.6f),  glm::vec3(0.1f, -1.0f, 0.6f),
     glm::vec3(-0.8f, -0.8f, 0.1f),   glm::vec3(0.8f, -0.8f, 0.1f),   glm::vec3(0.15f, -1.0f, 0.1f)};
-// The sun should reach this share of what is seen; other ways must reach so much more than the
-// customary one.
+// The sun should light this share of what is seen; other directions must light this much more than
+// the customary one.
 constexpr float kMinSunlit = 0.3f, kMinSunGain = 0.1f;
 
 bool has_lights_or_sky(const Scene& scene) {
@@ -80,7 +81,7 @@ bool has_ground(const World& world, const Bounds& bounds) {
   const float width = std::min(size.x, size.z);
   if (width > kMinTerrain && size.y < kTerrainShare * width) return true;
 
-  // Find the band of heights that holds most of them
+  // Find the band of heights that holds most hits
   std::sort(heights.begin(), heights.end());
   const float band = kGroundBand * std::max(size.x, size.z);
   std::size_t most = 0, above = 0, first = 0;
@@ -95,7 +96,7 @@ bool has_ground(const World& world, const Bounds& bounds) {
          static_cast<float>(above) >= kMinThings * count;
 }
 
-/// Whether much of the scene's enclosed air is below the open sky.
+/// Whether much of the scene's enclosed air is open to the sky.
 bool has_court(const World& world) {
   const SpaceSurvey survey = survey_space(world, find_subject(world).bounds);
   const auto open = std::count_if(survey.enclosed.begin(), survey.enclosed.end(),
@@ -103,7 +104,7 @@ bool has_court(const World& world) {
   return static_cast<float>(open) >= kMinCourt * static_cast<float>(survey.enclosed.size());
 }
 
-/// Share of the seen points that light travelling along `way` reaches.
+/// Share of the seen points that light travelling along `way` lights.
 float sunlit_share(const World& world, const SeenView& view, const glm::vec3& way) {
   const glm::vec3 to_sun = -glm::normalize(way);
   std::vector<Ray> rays;
@@ -117,7 +118,7 @@ float sunlit_share(const World& world, const SeenView& view, const glm::vec3& wa
   return view.points.empty() ? 0.0f : lit / static_cast<float>(view.points.size());
 }
 
-/// The customary way of the sun, or the one that reaches most of what is seen.
+/// The customary direction of the sun, or the one that lights most of what is seen.
 glm::vec3 best_sun_way(const World& world, const SeenView& view) {
   const float customary = sunlit_share(world, view, kSunWays[0]);
   if (customary >= kMinSunlit) return kSunWays[0];

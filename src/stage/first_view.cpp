@@ -10,7 +10,8 @@
 namespace lambent {
 namespace {
 
-// Full vertical angles [degrees]: a portrait's for objects, what a visitor takes in of a room.
+// Full vertical angles [degrees]: a portrait's for objects, and a visitor's field of view in a
+// room.
 constexpr float kObjectFov = 45.0f;
 constexpr float kRoomFov = 60.0f;
 

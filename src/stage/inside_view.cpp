@@ -16,36 +16,36 @@
 namespace lambent {
 namespace {
 
-// Somebody who stands in a room of these heights [m] has the eyes at this height [m]; in others,
-// whose unit is not the metre or which are models of rooms, at a share of theirs.
+// In rooms of these heights [m], eyes are at the height of a standing person [m]; in others, whose
+// unit is not the metre or which are models of rooms, at a share of the room's height.
 constexpr float kMinRoomHeight = 1.9f, kMaxRoomHeight = 20.0f;
 constexpr float kEyeHeight = 1.6f;
 constexpr float kEyeShareOfHeight = 0.45f;
-// Of the height of a room of human scale, where that is less.
+// Highest eye in a room of human scale, as a share of its height.
 constexpr float kMaxEyeShareOfHeight = 0.6f;
 
-// Places that are looked around from.
+// Most places from which panoramas are traced.
 constexpr std::size_t kMaxEyes = 110;
-// Rays around the horizon, and elevations of the rings of rays [rad].
+// Number of rays around the horizon, and elevations of the rings of rays [rad].
 constexpr int kRingRays = 40;
 constexpr std::array<float, 5> kRings = {-0.42f, -0.2f, 0.0f, 0.2f, 0.42f};
-// Directions in which a view may look.
+// Number of directions in which a view may look.
 constexpr int kViewDirections = 20;
 // Views tilt down a little [rad]: floors show more than ceilings.
 constexpr float kTilt = 0.06f;
 
-// Distances as shares of the diagonal: an eye keeps this far from everything, what is nearer than
-// that fills the view, and depth counts no more beyond that.
+// Distances as shares of the diagonal: the least from an eye to any surface; the one below which a
+// surface counts as near; and the one beyond which depth counts no more.
 constexpr float kClearance = 0.015f, kNear = 0.07f, kDeep = 0.5f;
-// Of the choice of lights.
+// Seed of the choice of lights.
 constexpr std::uint32_t kSeed = 4;
-// Sky counts against a view beyond this share.
+// A larger share of sky than this counts against a view.
 constexpr float kMaxSky = 0.1f;
-// What counts of a view: median depth, what many small triangles tell of detail, and how much of it
-// the scene's own lights reach, against what is near, sky, and backs of surfaces.
+// Weights of a view's score: median depth, detail by the number of different triangles, and the
+// share that the scene's own lights reach, against what is near, sky, and backs of surfaces.
 constexpr float kDepthWeight = 2.0f, kDetailWeight = 0.8f, kLitWeight = 0.6f, kNearWeight = 1.5f,
                 kSkyWeight = 1.5f, kBackWeight = 0.8f;
-// A view that shows less depth than this share of the diagonal, or more backs, is none.
+// A view with less depth than this share of the diagonal, or with more backs, is rejected.
 constexpr float kMinDepth = 0.06f, kMaxBacks = 0.6f;
 
 glm::vec3 eye_at(const OpenPlace& place) {
@@ -57,15 +57,15 @@ glm::vec3 eye_at(const OpenPlace& place) {
   return {place.position_ws.x, place.floor + eye, place.position_ws.z};
 }
 
-/// What rays around an eye meet: kRings.size() rings of kRingRays hits.
+/// The hits of rays around an eye: kRings.size() rings of kRingRays hits.
 struct Panorama {
   glm::vec3 eye{0.0f};
   const Hit* hits = nullptr;
   const std::uint8_t* lit = nullptr;  ///< 1 for each hit that one of the lights reaches.
 };
 
-/// Where one of the scene's lights stands as seen from a point: an origin and a way for a shadow
-/// ray. Each of the lights is as likely as emissive surfaces together are.
+/// A shadow ray from a point to one of the scene's lights, chosen at random: each of the lights is
+/// as likely as all emissive surfaces together.
 std::optional<Ray> ray_to_any_light(const World& world, const glm::vec3& from,
                                     RandomStream& random) {
   const std::vector<Light>& lights = world.scene().lights;
@@ -105,8 +105,8 @@ std::vector<std::uint8_t> find_lit(const World& world, std::span<const Ray> rays
   return lit;
 }
 
-/// How good a view in a direction is, by the rays of the panorama that are in its frame; the higher
-/// the better. Minus infinity: it is none.
+/// Score of a view in a direction, from the rays of the panorama that are in its frame; higher is
+/// better. Minus infinity: the view is rejected.
 float score_view(const Scene& scene, const Panorama& panorama, int direction, float half_width,
                  float scale) {
   std::vector<float> depths;
@@ -136,7 +136,7 @@ float score_view(const Scene& scene, const Panorama& panorama, int direction, fl
   std::nth_element(depths.begin(), middle, depths.end());
   const float depth = std::min(*middle / scale, kDeep);
   if (depth < kMinDepth) return -kInfiniteDistance;
-  // The first triangles tell more than the last: a window in a wall, more than a leaf in a wood
+  // Count triangles logarithmically: a window in a wall matters more than one more leaf in a wood
   const float detail = std::log1p(static_cast<float>(triangles.size())) / std::log1p(rays);
   return kDepthWeight * depth / kDeep + kDetailWeight * detail + kLitWeight * lit / rays -
          kNearWeight * near / rays - kSkyWeight * std::max(sky / rays - kMaxSky, 0.0f) -

@@ -9,13 +9,13 @@
 namespace lambent {
 namespace {
 
-// Surface points that is_room judges, rays from each to the outside, and their elevations [rad].
+// Number of surface points that is_room tests, of rays from each, and elevations of these [rad].
 constexpr int kShellPoints = 256, kShellRays = 4;
 constexpr float kMinShellElevation = 0.09f, kMaxShellElevation = 0.7f;
-// A room is enclosed in this share of its box, at least; where its surfaces have two sides, which
-// may as well be the skin of something hollow, in so much of it.
+// Least share of a room's box that is enclosed; and the same where surfaces are two-sided, as these
+// may also be the skin of something hollow.
 constexpr float kMinEnclosed = 0.25f, kMinEnclosedByTwoSided = 0.5f;
-// Somebody outside sees no more than this share of a room's surface from the front.
+// Largest share of a room's surface whose front is visible from outside.
 constexpr float kMaxShown = 0.6f;
 
 }  // namespace
@@ -27,7 +27,7 @@ bool is_room(const World& world, const Subject& subject, const SpaceSurvey& surv
       sample_surfaces(world.scene(), subject.instances, kShellPoints);
   if (points.empty()) return false;
 
-  // Look from the front of each point towards where somebody outside would stand
+  // Trace rays from the front of each point to where an observer outside would be
   std::vector<Ray> rays;
   std::vector<std::size_t> point_of_ray;
   for (std::size_t p = 0; p < points.size(); ++p) {

@@ -11,20 +11,21 @@
 namespace lambent {
 namespace {
 
-// Below the ceiling by this share of the room's height.
+// Distance of a lamp from the ceiling, as a share of the room's height.
 constexpr float kDrop = 0.2f;
-// At least this share of the room's height from every surface: what is nearer glares.
+// Least distance from every surface, as a share of the room's height: nearer surfaces would glare.
 constexpr float kClearance = 0.14f;
 constexpr int kClearanceRays = 24;
-// Places that are tried, and lamps that are hung at most.
+// Most places that are tried, and most lamps that are hung.
 constexpr std::size_t kMaxPlaces = 48;
 constexpr int kMaxLamps = 4;
-// A further lamp must reach this share of what is seen that no other has reached.
+// A further lamp must light at least this share of what is seen and not yet lit.
 constexpr float kMinGain = 0.08f;
-// Irradiance right below, at the room's height [W/m^2], and the colour of warm white.
+// Irradiance straight below a lamp, at a distance of the room's height [W/m^2], and warm white.
 constexpr float kIrradianceBelow = 12.0f;
 constexpr glm::vec3 kWarmWhite{1.0f, 0.88f, 0.72f};
-// Of a lamp at the camera, which there is where no place is found: as a share of the view's depth.
+// Assumed height of a lamp at the camera, which is used where no place is found, as a share of the
+// view's mean depth.
 constexpr float kHeightOfNone = 0.3f;
 
 struct Place {
@@ -32,7 +33,7 @@ struct Place {
   float height = 0.0f;  // of the room [m]
 };
 
-/// Places below ceilings that keep clear of everything.
+/// Places below ceilings that are clear of all surfaces.
 std::vector<Place> find_places(const World& world) {
   std::vector<Place> places;
   const SpaceSurvey survey = survey_space(world, find_subject(world).bounds);
@@ -52,7 +53,7 @@ std::vector<Place> find_places(const World& world) {
   return places;
 }
 
-/// 1 for each seen point that a lamp would reach.
+/// 1 for each seen point that a lamp would light.
 std::vector<std::uint8_t> reached_from(const World& world, const SeenView& view,
                                        const glm::vec3& lamp) {
   std::vector<Ray> rays;
@@ -89,7 +90,7 @@ std::vector<Light> hang_lamps(const World& world, const Camera& camera, const Se
   reached.reserve(places.size());
   for (const Place& place : places) reached.push_back(reached_from(world, view, place.position_ws));
 
-  // Take the place that reaches most of what none has reached yet, as long as that is worth a lamp
+  // Repeatedly take the place that lights most of what is not yet lit, if that is worth a lamp
   std::vector<Light> lamps;
   std::vector<std::uint8_t> lit(view.points.size(), 0);
   while (static_cast<int>(lamps.size()) < kMaxLamps) {
@@ -110,7 +111,7 @@ std::vector<Light> hang_lamps(const World& world, const Camera& camera, const Se
   }
   if (!lamps.empty()) return lamps;
 
-  // Where no place is found, a lamp hangs at the camera and lights what that sees
+  // Where no place is found, put a lamp at the camera, which lights what it sees
   const glm::vec3 eye(camera.world_from_view[3]);
   float depth = 0.0f;
   for (const SeenPoint& seen : view.points) depth += glm::length(seen.point.position_ws - eye);

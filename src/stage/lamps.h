@@ -7,8 +7,8 @@
 
 namespace lambent {
 
-/// Lamps that a person would hang in the room around the camera: below its ceiling, away from its
-/// walls, as few as light most of what the camera sees. At least one.
+/// Lamps in the room around the camera, where a person would hang them: below its ceiling, away
+/// from its walls, and as few as are needed to light most of what the camera sees. At least one.
 std::vector<Light> hang_lamps(const World& world, const Camera& camera, const SeenView& view);
 
 }  // namespace lambent

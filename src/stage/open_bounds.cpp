@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a scene's open space ends: its bounds without the walls around it.
+// Bounds of a scene's open space: its bounds without the walls around it.
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -14,27 +14,27 @@
 namespace lambent {
 namespace {
 
-// Rays along each edge of a side of the bounds.
+// Number of rays along each edge of a side of the bounds.
 constexpr int kRaysAlongEdge = 24;
-// Walls thicker than this share of the scene are not walls but what the scene is about.
+// Thicker walls than this share of the scene are not walls, but the scene's subject.
 constexpr float kMaxWallShare = 0.1f;
 // A side is walled where at least this share of its rays pass through a wall.
 constexpr float kMinWalledShare = 0.5f;
-// Rays start this share of the scene outside of it.
+// Distance from the scene at which rays start, as a share of the scene's size.
 constexpr float kStartShare = 0.01f;
-// Further on by this share of the way, a ray has left the surface it met behind.
+// Share of the distance to a hit by which a ray restarts behind the surface.
 constexpr float kPastSurface = 1e-5f;
-// A side of an object has surfaces that face out of the bounds where this share of its rays
-// meets one no deeper than this share of the scene. Probes must stand in front of these, too: air
-// as deep as this share of the scene's longest side is added, about a cell of a field of 16 probes
-// along it.
+// A side of an object has surfaces that face out of the bounds where at least the first share of
+// its rays hits one, no deeper than the second share of the scene's longest side. Probes must be in
+// front of these, too: air as deep as kAirShare of that side is added, about a cell of a field of
+// 16 probes along it.
 constexpr float kMinFacingShare = 0.02f, kMaxFacingDepth = 0.04f;
 constexpr float kAirShare = 0.08f;
-// Surfaces that a ray may pass before it counts as lost in a thicket.
+// Most surfaces that a ray may pass before it is given up.
 constexpr int kMaxSurfaces = 16;
 
-/// How deep below the starts of rays the solid matter that each meets first ends, of those where it
-/// does. Rays go on through surfaces together.
+/// Depth below the starts of rays at which the first solid matter on each ray ends, for those rays
+/// where it does. All rays advance together, surface by surface.
 std::vector<float> depths_of_wall(const World& world, const SolidSides& sides, bool room,
                                   std::vector<Ray> rays) {
   std::vector<float> depths;
@@ -46,8 +46,8 @@ std::vector<float> depths_of_wall(const World& world, const SolidSides& sides, b
     for (std::size_t r = 0; r < rays.size(); ++r) {
       const Hit& hit = hits[r];
       if (hit.missed()) continue;
-      // The far side of a wall, or a single sheet around a room, is met from inside solid matter;
-      // around a room a sheet that is open on both sides is a wall, and around an object its skin
+      // Rays hit the far side of a wall, or a single sheet around a room, from inside solid matter.
+      // A sheet that is open on both sides is a wall around a room, and the skin of an object
       Hit other_side = hit;
       other_side.front_face = !hit.front_face;
       if (sides.is_solid(hit) || (room && !sides.is_solid(other_side))) {
@@ -62,7 +62,7 @@ std::vector<float> depths_of_wall(const World& world, const SolidSides& sides, b
   return depths;
 }
 
-/// Rays that look at a side of the bounds from outside, and how far outside they start.
+/// Rays onto a side of the bounds from outside, and the distance from it at which they start.
 struct SideRays {
   std::vector<Ray> rays;
   float start = 0.0f;
@@ -98,8 +98,8 @@ bool faces_out(const World& world, const SideRays& side, float longest) {
   return static_cast<float>(facing) >= kMinFacingShare * static_cast<float>(hits.size());
 }
 
-/// How far the open space keeps from a side of the bounds; negative: it reaches out of them, which
-/// it does in front of what faces a viewer outside.
+/// Distance from a side of the bounds to the open space inside. Negative where the open space
+/// extends beyond the bounds, which it does in front of surfaces that face a viewer outside.
 float side_inset(const World& world, const SolidSides& sides, bool room, const Bounds& bounds,
                  int axis, bool upper, bool viewed) {
   const glm::vec3 size = bounds.max - bounds.min;

@@ -12,19 +12,19 @@
 namespace lambent {
 namespace {
 
-// The whole object fits into this share of the frame's width and height.
+// Share of the frame's width and height into which the whole object must fit.
 constexpr float kFill = 0.84f;
-// How far the camera keeps from a scene that is one point [m].
+// Distance of the camera from a scene that is a single point [m].
 constexpr float kDistanceToPoint = 1e-3f;
 
-// Points of the surface by which candidates are judged.
+// Number of surface points by which candidates are judged.
 constexpr int kJudgedPoints = 384;
-// Rays across and up the frame by which candidates are judged.
+// Number of rays across and up the frame by which candidates are judged.
 constexpr int kRaysAcross = 20, kRaysUp = 14;
 
-// Where candidates stand [degrees]: azimuth from the front (+Z) towards the right, and elevation.
-// Each has a handicap: the further from the customary three-quarter view, the more a candidate has
-// to show for itself.
+// Positions of candidates [degrees]: azimuth from the front (+Z) towards the right, and elevation.
+// A candidate's handicap is subtracted from its score: it grows with the distance from the
+// customary three-quarter view.
 struct Stand {
   float azimuth, elevation, handicap;
 };
@@ -34,12 +34,12 @@ constexpr std::array kStands = {
     Stand{12, 12, 0.05f},  Stand{168, 12, 0.24f},  Stand{30, 40, 0.20f},  Stand{-30, 40, 0.23f},
     Stand{30, 62, 0.34f},  Stand{-30, 62, 0.36f},  Stand{150, 40, 0.30f}, Stand{-150, 40, 0.32f},
     Stand{30, -20, 0.40f}, Stand{150, -20, 0.50f}, Stand{90, 12, 0.20f},  Stand{-90, 12, 0.22f}};
-// What counts of a candidate's picture: how much of the surface it shows, how much of the frame the
-// subject covers, and how much of what is seen shows its back.
+// Weights of a candidate's score: the share of the surface that it shows, the share of the frame
+// that the subject covers, and the share of that which shows backs.
 constexpr float kSeenWeight = 0.5f, kCoverWeight = 0.5f, kBackWeight = 0.5f;
 
-/// Extents of points along a view's axes, widened by perspective: what decides how far the camera
-/// must stand off.
+/// Extents of points along a view's axes, widened by perspective. They determine the distance of
+/// the camera.
 struct Extents {
   float right = -kInfiniteDistance, left = -kInfiniteDistance;
   float up = -kInfiniteDistance, down = -kInfiniteDistance;
@@ -52,7 +52,7 @@ struct Extents {
   }
 };
 
-/// A view from a direction, with the tangents of the part of its frame that is to be filled.
+/// A view direction, with the tangents of the part of its frame that is to be filled.
 struct Framing {
   glm::mat3 view_from_world;  // rotation alone
   float tan_x, tan_y;
@@ -65,7 +65,7 @@ Framing make_framing(const glm::vec3& toward_eye, float vertical_fov, float aspe
 }
 
 /// A point p in view axes is in the frame of an eye e where |p.x - e.x| <= tan_x (e.z - p.z), and
-/// likewise up: e.x + tan_x e.z must reach p.x + tan_x p.z, and so on.
+/// similarly for y: e.x + tan_x e.z must reach p.x + tan_x p.z, and so on.
 void add_point(const Framing& framing, const glm::vec3& offset_ws, Extents& extents) {
   const glm::vec3 p = framing.view_from_world * offset_ws;
   extents.right = std::max(extents.right, p.x + framing.tan_x * p.z);
@@ -74,7 +74,7 @@ void add_point(const Framing& framing, const glm::vec3& offset_ws, Extents& exte
   extents.down = std::max(extents.down, -p.y + framing.tan_y * p.z);
 }
 
-/// The nearest eye that has all points in its frame, centred across and up.
+/// The nearest camera that has all points in its frame, centred across and up.
 Camera fit(const Framing& framing, const Extents& extents, const glm::vec3& center,
            float vertical_fov) {
   const float across = (extents.right + extents.left) / (2.0f * framing.tan_x);
@@ -89,7 +89,7 @@ Camera fit(const Framing& framing, const Extents& extents, const glm::vec3& cent
   return camera;
 }
 
-/// Fits the points of a sample, which is fast and may cut off a corner.
+/// Fits a sample of points, which is fast and may cut off a corner.
 Camera fit_points(const Framing& framing, const std::vector<SurfacePoint>& points,
                   const glm::vec3& center, float vertical_fov) {
   Extents extents;
@@ -115,11 +115,11 @@ Camera fit_vertices(const Framing& framing, const Scene& scene, const Subject& s
   return fit(framing, extents, center, vertical_fov);
 }
 
-/// What a candidate's picture shows.
+/// Statistics of a candidate's picture.
 struct Judgement {
-  float seen = 0.0f;   ///< Share of the surface points that the eye sees.
+  float seen = 0.0f;   ///< Share of the surface points that are visible.
   float cover = 0.0f;  ///< Share of the frame that is not sky.
-  float back = 0.0f;   ///< Share of that which shows its back.
+  float back = 0.0f;   ///< Share of that which shows backs of surfaces.
 };
 
 Judgement judge(const World& world, const Camera& camera, const std::vector<SurfacePoint>& points,
@@ -172,7 +172,7 @@ Camera outside_view(const World& world, const Subject& subject, float vertical_f
     return look_at(center + kDistanceToPoint * toward_eye, center, vertical_fov);
   }
 
-  // Judge all candidates, and compare what they show with the most that one of them does
+  // Judge all candidates, each relative to the best of them
   const std::vector<SurfacePoint> points = sample_surfaces(scene, subject.instances, kJudgedPoints);
   std::array<Judgement, kStands.size()> judgements;
   float most_seen = 0.0f, most_cover = 0.0f;

@@ -13,19 +13,19 @@
 namespace lambent {
 namespace {
 
-// Points across and up the picture.
+// Number of points across and up the picture.
 constexpr int kAcross = 24, kUp = 14;
 constexpr float kAspect = 16.0f / 9.0f;
-// Rays that look for emitters and sky at each point, and samples of emitters at it and at each
-// surface that those rays meet.
+// Number of rays that look for emitters and sky at each point; samples of emitters at each point,
+// and at each hit of those rays.
 constexpr int kRaysPerPoint = 8;
 constexpr int kEmitterSamples = 8, kBounceSamples = 2;
-// Points are lit where they get this share of the median of those that get any: the rest is dark
-// beside them.
+// Points are lit where they receive at least this share of the median of those that receive any
+// light: others are dark in comparison.
 constexpr float kLitShare = 1.0f / 32.0f;
-// Directions of the sphere around the camera.
+// Number of directions around the camera.
 constexpr int kSphereRays = 64;
-// Of all random numbers here.
+// Seed of all random numbers in this file.
 constexpr std::uint32_t kSeed = 3;
 
 LitPoint lit_point(const Surface& surface) {
@@ -36,7 +36,7 @@ float largest(const glm::vec3& v) {
   return std::max({v.x, v.y, v.z});
 }
 
-/// Irradiance from emissive surfaces, by some samples of them.
+/// Irradiance from emissive surfaces, estimated from `samples` samples of them.
 float emitted_irradiance(const World& world, const LitPoint& point, int samples,
                          RandomStream& random) {
   const EmissiveTriangles& emissive = emissive_of(world);
@@ -64,8 +64,8 @@ float emitted_irradiance(const World& world, const LitPoint& point, int samples,
   return sum;
 }
 
-/// Irradiance of a point from emitters, directly and after one bounce; counts rays that leave the
-/// scene.
+/// Irradiance of a point from emitters, directly and after one bounce; adds the number of rays that
+/// leave the scene to `escaped`.
 float irradiance_of(const World& world, const LitPoint& point, RandomStream& random, int& escaped) {
   float sum = emitted_irradiance(world, point, kEmitterSamples, random);
   for (int r = 0; r < kRaysPerPoint; ++r) {

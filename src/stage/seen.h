@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera sees, as points that ask for light.
+// Points that a camera sees, and where their light comes from.
 #pragma once
 
 #include <vector>
@@ -12,28 +12,30 @@ namespace lambent {
 /// A point that the camera sees.
 struct SeenPoint {
   LitPoint point;
-  float emission = 0.0f;  ///< Largest channel of the radiance that it emits [W/(m^2 sr)].
+  float emission = 0.0f;  ///< Largest channel of its emitted radiance [W/(m^2 sr)].
 };
 
-/// What the camera sees on a coarse grid over a picture of 16:9, and how much of it is sky.
+/// What the camera sees, sampled on a coarse grid over a picture of 16:9.
 struct SeenView {
-  std::vector<SeenPoint> points;
-  float sky_share = 0.0f;
+  std::vector<SeenPoint> points;  ///< Samples that show a surface.
+  float sky_share = 0.0f;         ///< Share of the samples that show the sky.
 };
+/// Samples what the camera sees.
 SeenView pass_moving_surfaces(const World& world, const Camera& camera);
 
-/// How the light of a view's points comes about.
+/// Statistics of the light at a view's points.
 struct ViewLight {
-  float lit_by_emission = 0.0f;  ///< Share of the points that emissive surfaces light, directly or
-                                 ///< after a bounce; those that emit themselves do not count.
-  float emission_ratio = 0.0f;   ///< Median radiance that those would reflect if they were white,
-                                 ///< over the mean radiance of the emitters that the camera sees;
-                                 ///< infinite where it sees none.
-  float sky_visibility = 0.0f;   ///< Share of the points' cosine-weighted hemispheres that is open.
+  float lit_by_emission =
+      0.0f;                     ///< Share of the points that emissive surfaces light, directly or
+                                ///< after a bounce; points that emit light themselves do not count.
+  float emission_ratio = 0.0f;  ///< Median radiance that those would reflect if they were white,
+                                ///< over the mean radiance of the emitters that the camera sees;
+                                ///< infinite where it sees none.
+  float sky_visibility = 0.0f;  ///< Share of the points' cosine-weighted hemispheres that is open.
 };
 ViewLight measure_view_light(const World& world, const SeenView& view);
 
-/// Share of the sphere around the camera that surfaces close.
+/// Share of the directions around the camera in which there is a surface.
 float enclosure(const World& world, const Camera& camera);
 
 }  // namespace lambent

@@ -11,27 +11,27 @@
 namespace lambent {
 namespace {
 
-// Texels of the studio's map: the soft boxes' edges take some ten of them.
+// Size of the studio's map [texels]: the edges of the soft boxes take some ten of them.
 constexpr int kMapWidth = 256, kMapHeight = 128;
 
-// The neutral surrounding: radiance of what is above, at the horizon and below [W/(m^2 sr)].
+// The neutral surrounding: radiance above, at the horizon and below [W/(m^2 sr)].
 constexpr float kCeilingRadiance = 1.2f, kHorizonRadiance = 0.45f, kFloorRadiance = 0.3f;
 
-// A soft box: where it hangs as seen from the subject [degrees], azimuth from the camera to its
-// right, half its width and height [degrees], and its radiance [W/(m^2 sr)].
+// A soft box: its direction from the subject [degrees], with the azimuth from the camera to its
+// right; half its width and height [degrees]; and its radiance [W/(m^2 sr)].
 struct SoftBox {
   float azimuth, elevation, half_width, half_height, radiance;
 };
 // As photographers place them: the key above the camera's left shoulder, a weaker fill opposite,
-// and a rim behind the subject that parts it from the background. All hang out of the frame.
+// and a rim behind the subject that separates it from the background. All are outside the frame.
 constexpr SoftBox kKey{-48.0f, 48.0f, 22.0f, 18.0f, 14.0f};
 constexpr SoftBox kFill{62.0f, 22.0f, 20.0f, 24.0f, 3.0f};
 constexpr SoftBox kRim{155.0f, 58.0f, 24.0f, 12.0f, 10.0f};
-// Over this angle a soft box fades to its edge [degrees].
+// Angle over which a soft box fades to its edge [degrees].
 constexpr float kSoftEdge = 7.0f;
 
-// The key's crisp part: irradiance on a surface that faces it [W/m^2], as much as its soft box
-// sends.
+// Irradiance of make_key_light() on a surface that faces it [W/m^2], equal to that of the key's
+// soft box.
 constexpr float kKeyIrradiance = 5.0f;
 
 /// 1 within `half` of the middle, falling to 0 over kSoftEdge.
@@ -39,7 +39,7 @@ float edge(float offset, float half) {
   return 1.0f - glm::smoothstep(half - kSoftEdge, half, std::abs(offset));
 }
 
-/// Share of a soft box's radiance that comes from a direction, given by its angles [degrees].
+/// Share of a soft box's radiance in a direction, given by its angles [degrees].
 float soft_box(const SoftBox& box, float azimuth, float elevation) {
   const float across =
       std::remainder(azimuth - box.azimuth, 360.0f) * std::cos(glm::radians(elevation));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lights for scenes that bring none.
+// Lights for scenes that come without any.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,21 +8,19 @@
 
 namespace lambent {
 
-/// The surrounding of a studio as a latitude-longitude environment: neutral walls, and soft boxes
-/// as key, fill and rim. `front_ws` is the horizontal unit direction from the subject to the
-/// camera.
+/// A studio as a latitude-longitude environment: neutral walls, and soft boxes as key, fill and
+/// rim. `front_ws` is the horizontal unit direction from the subject to the camera.
 Environment make_studio(const glm::vec3& front_ws);
 
-/// What the key's soft box sends to where it is not in the way of itself, as a light without
-/// extent, so that the subject's own shadows are crisp.
+/// The key light once more, as a light without extent, so that the subject casts crisp shadows.
 Light make_key_light(const glm::vec3& front_ws);
 
-/// A sun whose light travels along `direction_ws` (any length above 0), as strong as of a clear
+/// A sun whose light travels along `direction_ws` (any length above 0), as strong as on a clear
 /// afternoon.
 Light make_first_sun(const glm::vec3& direction_ws);
 
-/// What the sun of a clear afternoon sends to a surface that faces it [W/m^2], and the radiance of
-/// the sky that goes with it [W/(m^2 sr)].
+/// Irradiance of the sun of a clear afternoon on a surface that faces it [W/m^2], and the radiance
+/// of the sky at that time [W/(m^2 sr)].
 inline constexpr glm::vec3 kFirstSunIrradiance{20.0f, 18.0f, 15.0f};
 inline constexpr glm::vec3 kFirstSky{1.5f, 2.0f, 2.6f};
 

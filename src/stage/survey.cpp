@@ -14,33 +14,34 @@
 namespace lambent {
 namespace {
 
-// Rays that one task traces: enough to hide what a task costs.
+// Rays that one task traces: enough to hide the task's overhead.
 constexpr std::size_t kRaysPerTask = 128;
 
-// Seeds of the two random sequences: any numbers, as long as they stay.
+// Seeds of the two random sequences: arbitrary, but fixed.
 constexpr std::uint32_t kSurfaceSeed = 1;
 constexpr std::uint32_t kSpaceSeed = 2;
 
-// A ground dwarfs what stands on it where that spans less than this share of it; what encloses
-// the rest, less than this: a sky does, a room seldom.
+// A ground dwarfs the rest where the rest spans less than this share of it; and a sky, which
+// encloses the rest, where it spans less than this share. Rooms seldom do.
 constexpr float kDwarfedByGround = 0.3f, kDwarfedBySky = 0.1f;
-// A ground is flatter than this share of its width.
+// Greatest height of a ground, as a share of its width.
 constexpr float kFlatShare = 0.05f;
 
-// Places that are looked at in a box.
+// Number of places that are tested in a box.
 constexpr int kPlaces = 448;
-// Directions around each, slightly above the horizon, so that low furniture does not close a place.
+// Number of directions around each, slightly above the horizon, so that low furniture does not
+// count.
 constexpr int kWaysAround = 8;
 constexpr float kRise = 0.15f;  // [rad]
-// Ways around that must end at a surface for a place to count as enclosed: all but one.
+// Number of directions that must end at a surface for a place to be enclosed: all but one.
 constexpr int kMinClosedWays = kWaysAround - 1;
-// For a place to count as sheltered: somebody in an opening has three of them before him.
+// The same for a sheltered place: in an opening, three directions are free.
 constexpr int kMinShelteredWays = 5;
-// Inside solid matter rays meet backs. Winding is authors' accident, so a place is solid only where
-// most of them do, and surfaces with two sides do not count.
+// Least share of rays that hit fronts: inside solid matter, rays hit backs. As winding may be
+// wrong, a place is solid only where most rays hit backs; two-sided surfaces do not count.
 constexpr float kMinFrontShare = 0.35f;
 
-/// Triangle areas of a mesh in object space, summed up.
+/// Running sums of the areas of a mesh's triangles in object space.
 std::vector<float> cumulative_areas(const Mesh& mesh) {
   std::vector<float> sums;
   sums.reserve(mesh.triangles.size());
@@ -55,7 +56,7 @@ std::vector<float> cumulative_areas(const Mesh& mesh) {
   return sums;
 }
 
-/// By how much an instance scales areas, on average over directions.
+/// Factor by which an instance scales areas, on average over directions.
 float area_scale(const Instance& instance) {
   const glm::mat3 m(instance.world_from_object);
   const float squared = (glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3.0f;
@@ -72,8 +73,8 @@ bool has_two_sides(const Scene& scene, const Hit& hit) {
   return scene.materials[scene.meshes[scene.instances[hit.instance].mesh].material].double_sided;
 }
 
-/// How many of the `kept` smallest parts, the largest ones of these, are grounds and skies that
-/// dwarf the rest; 0: none are. `around[i]` holds the parts order[0] to order[i].
+/// Among the `kept` smallest parts, the number of the largest ones that are grounds and skies and
+/// dwarf the rest; 0: there are none. `around[i]` contains the parts order[0] to order[i].
 std::size_t count_dwarfing(std::span<const Bounds> boxes, std::span<const std::uint32_t> order,
                            std::span<const Bounds> around, std::size_t kept) {
   bool sky = false;
@@ -126,7 +127,7 @@ std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ra
 
 std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
                                           std::span<const std::uint32_t> instances, int count) {
-  // Sum areas over triangles once a mesh, and over instances
+  // Sum up areas over the triangles of each mesh, and over instances
   std::vector<std::vector<float>> areas(scene.meshes.size());
   std::vector<std::uint32_t> with_area;
   std::vector<float> instance_sums;
@@ -183,7 +184,7 @@ Subject find_subject(const World& world) {
   std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
     return diagonal(boxes[a]) < diagonal(boxes[b]);
   });
-  // Boxes around all instances up to each, the smallest first
+  // Compute boxes around the smallest instances, one more at a time
   std::vector<Bounds> around(order.size());
   Bounds sum;
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -200,7 +201,7 @@ Subject find_subject(const World& world) {
 }
 
 SpaceSurvey survey_space(const World& world, const Bounds& bounds) {
-  // Look around, up and down from random places
+  // Trace rays around, up and down from random places
   constexpr int kRays = kWaysAround + 2;
   std::vector<Ray> rays;
   rays.reserve(static_cast<std::size_t>(kPlaces) * kRays);

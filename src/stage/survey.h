@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays tell of a scene that nobody has described: where its surfaces are, and its open space.
+// Surveys an unknown scene with rays: where its surfaces are, and its open space.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,30 @@
 
 namespace lambent {
 
-/// A point of the scene's surfaces.
+/// A point on the scene's surfaces.
 struct SurfacePoint {
   glm::vec3 position_ws{0.0f};            ///< [m]
-  glm::vec3 normal_ws{0.0f, 1.0f, 0.0f};  ///< Of the triangle, on its front side; unit.
+  glm::vec3 normal_ws{0.0f, 1.0f, 0.0f};  ///< Normal of the triangle, on its front side; unit.
   std::uint32_t instance = 0;             ///< Index into Scene::instances.
 };
 
-/// `count` points of the instances whose index is in `instances`: half of them spread over area,
-/// half dealt to instances alike, so that small parts count. Fewer, or none, where there is no
+/// `count` points on the instances whose index is in `instances`: half of them spread over area,
+/// half dealt equally to instances, so that small parts count. Fewer, or none, where there is no
 /// area.
 std::vector<SurfacePoint> sample_surfaces(const Scene& scene,
                                           std::span<const std::uint32_t> instances, int count);
 
-/// The nearest hit of each ray, on all cores.
+/// The nearest hit of each ray. Uses all cores.
 std::vector<Hit> trace(const World& world, std::span<const Ray> rays);
 
-/// 1 for each ray that is stopped, on all cores.
+/// 1 for each occluded ray. Uses all cores.
 std::vector<std::uint8_t> trace_occlusion(const World& world, std::span<const Ray> rays);
 
-/// Whether a hit shows the back of a surface. Those with two sides have none, whichever way they
-/// are wound.
+/// Whether a hit shows the back of a surface. Two-sided surfaces have no back, whatever their
+/// winding.
 bool shows_back(const Scene& scene, const Hit& hit);
 
-/// The instances that a picture of the scene is about, and a box around them: all of them but for
+/// The instances that a picture of the scene should show, and a box around them: all of them except
 /// grounds and backdrops that dwarf the rest.
 struct Subject {
   std::vector<std::uint32_t> instances;
@@ -43,29 +43,28 @@ struct Subject {
 };
 Subject find_subject(const World& world);
 
-/// A place where a person could be: air, with a floor below and surfaces most ways around.
+/// A place where a person could be: air, with a floor below and surfaces in most directions around.
 struct OpenPlace {
   glm::vec3 position_ws{0.0f};  ///< [m]
-  float floor = 0.0f;           ///< Height of what is below [m].
-  float ceiling = 0.0f;         ///< Height of what is above, else of the bounds' top [m].
-  bool open_above = false;      ///< Nothing is above.
+  float floor = 0.0f;           ///< Height of the surface below [m].
+  float ceiling = 0.0f;         ///< Height of the surface above, or else of the bounds' top [m].
+  bool open_above = false;      ///< There is no surface above.
 };
 
-/// What random places in a box are.
+/// Random places in a box, classified.
 struct SpaceSurvey {
-  /// Air with surfaces around, in a fixed random order.
+  /// Places in air with surfaces around, in a fixed random order.
   std::vector<OpenPlace> enclosed;
-  /// These, and others that are open to a side or two: where somebody who looks into a room stands.
+  /// These, and others that are open to one or two sides: where an observer of a room would stand.
   std::vector<OpenPlace> sheltered;
-  float enclosed_share = 0.0f;  ///< Of the box's volume.
-  /// Of the surfaces around enclosed places, how many have two sides, so that which way they are
-  /// wound tells nothing.
+  float enclosed_share = 0.0f;  ///< Share of the box's volume that is enclosed.
+  /// Share of two-sided surfaces among those around enclosed places, whose winding is meaningless.
   float two_sided_share = 0.0f;
 };
 SpaceSurvey survey_space(const World& world, const Bounds& bounds);
 
-/// Whether a scene is a shell around most of what it holds: by how much of its box is enclosed air,
-/// and by the share of its surfaces that somebody outside sees from the front.
+/// Whether a scene is a shell around most of its contents: by the share of its box that is enclosed
+/// air, and by the share of its surfaces whose front is visible from outside.
 bool is_room(const World& world, const Subject& subject, const SpaceSurvey& survey);
 inline bool is_room(const World& world, const Subject& subject) {
   return !subject.bounds.empty() && is_room(world, subject, survey_space(world, subject.bounds));

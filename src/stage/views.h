@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates for a first view, and what speaks for each.
+// Candidates for a first view, and their ranking.
 #pragma once
 
 #include <optional>
@@ -9,11 +9,11 @@
 
 namespace lambent {
 
-/// The best view of the subject from outside, all of it in the frame.
+/// The best view of the subject from outside that has all of it in the frame.
 Camera outside_view(const World& world, const Subject& subject, float vertical_fov, float aspect);
 
-/// The best view at eye height from one of the sheltered places; none where each would look at a
-/// wall. `bounds` holds the room.
+/// The best view at eye height from one of the sheltered places; none where all of them would face
+/// a wall. `bounds` contains the room.
 std::optional<Camera> inside_view(const World& world, const SpaceSurvey& survey,
                                   const Bounds& bounds, float vertical_fov, float aspect);
 

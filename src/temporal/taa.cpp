@@ -9,7 +9,7 @@
 namespace lambent {
 namespace {
 
-// What taa_resolve.inl.h asks for.
+// What taa_resolve.inl.h requires of its includer.
 struct TaaPicture {
   int width;
   const float* radiance;

@@ -10,39 +10,39 @@
 
 namespace lambent {
 
-/// How a frame differs from the one before.
+/// How a frame differs from the previous one.
 struct FrameChange {
   bool same_size = true;
-  bool moved = false;   ///< The camera has.
-  bool edited = false;  ///< The world differs in any way, ...
-  bool relit = false;   ///< ... in lights, materials, what they emit or the sky.
+  bool moved = false;   ///< The camera has moved.
+  bool edited = false;  ///< The world differs in any way.
+  bool relit = false;   ///< Lights, materials, emission or the sky differ.
 };
 
-/// Where a sequence of frames is at, on whatever backend they are made.
+/// The state of a sequence of frames, for all backends.
 class TaaSequence {
  public:
-  /// Forgets all frames so far.
+  /// Discards all frames so far.
   void restart() { *this = TaaSequence(); }
-  /// Moves on to the next frame, of this size.
+  /// Advances to the next frame, of this size.
   void advance(int width, int height, const FrameChange& change);
 
   const TaaFrame& frame() const { return frame_; }
-  /// Frames before this one. Sample s of n in each pixel is at jitter_position(index() * n + s).
+  /// Number of frames before this one. Sample s of n is at jitter_position(index() * n + s).
   uint index() const { return index_; }
 
  private:
   TaaFrame frame_{};
   uint index_ = 0;
-  uint resting_frames_ = 0;  // of the camera
-  uint quiet_frames_ = 0;    // of the world
+  uint resting_frames_ = 0;  // since the camera last moved
+  uint quiet_frames_ = 0;    // since the world last changed
   bool begun_ = false;
 };
 
 /// The filter and its history on the processor.
 class TemporalAntialiasing {
  public:
-  /// Filters a frame's picture in place. `motion` is that of its pixels. The history is that of the
-  /// call before, where the frame has one.
+  /// Filters a frame's picture in place. `motion`: motion vectors of its pixels. The history is the
+  /// result of the previous call; it is read where frame.has_history.
   void resolve(const TaaFrame& frame, std::span<const PixelMotion> motion, Image& picture);
 
  private:

@@ -11,66 +11,67 @@
 
 LAMBENT_BEGIN
 
-// Most frames that the history counts for where it is fetched between pixels. Each fetch blurs a
-// little, while each frame makes edges smoother: with four the errors of the two were equal
-// (lambent_motion walk).
+// Most frames that the history counts for where it is interpolated between pixels. Each
+// interpolation blurs a little, while each frame makes edges smoother: with four the errors of the
+// two were equal (lambent_motion walk).
 const float kMovingHistoryFrames = 4.0f;
 
-// Most frames of a pixel at rest in a picture in which other things move. Nothing is fetched
-// between pixels there, so that more frames do not blur.
+// Most frames for a pixel at rest in a picture in which other things move. Nothing is interpolated
+// there, so that more frames do not blur.
 const float kRestingHistoryFrames = 9.0f;
 
 // Most frames of a picture in which nothing moves. Noise falls with each of them.
 const float kStillHistoryFrames = 63.0f;
 
-// So many frames after the last edit of the world its light has settled. From then on the history
-// is held to its neighbourhood loosely, and not at all once the camera has rested as long: a thin
-// thing that single frames miss would flicker for ever.
+// Number of frames after the last edit of the world until its light has settled. From then on the
+// history is clipped loosely, and not at all once the camera has rested as long: thin things that
+// single frames miss would flicker for ever.
 const uint kFramesUntilStill = 8u;
 
-// Standard deviations of the neighbourhood that the history may differ from its mean by. Salvi 2016
-// takes 1 to 1.5; at 1 lines a pixel or two wide lose a third of their contrast while they move.
+// Standard deviations of the neighbourhood by which the history may differ from its mean. Salvi
+// 2016 takes 1 to 1.5; at 1, lines a pixel or two wide lose a third of their contrast while they
+// move.
 const float kClipDeviations = 1.25f;
 
-// Standard deviations where nothing but the camera has moved for some frames. Motion then finds the
-// same surface in the same light; only what mirrors show has changed. With kClipDeviations, edges
-// in the atrium had one and a half times the error.
+// The same where nothing but the camera has moved for some frames. Motion vectors then lead to the
+// same surface in the same light; only reflections have changed. With kClipDeviations, edges in the
+// atrium had one and a half times the error.
 const float kLooseClipDeviations = 4.0f;
 
-// Half the side of the smallest box to clip to, as a share of the light around: a step of eight
+// Least half side of the box to clip to, as a share of the neighbourhood's mean: a step of eight
 // bits.
 const float kLeastClipExtent = 1.0f / 256.0f;
 
-// Luminance over the mean of what is around a pixel at which radiance counts half. Displays show
-// five times the mean as white; lamps and suns are hundreds of times as bright, and an edge against
-// them would never be smooth. Much less than this would weigh down what is merely bright: at white
-// itself a fortieth of the atrium's light was lost.
+// Luminance over the mean of a pixel's neighbourhood at which radiance has half its weight.
+// Displays show five times the mean as white; lamps and suns are hundreds of times as bright, and
+// an edge against them would never be smooth. Much lower values would dim what is merely bright: at
+// white itself a fortieth of the atrium's light was lost.
 const float kHalfWeightOverMean = 64.0f;
 
-// A point was hidden in the frame before where it lay behind what samples met at its place by more
+// A point was hidden in the previous frame where it lay behind the samples at its place by more
 // than this share of its depth. Rounding is far less; things in contact are nearer.
 const float kHiddenDepthShare = 0.01f;
 
-// What depth may change by besides, in steps from a pixel to the next: half a one by the place's
-// rounding to a pixel, and half a one each by where the samples of both frames lie in theirs.
+// Further tolerance of depth, in changes of depth from a pixel to the next: a half for rounding the
+// place to a pixel, and a half each for the positions of both frames' samples in their pixels.
 const float kDepthSteps = 1.5f;
 
-// Keeps the random numbers of jitter apart from those of other passes.
+// Makes the random numbers of jitter independent of those of other passes.
 const uint kJitterSalt = 0x4A495454u;
 
-// Least divisor of expand_radiance: what overshoots becomes at most so many times as bright.
+// Least divisor in expand_radiance: limits how bright interpolation that overshoots can become.
 const float kLeastExpandDivisor = 1e-4f;
 
-/// What is kept of a pixel from frame to frame.
+/// The history of a pixel.
 struct TaaPixel {
   vec3 radiance;         ///< Filtered [W/(m^2 sr)].
-  float depth;           ///< Of the frame's sample [m]; infinite: the sky.
-  float farthest_depth;  ///< Of the samples of that frame and the one before.
-  uint moved;            ///< 1: the nearest thing in it and beside it moved itself.
-  float frames;          ///< That the radiance is a mean of, >= 1.
+  float depth;           ///< Depth of the frame's sample [m]; infinite: the sky.
+  float farthest_depth;  ///< Larger depth of the samples of that frame and the previous one [m].
+  uint moved;            ///< 1: the nearest surface in it and beside it moved itself.
+  float frames;          ///< Number of frames that the radiance is a mean of, >= 1.
 };
 
-/// The k-th of 0 to 3 in an order that a random number picks.
+/// Element k, 0 to 3, of the permutation of 0 to 3 that a random number selects.
 LAMBENT_FN uint shuffled_quadrant(uint k, uint random) {
   uint order = 0x3210u;
   for (uint last = 3u; last > 0u; --last) {
@@ -83,12 +84,12 @@ LAMBENT_FN uint shuffled_quadrant(uint k, uint random) {
   return (order >> (4u * k)) & 3u;
 }
 
-/// Where in each pixel the samples of a frame lie, 0 to 1 each: the same place in all of them, so
-/// that a frame is a regular picture which is shifted by less than a pixel. Each four frames in a
-/// row visit the four quadrants, each sixteen the sixteen cells, in orders and at places that are
-/// random: a (0,2)-sequence as scrambled by Owen, "Monte Carlo variance of scrambled net
-/// quadrature", 1997. A regular order would keep step with some speed: what moves by half a pixel a
-/// frame would be seen by every other point of Halton's sequence, and always at the same places.
+/// Position of a frame's samples in their pixels, 0 to 1 each: the same in all pixels, so that a
+/// frame is a regular picture that is shifted by less than a pixel. Each four successive frames
+/// visit the four quadrants, each sixteen the sixteen cells, in random orders and at random points:
+/// a (0,2)-sequence as scrambled by Owen, "Monte Carlo variance of scrambled net quadrature", 1997.
+/// A regular order would be in step with some speed: a thing that moves by half a pixel a frame
+/// would be sampled by every other point of Halton's sequence, always at the same places.
 LAMBENT_FN vec2 jitter_position(uint index) {
   uint quadrant = shuffled_quadrant(index & 3u, hash_pcg3d(uvec3(index >> 2u, 0u, kJitterSalt)).x);
   uvec3 cell_order = hash_pcg3d(uvec3(index >> 4u, 1u + quadrant, kJitterSalt));
@@ -99,22 +100,22 @@ LAMBENT_FN vec2 jitter_position(uint index) {
   return corner + 0.25f * next_uniform2(random);
 }
 
-/// Radiance over the mean luminance of what is around it, weighed down where it is far brighter: a
+/// Radiance over the mean luminance of its neighbourhood, compressed where it is far brighter: a
 /// mean of these is a mean of radiance that weights each by 1 / (1 + luminance / (mean * k)), so
-/// that edges against lamps are smooth to the eye and sparks count little (Karis 2014).
+/// that edges against lamps look smooth and fireflies have little weight (Karis 2014).
 LAMBENT_FN vec3 compress_radiance(vec3 radiance, float mean) {
   return radiance / (mean + luminance(radiance) / kHalfWeightOverMean);
 }
 
-/// The inverse of compress_radiance. Luminance of kHalfWeightOverMean or more, which no radiance is
-/// compressed to but interpolation may overshoot to, becomes large and finite.
+/// The inverse of compress_radiance. A luminance of kHalfWeightOverMean or more, which compression
+/// cannot yield but interpolation may overshoot to, becomes large and finite.
 LAMBENT_FN vec3 expand_radiance(vec3 compressed, float mean) {
   float share = luminance(compressed) / kHalfWeightOverMean;
   return compressed * (mean / max(1.0f - share, kLeastExpandDivisor));
 }
 
-/// Luma and two differences of chroma, which are correlated less than primaries are: boxes along
-/// these axes are tighter (Karis 2014).
+/// Luma and two chroma differences, which are less correlated than primaries are: boxes along these
+/// axes are tighter (Karis 2014).
 LAMBENT_FN vec3 ycocg_from_rgb(vec3 c) {
   return vec3(0.25f * c.x + 0.5f * c.y + 0.25f * c.z, 0.5f * c.x - 0.5f * c.z,
               -0.25f * c.x + 0.5f * c.y - 0.25f * c.z);
@@ -123,7 +124,7 @@ LAMBENT_FN vec3 rgb_from_ycocg(vec3 c) {
   return vec3(c.x + c.y - c.z, c.x + c.z, c.x - c.y - c.z);
 }
 
-/// Weights of the four pixels around a place at `t`, 0 to 1, between the middle two.
+/// Weights of four successive pixels for a place at `t`, 0 to 1, between the middle two.
 /// Catmull and Rom, "A Class of Local Interpolating Splines", 1974.
 LAMBENT_FN vec4 catmull_rom_weights(float t) {
   float t2 = t * t;
@@ -132,14 +133,14 @@ LAMBENT_FN vec4 catmull_rom_weights(float t) {
               -1.5f * t3 + 2.0f * t2 + 0.5f * t, 0.5f * t3 - 0.5f * t2);
 }
 
-/// What is around a pixel in this frame, compressed, as luma and chroma.
+/// Statistics of a pixel's neighbourhood in this frame, compressed, as luma and chroma.
 struct TaaNeighbourhood {
   vec3 mean;
   vec3 extent;  ///< Half the sides of the box around the mean that the history must lie in.
 };
 
-/// From sums over `count` pixels, of which the middle one shows `now`. What that shows may stay,
-/// however unlike its neighbours it is.
+/// The neighbourhood from sums over `count` pixels, of which the middle one shows `now`. The box
+/// always includes `now`, however unlike its neighbours it is.
 LAMBENT_FN TaaNeighbourhood taa_neighbourhood(vec3 sum, vec3 sum_of_squares, float count, vec3 now,
                                               float deviations) {
   vec3 mean = sum / count;
@@ -149,27 +150,27 @@ LAMBENT_FN TaaNeighbourhood taa_neighbourhood(vec3 sum, vec3 sum_of_squares, flo
   return around;
 }
 
-/// How far a colour lies from the neighbourhood's mean, over the box: above 1 it is outside.
+/// Distance of a colour from the neighbourhood's mean, relative to the box: above 1 it is outside.
 LAMBENT_FN float distance_over_box(TaaNeighbourhood around, vec3 color) {
   vec3 share = abs(color - around.mean) / around.extent;
   return max(share.x, max(share.y, share.z));
 }
 
-/// The history as it may be: drawn towards the mean until it is in the box (Salvi 2016).
+/// The history, moved towards the mean until it is in the box (Salvi 2016).
 LAMBENT_FN vec3 clip_history(TaaNeighbourhood around, vec3 history, float distance) {
   return around.mean + (history - around.mean) / max(distance, 1.0f);
 }
 
-/// How much depth changes from a pixel to the next along a surface [m], by the neighbours on both
-/// sides: beyond an edge lies another surface, which does not count.
+/// Change of depth from a pixel to the next along a surface [m]: the smaller of both sides, as the
+/// neighbour beyond an edge belongs to another surface.
 LAMBENT_FN float depth_step(float before, float depth, float after) {
   return min(abs(before - depth), abs(after - depth));
 }
 
-/// Whether a point at this depth was hidden in the frame before. Depths of one surface may differ
+/// Whether a point at this depth was hidden in the previous frame. Depths of one surface may differ
 /// by `slack` [m].
 LAMBENT_FN bool was_hidden(float depth_before, float farthest_depth, float slack) {
-  // Of two infinities neither is behind the other
+  // Of two infinite depths neither is behind the other
   return depth_before > farthest_depth * (1.0f + kHiddenDepthShare) + slack;
 }
 

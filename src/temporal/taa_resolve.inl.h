@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel of a frame and what was kept of the frames before become what is shown and kept, in the
-// common subset of C++ and GLSL. Included after taa_math.h, taa_records.h and motion_math.h. The
-// includer provides the types
+// Blends a pixel of a frame with its history, in the common subset of C++ and GLSL. Included after
+// taa_math.h, taa_records.h and motion_math.h. The includer provides the types
 //   TaaPictureRef    the frame as it was rendered
-//   TaaHistoryRef    what was kept
-// and, of pixels within the picture,
+//   TaaHistoryRef    the history
+// and, for pixels within the picture,
 //   vec3 fetch_radiance(TaaPictureRef picture, ivec2 pixel)
 //   PixelMotion fetch_motion(TaaPictureRef picture, ivec2 pixel)
 //   TaaPixel fetch_history(TaaHistoryRef history, ivec2 pixel)
@@ -14,19 +13,19 @@ LAMBENT_FN ivec2 within_picture(TaaFrame frame, int x, int y) {
   return ivec2(clamp(x, 0, frame.width - 1), clamp(y, 0, frame.height - 1));
 }
 
-/// What a pixel shows. What is no number is taken for black: it would spread from pixel to pixel
-/// and from frame to frame.
+/// A pixel's radiance. Radiance that is not a finite number becomes black, as it would spread from
+/// pixel to pixel and from frame to frame.
 LAMBENT_FN vec3 radiance_at(TaaPictureRef picture, ivec2 pixel) {
   vec3 radiance = fetch_radiance(picture, pixel);
   float brightness = luminance(radiance);
   return brightness >= 0.0f && brightness < infinity() ? radiance : vec3(0.0f);
 }
 
-/// What a pixel and the eight around it show.
+/// Properties of a pixel and the eight around it.
 struct TaaSurroundings {
   PixelMotion
-      nearest;  ///< Motion of the nearest of them, so that edges move with what is in front.
-  float mean;   ///< Luminance; see compress_radiance.
+      nearest;  ///< Motion of the nearest of them, so that edges move with the surface in front.
+  float mean;   ///< Mean luminance; see compress_radiance.
 };
 
 LAMBENT_FN TaaSurroundings look_around(TaaFrame frame, TaaPictureRef picture, ivec2 pixel) {
@@ -41,7 +40,7 @@ LAMBENT_FN TaaSurroundings look_around(TaaFrame frame, TaaPictureRef picture, iv
       sum += luminance(radiance_at(picture, at));
     }
   }
-  // A black neighbourhood has no scale; any will do
+  // A black neighbourhood has no scale, so that any will do
   found.mean = sum > 0.0f ? sum / 9.0f : 1.0f;
   return found;
 }
@@ -62,12 +61,13 @@ LAMBENT_FN TaaNeighbourhood neighbourhood_at(TaaFrame frame, TaaPictureRef pictu
   return taa_neighbourhood(sum, sum_of_squares, 9.0f, now, frame.clip_deviations);
 }
 
-/// The history at a place between pixels' centres [pixels], by sixteen of them.
+/// The history interpolated at a place between the centres of pixels [pixels], from sixteen of
+/// them.
 LAMBENT_FN vec3 history_at(TaaFrame frame, TaaHistoryRef history, vec2 place) {
   vec2 corner = floor(place - vec2(0.5f));
   vec2 t = place - vec2(0.5f) - corner;
   ivec2 first = ivec2(int(corner.x), int(corner.y));
-  // On a pixel's centre it is that pixel's
+  // At the centre of a pixel, return that pixel's history
   if (t.x == 0.0f && t.y == 0.0f) {
     return fetch_history(history, within_picture(frame, first.x, first.y)).radiance;
   }
@@ -87,11 +87,11 @@ LAMBENT_FN float depth_at(TaaFrame frame, TaaPictureRef picture, int x, int y) {
   return fetch_motion(picture, within_picture(frame, x, y)).depth;
 }
 
-/// Depth that a surface may gain between the places that its samples are taken at [m].
+/// Change of depth that a surface may show between the positions of its samples [m].
 LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel, float depth) {
   // The sky has no slope
   if (depth == infinity()) return 0.0f;
-  // At the picture's edge there is one neighbour for both sides
+  // At the picture's edge, use the one neighbour for both sides
   int left = pixel.x > 0 ? pixel.x - 1 : pixel.x + 1;
   int right = pixel.x < frame.width - 1 ? pixel.x + 1 : pixel.x - 1;
   int above = pixel.y > 0 ? pixel.y - 1 : pixel.y + 1;
@@ -103,7 +103,7 @@ LAMBENT_FN float depth_slack(TaaFrame frame, TaaPictureRef picture, ivec2 pixel,
   return kDepthSteps * (across + down);
 }
 
-/// What a pixel shows, and what is kept of it.
+/// The filtered pixel, which is shown and becomes the next frame's history.
 LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistoryRef history,
                                 ivec2 pixel) {
   TaaSurroundings found = look_around(frame, picture, pixel);
@@ -113,19 +113,19 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   TaaPixel fresh = {radiance, depth, depth, moves, 1.0f};
   if (frame.has_history == 0u || found.nearest.known == 0u) return fresh;
 
-  // Find the place of the point in the frame before, and whether it was seen there
+  // Find the point's place in the previous frame, and whether it was visible there
   vec2 place = vec2(float(pixel.x), float(pixel.y)) + vec2(0.5f) + found.nearest.offset;
   bool on_picture = place.x >= 0.0f && place.y >= 0.0f && place.x < float(frame.width) &&
                     place.y < float(frame.height);
   if (!on_picture) return fresh;
   TaaPixel before =
       fetch_history(history, within_picture(frame, int(floor(place.x)), int(floor(place.y))));
-  // Where the edge of a moving thing was in the frame before, the history still has its light
+  // The history holds the light of a moving thing's edge where the edge was in the previous frame
   if (before.moved > moves) return fresh;
   float slack = depth_slack(frame, picture, pixel, depth);
   if (was_hidden(found.nearest.depth_before, before.farthest_depth, slack)) return fresh;
 
-  // Hold the history to what is around the pixel now
+  // Clip the history to the pixel's present neighbourhood
   vec3 now = compress_radiance(radiance, found.mean);
   vec3 kept = compress_radiance(history_at(frame, history, place), found.mean);
   bool rests = found.nearest.offset.x == 0.0f && found.nearest.offset.y == 0.0f;
@@ -136,14 +136,14 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
     vec3 color = ycocg_from_rgb(kept);
     float distance = distance_over_box(around, color);
     kept = rgb_from_ycocg(clip_history(around, color, distance));
-    // History far outside of the box is old light: the farther, the fewer frames it counts for.
-    // After an edit of light it falls with the square; otherwise a thin thing that single frames
-    // miss may be the cause
+    // History far outside the box is old light: the farther, the fewer frames it counts for. After
+    // an edit of light, they fall with the square of the distance; otherwise the cause may be a
+    // thin thing that single frames miss
     float outside = max(distance, 1.0f);
     frames /= frame.relit != 0u ? outside * outside : outside;
   }
   vec3 mean = mix(kept, now, 1.0f / (frames + 1.0f));
-  // Edges are met by some samples and missed by others: both are remembered for a frame
+  // Some samples hit an edge and others miss it: both depths are remembered for a frame
   TaaPixel result = {max(expand_radiance(mean, found.mean), vec3(0.0f)), depth,
                      max(depth, before.depth), moves, frames + 1.0f};
   return result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fog of a frame: what it asks of src/fog, and what its pixels are seen through.
+// The fog of a frame: the request to src/fog, and its effect on pixels.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ namespace lambent {
 /// The fog of a frame's traced rows.
 FogRequest fog_request(const FrameRequest& request);
 
-/// What fog adds to each of a band's pixels, and takes, as of fog_along.
+/// Radiance that fog adds to each of a band's pixels, and its transmittance; see fog_along().
 void find_fog(const FrameRequest& request, const FroxelFog& fog, const Band& band, int sample,
               const GBuffer& gbuffer, std::vector<glm::vec4>& light);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fog of a frame on a device. Froxels are lit by the processor, with rays of the device, as the
-// irradiance field is looked up there: a picture has far fewer of them than pixels. What fog does
-// to each pixel is found on the device.
+// Fog of a frame on a device. The processor lights the froxels, with rays traced by the device and
+// lookups of the field there: a picture has far fewer froxels than pixels. The fog's effect on each
+// pixel is computed on the device.
 #include "compose/fog/fog_frame.h"
 #include "compose/frame_vulkan.h"
 #include "core/pass_times.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of clearcoats on the processor: those of coats, once more, with the clearcoats in
+// Reflections of clearcoats on the processor: the passes of coats run again, with the clearcoats in
 // their place.
 #include <algorithm>
 

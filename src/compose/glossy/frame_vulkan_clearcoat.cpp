@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of clearcoats on a device: the order of clearcoat_frame.cpp.
+// Reflections of clearcoats on a device, in the order of clearcoat_frame.cpp.
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
@@ -36,7 +36,7 @@ void FramePassesVulkan::light_clearcoats() {
   const std::uint64_t surfaces =
       memory_.coat_surfaces.address() + before * sizeof(PixelSurfaceRecord);
   look_up_coats(points, surfaces);
-  // The buffers of coats, which are the clearcoats' until here, are used again
+  // The buffers of coats, which have held the clearcoats so far, are reused
   reserve<vec4>(1, "coats", memory_.coats);
   add("glossy", [=, this](Recorder& to) {
     if (filters_clearcoats(*request_)) {

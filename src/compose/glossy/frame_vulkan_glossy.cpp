@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of a frame on a device: the order of glossy_frame.cpp, with lists of the ways that
-// have not ended in place of pixels.
+// Reflections of a frame on a device, in the order of glossy_frame.cpp, but with lists of the paths
+// that have not ended in place of pixels.
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
@@ -11,7 +11,7 @@
 namespace lambent {
 namespace {
 
-/// Which of the two lists has the ways that come to a bounce.
+/// Index of the list that holds the paths of a bounce.
 std::size_t list_of(std::uint32_t bounce) {
   return (bounce + 1) % 2;
 }
@@ -23,7 +23,7 @@ bool has_coats(const Scene& scene) {
 
 }  // namespace
 
-/// Whether light of coats by rays is filtered.
+/// Whether the light of coats from rays is filtered.
 bool FramePassesVulkan::filters_coats() const {
   return request_->settings.denoise && traces_coats(*request_) &&
          has_coats(request_->world.scene());
@@ -58,7 +58,7 @@ Band FramePassesVulkan::rows_around_band() const {
   return {first_row, end_row - first_row};
 }
 
-/// Puts the pixels of the band and of the rows around it one after the other.
+/// Fills in the surfaces of the band and of the rows around it, one after the other.
 void FramePassesVulkan::see_around_band(const Band& around) {
   reserve_ways(static_cast<std::size_t>(around.rows) *
                static_cast<std::size_t>(request_->settings.width));
@@ -122,7 +122,7 @@ void FramePassesVulkan::reserve_list(std::size_t ways, WayBuffers& list) {
   reserve<uint>(1, "number of ways", list.count);
 }
 
-/// The ways of a list; has all that was recorded run.
+/// The length of a list; runs all passes recorded so far.
 std::uint32_t FramePassesVulkan::count_ways(const WayBuffers& list) {
   run_steps();
   uint count = 0;
@@ -158,8 +158,7 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
   return true;
 }
 
-/// Follows all ways until they have ended, from the bounce on that they come to next; returns
-/// whether there were any.
+/// Traces all paths to their end, from bounce `first_bounce` on; returns whether there were any.
 bool FramePassesVulkan::follow_all(std::uint32_t first_bounce, std::uint32_t first_index,
                                    std::uint32_t salt) {
   bool any = false;
@@ -172,7 +171,7 @@ bool FramePassesVulkan::follow_all(std::uint32_t first_bounce, std::uint32_t fir
   return any;
 }
 
-/// Has ways meet what is next, adds its light, and lists those that go on.
+/// Traces one bounce of paths, adds the light of the hits, and lists the paths that go on.
 void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
                                     std::uint32_t first_index, std::uint32_t salt_of_pass) {
   FrameMemory& m = memory_;

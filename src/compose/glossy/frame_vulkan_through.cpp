@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixels see through their surfaces, on a device; see through_frame.cpp and seen_through.cpp.
+// Light seen through surfaces, on a device; see through_frame.cpp and seen_through.cpp.
 #include "compose/frame_vulkan.h"
 #include "compose/glossy/seen_through.h"
 
 namespace lambent {
 
-/// Light that comes through the band's surfaces, as Glossy::look_through.
+/// Computes the light transmitted through the band's surfaces, see Glossy::look_through.
 void FramePassesVulkan::transmission() {
-  // What was recorded reads the lists that are to be used again
+  // The recorded passes read the lists that are reused below
   run_steps();
   reserve_ways(pixels_);
   reserve<float>(pixels_, "distances of coats behind glass", memory_.coat_distances);
@@ -33,12 +33,12 @@ void FramePassesVulkan::transmission() {
   forks_ways_ = false;
   run_steps();
   std::swap(memory_.forks, memory_.ways[1]);
-  static_assert(kFirstBounceOfForks == 2);  // whose ways lie in that list
+  static_assert(kFirstBounceOfForks == 2);  // bounce 2 reads list 1
   follow_all(kFirstBounceOfForks, first_pixel_, salt);
   keeps_behind_ = false;
 }
 
-/// Keeps the branches that are reflected where ways of a list fork.
+/// Appends the reflected branches of paths of a list that split at glass.
 void FramePassesVulkan::fork_ways(const WayBuffers& ways, std::uint32_t count, std::uint32_t bounce,
                                   std::uint32_t first_index, std::uint32_t salt) {
   add(way_pass_, [=, this, &ways](Recorder& to) {
@@ -63,7 +63,7 @@ std::uint32_t FramePassesVulkan::draws_behind_glass() const {
   return static_cast<std::uint32_t>(request_->settings.reflected_emissive_samples);
 }
 
-/// Makes room for what is seen through surfaces, and tells kernels where it is.
+/// Makes room for transmitted light, and writes the addresses for kernels.
 void FramePassesVulkan::begin_through(std::size_t pixels) {
   SeenThroughBuffers& t = memory_.through;
   const auto room = [&](std::size_t bytes, Buffer& buffer) {
@@ -88,7 +88,7 @@ void FramePassesVulkan::begin_through(std::size_t pixels) {
   r.lobes.address = room(sizeof(LobeGuide), t.lobes);
   r.filtered_emitters.address = room(sizeof(vec3), t.filtered_emitters);
   r.filtered_coats.address = room(sizeof(vec3), t.filtered_coats);
-  // Clear glass is not filtered further
+  // Transmitted light of smooth glass is not filtered a second time
   r.filtered.address =
       shows_rough_glass(*request_) ? room(sizeof(vec3), t.filtered) : r.light.address;
   reserve<SeenThroughRecord>(1, "where what is seen through surfaces is", t.addresses);
@@ -103,7 +103,7 @@ void FramePassesVulkan::start_through() {
   });
 }
 
-/// Keeps apart what lights up the first surfaces behind glass, of ways in the list `from`.
+/// Stores the light of the first opaque surfaces behind glass apart, for paths in the list `from`.
 void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, const WayBuffers& from) {
   FrameMemory& m = memory_;
   const KeepBehindArguments arguments = {{world_.scene().address()},
@@ -124,7 +124,7 @@ void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, const WayB
   to.run(kernels_.keep_behind, arguments, ways);
 }
 
-/// Keeps what the band's pixels see through their surfaces.
+/// Stores the light transmitted through the surfaces of the band's pixels.
 void FramePassesVulkan::keep_through() {
   add("compose", [this](Recorder& to) {
     FrameMemory& m = memory_;
@@ -138,7 +138,7 @@ void FramePassesVulkan::keep_through() {
   });
 }
 
-/// Filters what is seen through surfaces, and adds it to the layers.
+/// Filters transmitted light, and adds it to the layers.
 void FramePassesVulkan::denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown,
                                         float share) {
   const std::uint32_t pixels = view.width * view.height;

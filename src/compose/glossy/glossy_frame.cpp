@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kPixelsPerTask = 1024;
 
-/// Asks the field for light from around `direction_ws` where a ray met a surface.
+/// The field query at a ray's hit for light from around `direction_ws`.
 FieldQuery query_of(const Ray& ray, const Surface& met, const vec3& direction_ws) {
   return {met.position_ws, direction_ws, -ray.direction, distance(met.position_ws, ray.origin)};
 }
@@ -35,7 +35,7 @@ void find_coat_shares(GBuffer& pixels) {
   }
 }
 
-/// Makes room for the rays of so many pixels, none of which has one yet.
+/// Makes room for the rays of this many pixels, none of which has one yet.
 void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pixels, uint salt) {
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
@@ -44,7 +44,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   coat_distances_.assign(pixels, -1.0f);
 }
 
-/// Draws the pixels' rays.
+/// Draws the pixels' rays. Returns how many there are.
 std::uint64_t Glossy::send_rays(const GlossySettings& settings,
                                 std::span<const GlossyRows> around) {
   std::size_t pixels = 0;
@@ -90,8 +90,8 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
   return sent;
 }
 
-/// Finds what rays met, and adds the light that they bring but for what is looked up: of the sky
-/// and of what emits. Returns the rays traced.
+/// Traces rays, and adds the light of the sky and of emission at their hits; other light is added
+/// later. Returns the number of rays traced.
 std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t bounce) {
   const Scene& scene = settings.world.scene();
   std::atomic<std::uint64_t> traced = 0;
@@ -143,10 +143,10 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
   return traced;
 }
 
-/// Adds the light of the field and of lights that the rays' hits reflect, and draws the rays that
-/// go on from there. Returns how many these are.
+/// Adds the light of the field and of lights that the hits reflect, and draws the rays that go on
+/// from there. Returns how many these are.
 std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t bounce) {
-  // Ask for the light of bases, and of what coats have from no ray
+  // Query the field for the light of bases, and for that of coats which does not come from rays
   queries_.clear();
   asked_.clear();
   const auto ask = [&](std::size_t i, const vec3& direction_ws) {
@@ -206,8 +206,8 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   return going_on;
 }
 
-/// Follows rays, `going` of which there are, from the bounce on that they come to next until all
-/// their ways have ended; returns the rays traced.
+/// Traces `going` paths to their end, from bounce `first_bounce` on; returns the number of rays
+/// traced.
 std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t going,
                                  std::uint32_t first_bounce, const KeptBehind& kept) {
   FrameSettings lighting = settings.frame;
@@ -243,7 +243,7 @@ std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sa
   FrameSettings drawing = settings;
   if (kind == CoatKind::clearcoat) {
     drawing.seed = clearcoat_seed(settings.seed);
-    drawing.denoise = false;  // nobody asks how far away what clearcoats show is
+    drawing.denoise = false;  // the distances to what clearcoats reflect are not used
   }
   const int halo = glossy_halo(settings.glossy_rows);
   const int end_row = band.first_row + band.rows;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that coats reflect, by rays of their own, on the processor.
+// Light that coats reflect from rays of their own, on the processor.
 //
-// A pixel's coat sends out one ray, drawn of its lobe. What the ray meets is lit as a pixel is:
-// directly, by the field, and where it shines by further rays. Then each pixel reflects the rays
-// around it, each with the weight of its own lobe. docs/math.md, "Reflections".
+// A pixel's coat sends out one ray, drawn from its lobe. The ray's hit is lit like a pixel: by
+// direct light, by the field and, where its own coat is sharp, by further rays. Then each pixel
+// reflects the rays around it, weighted by its own lobe. docs/math.md, "Reflections".
 #pragma once
 
 #include <cstdint>
@@ -19,21 +19,21 @@
 
 namespace lambent {
 
-/// Rows above and below a band whose rays its pixels take.
+/// Rows above and below a band whose rays its pixels use.
 inline int glossy_halo(int rows) {
   return kReuse * rows;
 }
 
-/// Share of each pixel's coat that rays light, 0 to 1: GBuffer::coat_shares.
+/// Fills in GBuffer::coat_shares: the share of each pixel's coat that rays light, 0 to 1.
 void find_coat_shares(GBuffer& pixels);
 
-/// Ways of the rays of pixels, an entry a pixel.
+/// The paths of the rays of pixels, one entry a pixel.
 struct Ways {
   std::vector<CoatPath> paths;
-  std::vector<Ray> next;  ///< Of paths that have not ended, as are:
-  std::vector<RayCone> cones;
+  std::vector<Ray> next;       ///< Valid where the path has not ended.
+  std::vector<RayCone> cones;  ///< Valid where the path has not ended.
 
-  /// Makes room for so many, none of which there is yet.
+  /// Makes room for this many pixels, none of which has a path yet.
   void start(std::size_t pixels) {
     paths.assign(pixels, {vec3(1.0f), 0.0f, 0.0f, kStageOther, kForksNowhere});
     next.resize(pixels);
@@ -43,13 +43,14 @@ struct Ways {
 
 class Glossy {
  public:
-  /// Light of the coats of `band`'s pixels by rays. `around` lists rows from glossy_halo above the
-  /// band to as many below it, as far as the picture reaches, the band among them; all with their
-  /// coat_shares. Returns the rays traced.
+  /// Computes the light of the coats of `band`'s pixels from rays. `around` lists the rows from
+  /// glossy_halo() above the band to as many below it, within the picture and including the band,
+  /// all with their coat_shares. Returns the number of rays traced.
   std::uint64_t reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                         const GlossyRows& band, CoatLight& light);
 
-  /// Light that comes through the surfaces of `band`'s pixels. Returns the rays traced.
+  /// Computes the light transmitted through the surfaces of `band`'s pixels. Returns the number of
+  /// rays traced.
   std::uint64_t look_through(const GlossySettings& settings, const GlossyRows& band,
                              const KeptBehind& kept, TransmittedLight& light);
 
@@ -65,65 +66,68 @@ class Glossy {
   std::uint64_t light_hits(const GlossySettings& settings, std::uint32_t bounce);
 
   uint salt_ = 0;  // of the random numbers
-  // Of the rows around the band, an entry a pixel
+  // One entry for each pixel of the rows around the band
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
-  Ways ways_, forks_;  // what is followed, and branches to be followed later, if any
+  Ways ways_, forks_;  // the paths being traced, and the reflected branches to be traced later
   std::vector<float> coat_distances_;  // TransmittedLight::coat_distances
-  GBuffer met_;                        // by these
+  GBuffer met_;                        // the paths' hits
   ReflectedLight direct_;
   std::vector<FieldQuery> queries_;
-  std::vector<std::size_t> asked_;  // pixels of the queries, and what is asked for there
+  std::vector<std::size_t> asked_;  // the queries' pixels
   std::vector<glm::vec3> answers_;
   RayReuse reuse_;
 };
 
-/// A band's pixels as show_clearcoats leaves them, and their light of rays.
+/// A band's pixels after show_clearcoats(), and the light of their rays.
 struct ClearcoatsShown {
   GBuffer surfaces;
   CoatLight rays;
 };
 
-/// Memory of the pass, kept from band to band.
+/// Memory of the pass, reused from band to band.
 struct GlossyMemory {
   Glossy coats;
-  GBuffer above, below;                         ///< The band.
-  ClearcoatsShown clearcoats;                   ///< Of the band.
-  std::vector<glm::vec3> clearcoat_irradiance;  ///< Their light of the field.
+  GBuffer above, below;                         ///< The rows around the band.
+  ClearcoatsShown clearcoats;                   ///< Those of the band.
+  std::vector<glm::vec3> clearcoat_irradiance;  ///< The field's irradiance for clearcoats.
   std::vector<FieldQuery> queries;
-  std::vector<std::size_t> asked;  ///< Pixels of the queries, and what is answered.
+  std::vector<std::size_t> asked;  ///< The queries' pixels.
   std::vector<glm::vec3> answers;
 };
 
-/// Which of a surface's coats.
+/// The two specular layers of a surface.
 enum class CoatKind : std::uint8_t { coat, clearcoat };
 
-/// Makes the clearcoats of surfaces their coats, with nothing under them.
+/// Replaces each surface's reflectance by that of its clearcoat alone.
 void show_clearcoats(GBuffer& pixels);
 
-/// Has the coats of a band's pixels reflect rays; where these are clearcoats, they are shown so;
-/// `light` as of Glossy::reflect, empty where no pixel does. Rows above and below the band are seen
-/// for that once more. Returns the rays traced.
+/// Computes the light that the coats of a band's pixels, or their clearcoats, reflect from rays.
+/// For clearcoats, `pixels` must come from show_clearcoats(). `light`: see Glossy::reflect; empty
+/// where no pixel reflects rays. Traces the primary rays of the rows above and below the band once
+/// more. Returns the number of rays traced.
 std::uint64_t reflect_band(const FrameRequest& request, const Band& band, int sample, CoatKind kind,
                            const GBuffer& pixels, GlossyMemory& memory, CoatLight& light);
 
-/// Whether light of clearcoats by rays is filtered where is_filtered_clearcoat().
+/// Whether the light of clearcoats from rays is filtered, at pixels with is_filtered_clearcoat().
 bool filters_clearcoats(const FrameRequest& request);
 
-/// Light that the clearcoats of a band's pixels reflect but for what lights sent them straight and
-/// for what is to be filtered: by rays and by the field. Empty where no pixel has one; else
-/// `memory.clearcoats` are theirs. Returns the rays traced.
+/// Computes the light that the clearcoats of a band's pixels reflect, from rays and from the field,
+/// without the lights' direct light and without what is to be filtered. `light` is empty where no
+/// pixel has a clearcoat; otherwise `memory.clearcoats` is filled in. Returns the number of rays
+/// traced.
 std::uint64_t reflect_clearcoats(const FrameRequest& request, const Band& band, int sample,
                                  const GBuffer& pixels, GlossyMemory& memory,
                                  std::vector<glm::vec3>& light);
 
-/// Light that comes through the surfaces of a band's pixels. Returns the rays traced.
+/// Computes the light transmitted through the surfaces of a band's pixels. Returns the number of
+/// rays traced.
 std::uint64_t look_through_band(const FrameRequest& request, const Band& band, int sample,
                                 const GBuffer& pixels, const KeptBehind& kept, GlossyMemory& memory,
                                 TransmittedLight& light);
 
-/// The field's irradiance where coats have light from no ray, on surfaces that face
-/// coat_direction(); 0 at other pixels.
+/// Looks up the field's irradiance on surfaces that face coat_direction(), where coats have light
+/// that does not come from rays; 0 at other pixels.
 void look_up_coats(const FrameRequest& request, const GBuffer& pixels, const CoatLight& by_rays,
                    GlossyMemory& memory, std::vector<glm::vec3>& irradiance);
 

@@ -46,7 +46,7 @@ CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel) {
           pixels.to_viewer_ws[pixel], surface.reflectance.alpha};
 }
 
-/// Puts all that neighbours read into planes.
+/// Writes all that neighbours read into planes.
 void RayReuse::lay_out(const GlossySettings& settings, std::span<const GlossyRows> around,
                        std::span<const CoatRay> rays) {
   const int width = settings.frame.width;

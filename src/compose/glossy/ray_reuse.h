@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixels' coats make of the rays around them, on the processor.
+// Reuse of the rays of neighbouring pixels, on the processor.
 #pragma once
 
 #include <cstdint>
@@ -13,27 +13,28 @@
 
 namespace lambent {
 
-/// What a sample's reflections are made of, and how.
+/// Inputs of a sample's reflections.
 struct GlossySettings {
   const World& world;
   const IrradianceField* field;  ///< Null: there is none.
   const FrameSettings& frame;
   CameraRecord camera;
   int sample = 0;
-  std::uint32_t jitter = 0;  ///< As of camera_cone().
+  std::uint32_t jitter = 0;  ///< See camera_cone().
 };
 
-/// Rows of a picture that lie one below the other, as the camera sees them.
+/// Successive rows of a picture, with the surfaces that the camera sees.
 struct GlossyRows {
   const GBuffer& pixels;
   int first_row;
 };
 
-/// Light that coats reflect by rays, an entry a pixel.
+/// Light that coats reflect from rays, one entry a pixel.
 struct CoatLight {
-  std::vector<glm::vec4>
-      light;  ///< Light (RGB, times A) and the share of the coat's that it is (A).
-  std::vector<float> inverse_distances;  ///< One over the distance to what the coat sees [1/m].
+  /// RGB: the light, times A [W/(m^2 sr)]. A: the share of the coat's light that comes from rays.
+  std::vector<glm::vec4> light;
+  /// One over the distance to what the coat reflects [1/m].
+  std::vector<float> inverse_distances;
 
   bool empty() const { return light.empty(); }
   void clear() {
@@ -42,13 +43,14 @@ struct CoatLight {
   }
 };
 
-/// The lobe of a pixel's coat.
+/// The specular lobe of a pixel.
 CoatLobe lobe_of(const GBuffer& pixels, std::size_t pixel);
 
-/// Its memory is kept from band to band.
+/// Has the pixels of a band reflect the rays around them. Memory is reused from band to band.
 class RayReuse {
  public:
-  /// Light of `band`'s pixels, as of Glossy::reflect, from the rays of all pixels `around`.
+  /// Computes the light of `band`'s pixels, see Glossy::reflect, from the rays of all pixels
+  /// `around`.
   void reflect(const GlossySettings& settings, std::span<const GlossyRows> around,
                const GlossyRows& band, std::span<const CoatRay> rays, CoatLight& reflected);
 

@@ -18,7 +18,7 @@ bool is_any_positive(const std::vector<float>& values) {
   return std::any_of(values.begin(), values.end(), [](float value) { return value > 0.0f; });
 }
 
-/// Distances of the traced pixels to what their lobes see.
+/// Distances from the traced pixels' surfaces to what their lobes show.
 struct SeenDistances {
   using CoatViewRef = const SeenDistances&;
   static float fetch_distance(CoatViewRef view, ivec2 pixel) {
@@ -32,7 +32,7 @@ struct SeenDistances {
   ivec2 picture_size;  // [pixels]
 };
 
-/// One over the distance to what each pixel's lobe sees [1/m], as means over pixels.
+/// One over the distance to what each pixel's lobe shows [1/m], as means over pixels.
 void find_inverse_distances(const DenoiseView& view, std::span<const float> alphas,
                             std::span<const float> distances, std::vector<float>& inverse) {
   inverse.assign(distances.size(), 0.0f);
@@ -46,7 +46,8 @@ void find_inverse_distances(const DenoiseView& view, std::span<const float> alph
   });
 }
 
-/// Filters what lights up the first surfaces behind glass, and adds it to all light.
+/// Filters the light of the first opaque surfaces behind glass, and adds it to all transmitted
+/// light.
 void filter_behind(const DenoiseView& view, Denoiser& denoiser, SeenThrough& seen) {
   DenoiseView behind = view;
   behind.positions_ws = seen.positions_ws;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixels see through their surfaces, in a device's memory, and the arguments of its kernels.
+// Light seen through surfaces, in a device's memory, and the arguments of its kernels.
 #ifndef LAMBENT_COMPOSE_GLOSSY_SEEN_THROUGH_RECORDS_H
 #define LAMBENT_COMPOSE_GLOSSY_SEEN_THROUGH_RECORDS_H
 
@@ -8,7 +8,7 @@
 
 LAMBENT_BEGIN
 
-/// Arrays as in struct SeenThrough; lobes are of sharpness 0 where there are none.
+/// For the arrays see SeenThrough; lobes have sharpness 0 where there are none.
 struct SeenThroughRecord {
   FloatArray depths;
   Vec3Array positions_ws;
@@ -31,39 +31,39 @@ struct SeenThroughRecord {
 };
 LAMBENT_DEVICE_ARRAY(SeenThroughArray, SeenThroughRecord, 8)
 
-/// Has pixels see nothing through their surfaces.
+/// Resets a band's pixels to no transmitted light.
 struct StartThroughArguments {
   SeenThroughArray seen;
-  uint first;  ///< Of the band, among the traced pixels.
+  uint first;  ///< First pixel of the band among the traced ones.
   uint count;
 };
 
-/// Keeps apart what lights up the first surfaces behind glass, as Glossy::keep_behind.
+/// Stores the light of the first opaque surfaces behind glass apart, see Glossy::keep_behind.
 struct KeepBehindArguments {
   SceneArray scene;
-  LitPointArray points;  ///< Lists of ways, as are:
+  LitPointArray points;  ///< One a path, as are the next seven arrays.
   PixelSurfaceArray surfaces;
   CoatPathArray paths;
   UintArray pixels;
-  Vec3Array diffuse;  ///< Is added to.
-  Vec3Array drawn;    ///< Light of emitters; read where there are draws.
+  Vec3Array diffuse;  ///< Light is added here.
+  Vec3Array drawn;    ///< Light of emitters; read where `draws` is above 0.
   Vec3Array drawn_specular;
   FloatArray drawn_squares;
   CoatRayArray coat_rays;
   SeenThroughArray seen;
   vec3 camera_ws;
-  uint first;  ///< Of the band, among the traced pixels.
-  uint count;  ///< Ways.
-  uint draws;  ///< Of emitters, a way.
+  uint first;  ///< First pixel of the band among the traced ones.
+  uint count;  ///< Number of paths.
+  uint draws;  ///< Samples of emitters a path.
 };
 
-/// Keeps all light that comes through, as keep_through().
+/// Stores all transmitted light, see keep_through().
 struct KeepThroughArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
   FloatArray coat_distances;
-  Vec4Array fog;  ///< As of fog_along; read where has_fog is 1.
+  Vec4Array fog;  ///< See fog_along(); read where has_fog is 1.
   SeenThroughArray seen;
   uint first;
   uint count;
@@ -71,25 +71,25 @@ struct KeepThroughArguments {
   uint padding;
 };
 
-/// Finds how far away what lobes see is, as means over pixels.
+/// Averages the reciprocal distances to what lobes show over neighbouring pixels.
 struct SeenDistancesArguments {
   SeenThroughArray seen;
-  uint width;  ///< Of the traced rows [pixels].
+  uint width;  ///< Width of the traced rows [pixels].
   uint height;
 };
 
-/// Adds filtered light of the first surfaces behind glass to all light.
+/// Adds the filtered light of the first opaque surfaces behind glass to all transmitted light.
 struct AddBehindArguments {
   SeenThroughArray seen;
   uint count;
-  uint draws;  ///< Of emitters; 0: none of their light was kept.
+  uint draws;  ///< Samples of emitters; 0: none of their light was stored.
 };
 
-/// Adds filtered light to the layers.
+/// Adds filtered transmitted light to the layers.
 struct ShowThroughArguments {
   SeenThroughArray seen;
   PixelLayersArray layers;
-  uint first;  ///< Of the shown pixels, among the traced ones.
+  uint first;  ///< First of the shown pixels among the traced ones.
   uint count;
   float share;
   uint padding;

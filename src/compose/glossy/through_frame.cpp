@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that go through the surfaces of pixels, on the processor: as those of coats, but that ways
-// fork, and that light of what they show first is kept apart.
+// Rays through the surfaces of pixels, on the processor. They are traced like those of coats, but
+// paths split, and the light of the first opaque surfaces is stored apart.
 #include <algorithm>
 #include <utility>
 
@@ -16,7 +16,7 @@ constexpr std::size_t kPixelsPerTask = 1024;
 
 }  // namespace
 
-/// Draws the rays of pixels whose surfaces let light through.
+/// Draws the rays of pixels whose surfaces transmit light. Returns how many there are.
 std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer& seen) {
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   std::uint64_t sent = 0;
@@ -38,9 +38,8 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
   return sent;
 }
 
-/// Keeps apart what lights up the first surfaces behind glass that let no light through: light of
-/// emitters, and all light of their coats. Elsewhere that of emitters is part of other direct
-/// light.
+/// Stores the light of the first opaque surfaces behind glass apart: that of emitters, and all
+/// light of their coats. Elsewhere, emitters' light joins the other direct light.
 void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept) {
   const bool has_emitters = !direct_.emitters.empty();
   parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
@@ -75,7 +74,7 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
   });
 }
 
-/// Keeps the branches that are reflected where ways fork.
+/// Stores the reflected branches of paths that split at glass.
 void Glossy::fork_ways(const GlossySettings& settings, std::uint32_t bounce) {
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {

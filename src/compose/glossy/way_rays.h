@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays on which ways of light go on, on the processor.
+// Rays on which paths continue, on the processor.
 #pragma once
 
 #include "compose/glossy/ray_reuse.h"
@@ -17,7 +17,7 @@ inline Ray ray_from(const Surface& surface, const NextRay& next) {
   return ray;
 }
 
-/// The cone of a pixel's ray where it ends.
+/// The cone of a pixel's primary ray at its hit.
 inline RayCone pixel_cone(const GlossySettings& settings, const Surface& surface,
                           const vec3& to_viewer_ws) {
   RayCone cone = camera_cone(settings.camera, -to_viewer_ws,

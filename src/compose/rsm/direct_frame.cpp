@@ -13,7 +13,7 @@
 namespace lambent {
 namespace {
 
-// Shadow rays that are traced together, about.
+// Approximate number of shadow rays that are traced together.
 constexpr std::size_t kRaysAtOnce = std::size_t{1} << 14;
 
 /// A pixel of a row of a sub-image.
@@ -22,17 +22,18 @@ struct RowPixel {
   Frame frame;
   vec3 to_viewer;
   LitPoint point;
-  BrightestLight brightest = no_brightest_light();  // where lights are shared out
+  BrightestLight brightest = no_brightest_light();  // used where lights are shared out
 };
 
-/// What a pixel gains if a shadow ray arrives.
+/// Light that a pixel receives if a shadow ray is unoccluded.
 struct PendingLight {
   std::size_t in_view;
   ReflectedPair light;
-  bool is_share;  // else it is light of its own
+  bool is_share;  // counts for the pixel's LightShare; otherwise for its own light
 };
 
-/// Finds the light of a sub-image's row: light after light, so that rays of a batch go to the same.
+/// Computes the light of a sub-image's row, one light after the other, so that a batch's rays go
+/// towards the same light.
 class RowShading {
  public:
   RowShading(const World& world, const Media& media, const GBuffer& gbuffer, DirectView& view)
@@ -55,7 +56,7 @@ class RowShading {
                        {surface.position_ws, surface.normal_ws, surface.geometric_normal_ws}});
   }
 
-  /// Returns the shadow rays traced.
+  /// Returns the number of shadow rays traced.
   std::uint64_t shade(int sub_map) {
     if (view_.lights.shared()) find_brightest();
     for (const DealtLight& dealt : view_.lights.of(sub_map)) {
@@ -71,7 +72,7 @@ class RowShading {
     return lights_of(world_).lights()[light];
   }
 
-  /// What a light sends to a pixel, diffuse light over filtered_albedo.
+  /// Unoccluded light of a light at a pixel; diffuse light is divided by filtered_albedo().
   ReflectedPair sent(const RowPixel& pixel, const LightCandidate& light) const {
     if (light.perpendicular_irradiance == vec3(0.0f)) return {vec3(0.0f), vec3(0.0f)};
     const Surface& surface = gbuffer_.surfaces[pixel.in_band];
@@ -87,7 +88,7 @@ class RowShading {
     return pair;
   }
 
-  /// Sums up what all lights send but for each pixel's brightest one, which is asked.
+  /// Sums up the unoccluded light of all lights but each pixel's brightest one, which is tested.
   void find_brightest() {
     for (std::size_t light = 0; light < view_.lights.lights; ++light) {
       for (RowPixel& pixel : pixels_) {
@@ -153,7 +154,7 @@ class RowShading {
   std::uint64_t rays_ = 0;
 };
 
-/// The view, as blurs fetch from it.
+/// The view, as the blur reads it.
 struct ShareView {
   ShareView(const RsmView& view, std::span<const LightShare> of) : seen(view), shares(of) {}
 

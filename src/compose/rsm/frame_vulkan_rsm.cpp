@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of reflective shadow maps in a frame on a device: the view that it is found for, and what
-// a frame's samples take of it.
+// Light of reflective shadow maps in a frame on a device: the small view that it is computed for,
+// and its upsampling to a frame's samples.
 #include <algorithm>
 
 #include "compose/frame_vulkan.h"
@@ -12,7 +12,7 @@
 namespace lambent {
 namespace {
 
-// Pixels of the view that maps light which are traced at a time, as many as of a frame's band.
+// Pixels of the small view that are traced at a time, as many as in a frame's band.
 constexpr std::uint32_t kViewPixels = 1u << 18;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds filtered light of the first surfaces behind glass to all that comes through it.
+// Adds the filtered light of the first opaque surfaces behind glass to all transmitted light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"

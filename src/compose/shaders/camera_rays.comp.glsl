@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray through each pixel of a band.
+// Makes a ray through each pixel of a band.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"

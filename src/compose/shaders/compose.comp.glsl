@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds what pixels show to their layers.
+// Adds a sample of the pixels to their layers.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"
@@ -28,7 +28,7 @@ void main() {
     return;
   }
 
-  // Reflect the field's light: the base under the coat, and the coat by its directional albedo
+  // Reflect the field's light: by the base under the coat, and by the coat's directional albedo
   LitPointRecord point = args.points.at[i];
   vec3 diffuse = args.diffuse.at[i];
   vec3 glossy = args.specular.at[i];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps apart what lights up the first surfaces behind glass; see Glossy::keep_behind.
+// Stores the light of the first opaque surfaces behind glass apart; see Glossy::keep_behind.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
   KeepBehindArguments args;
 };
 
-/// Keeps the diffuse light of emitters at a pixel.
+/// Stores the diffuse light of emitters at a pixel.
 void keep_emitters(uint k, uint pixel, LitPointRecord point, Reflectance reflectance,
                    vec3 throughput) {
   FilteredEmitter emitter =
@@ -47,7 +47,7 @@ void main() {
   args.seen.at[0].normals_ws.at[pixel] = point.normal_ws;
   float alpha = alpha_behind(surface.reflectance, surface.coat_share);
   if (alpha > 0.0f) {
-    // How far away what it sees is, is known once all rays have met something
+    // The distance to what it reflects is known once all its rays have hit something
     args.seen.at[0].coat_lobes.at[pixel] =
         lobe_guide(point.normal_ws, surface.to_viewer_ws, alpha, 0.0f);
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps of a band's clearcoats what the filter reads; see filter_frame.cpp.
+// Stores the light of a band's clearcoats for the filter; see filter_frame.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"

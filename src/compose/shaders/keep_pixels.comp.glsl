@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps of a band's pixels what the filter reads; see filter_frame.cpp.
+// Stores the light and the geometry of a band's pixels for the filter; see filter_frame.cpp.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/filter_records.h"
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
   KeepPixelsArguments args;
 };
 
-/// Keeps the light that a pixel's coat reflects by rays. Returns whether there is any.
+/// Stores the light that a pixel's coat reflects from rays. Returns whether there is any.
 bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface, float passed) {
   vec4 by_rays = (args.has & kHasCoats) != 0u ? args.coats.at[i] : vec4(0.0f);
   args.pixels.at[0].coats.at[pixel] = vec3(0.0f);
@@ -29,7 +29,7 @@ bool keep_coat(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surf
   return true;
 }
 
-/// Keeps the specular light of emitters.
+/// Stores the specular light of emitters.
 void keep_highlight(uint i, uint pixel, LitPointRecord point, PixelSurfaceRecord surface,
                     bool has_rays, float passed) {
   args.pixels.at[0].highlights.at[pixel] = vec3(0.0f);

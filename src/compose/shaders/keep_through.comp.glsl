@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps what pixels of a band see through their surfaces; see keep_through().
+// Stores the light transmitted through a band's surfaces for the filter; see keep_through().
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"

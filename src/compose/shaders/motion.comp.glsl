@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where what pixels show was in the frame before.
+// Computes motion vectors: where the surfaces that pixels show were in the previous frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/motion_records.h"
@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
   MotionArguments args;
 };
 
-// What motion.inl.h asks for.
+// What motion.inl.h requires of its includer.
 #define SceneBeforeRef SceneBeforeArray
 
 bool was_there(SceneBeforeArray before, uint instance) {

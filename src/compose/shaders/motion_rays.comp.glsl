@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that go on where a pixel shows something see-through, which has no motion of its own.
+// Makes the rays that go on behind blended surfaces, which have no motion vectors of their own.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/motion_records.h"

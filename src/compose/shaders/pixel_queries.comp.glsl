@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where pixels ask the field for light.
+// Writes the pixels' field queries.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes what another source brings out of the field's light, and adds that source's own.
+// Subtracts another method's share of light from the field's, and adds that method's own result.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"

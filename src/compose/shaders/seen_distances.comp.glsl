@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds how far away what lobes behind glass and of rough glass see is, as means over pixels.
+// Averages the reciprocal distances to what the lobes of rough glass, and of coats behind glass,
+// show.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"

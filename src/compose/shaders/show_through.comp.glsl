@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds filtered light that comes through surfaces to the layers of the pixels that are shown.
+// Adds filtered transmitted light to the layers of the pixels that are shown.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"

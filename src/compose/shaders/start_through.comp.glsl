@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Has pixels see nothing through their surfaces.
+// Resets a band's pixels to no transmitted light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"

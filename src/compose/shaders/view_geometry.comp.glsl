@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pixels show, as passes over views read it.
+// Writes the geometry that pixels show, for passes over views.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/frame_records.h"

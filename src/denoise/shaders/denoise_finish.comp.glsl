@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What passes of the filter left becomes light of pixels, with the detail of its base.
+// Writes the filtered light: the last pass's result with the detail of its base.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise_records.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pass of the filter.
+// Runs a pass of the filter over a picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise_records.h"
@@ -24,7 +24,7 @@ float larger(float a, float b) {
   return max(a, b);
 }
 
-/// The pixel that lies so far from this one; none where that is outside the picture.
+/// The pixel that is offset by (x, y) from this one; returns false outside the picture.
 bool pixel_at(int x, int y, out uint i) {
   ivec2 place = pixel + ivec2(x, y);
   i = uint(place.y) * args.width + uint(place.x);

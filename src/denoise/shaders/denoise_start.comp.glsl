@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light as it was sampled becomes what passes of the filter read.
+// Converts sampled light to the format that passes of the filter read.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "denoise/denoise_records.h"

@@ -14,8 +14,8 @@
 // single update. T E is stored when the light is solved for, so that g is right however long a
 // probe stays stale.
 //
-// Sleeping probes light open air and hardly any surfel. They are brought up to date after the others
-// have been solved for, some in each update.
+// Sleeping probes light open air and hardly any surfel. They are brought up to date after the
+// others have been solved for, some in each update.
 #include <algorithm>
 #include <iterator>
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What fog does to the light of pixels: see fog_along.
+// Computes the effect of fog on pixels; see fog_along().
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "compose/pixel_math.h"

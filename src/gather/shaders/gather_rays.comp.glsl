@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays that gather the light of pixels.
+// Makes the rays that gather the light of pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gather/gather_math.h"

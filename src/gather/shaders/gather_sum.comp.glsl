@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Irradiance of pixels from what their rays gathered: rays are drawn in proportion to the cosine,
-// so it is pi times their mean radiance.
+// Computes the irradiance of pixels from what their rays gathered: rays are drawn in proportion to
+// the cosine, so that it is pi times their mean radiance.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shared/variance.h"
@@ -30,7 +30,7 @@ void main() {
   for (uint r = 0u; r < args.rays_per_pixel; ++r) {
     uint at = k * args.rays_per_pixel + r;
     RayRecord ray = args.rays.at[at];
-    // A bent normal's hemisphere reaches below the surface, where no light comes from
+    // A bent normal's hemisphere reaches below the surface, from where no light comes
     if (ray.mask == 0u || dot(point.geometric_normal_ws, ray.direction_ws) <= 0.0f) continue;
     vec3 brought = (kPi * above) *
         gathered_radiance(args.shaded.at[at], args.direct.at[at], args.field.at[at]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where gathering rays ask the field for light: at what they met.
+// Writes the field queries at the hits of gathering rays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "gather/gather_records.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Appends ways to lists of those that go on.
+// Appends paths to the list of those that go on.
 #include "glossy/glossy_records.h"
 #include "shared/rays.h"
 
-/// Has the way of pixel `i` go on along a ray from the surface at `from`, which it met with this
-/// cone.
+/// Appends the path of pixel `i` with a ray that starts at the surface `from`, which the path hit
+/// with this cone.
 void append_way(WayList ways, uint i, CoatPath path, RayCone cone, LitPointRecord from,
                 NextRay next) {
   uint at = atomicAdd(ways.count.at[0], 1u);

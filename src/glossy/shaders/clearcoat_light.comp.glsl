@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the light that clearcoats reflect, by rays and by the field.
+// Adds the light that clearcoats reflect, from rays and from the field.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/glossy_records.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What coats' rays met: their light of the sky and of what emits, and what the field is asked for.
+// Shades specular rays that hit the sky or an emitter, and writes the field queries of the other
+// hits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/glossy_records.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Adds the light that the hits of coats' rays reflect, and lets ways go on.
+// Adds the light that the hits of specular rays reflect, and appends the paths that go on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/shaders/append_way.glsl"

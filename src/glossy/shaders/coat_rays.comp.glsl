@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the rays that pixels' coats send out.
+// Draws a direction from the specular lobe of each pixel that traces a ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/shaders/append_way.glsl"

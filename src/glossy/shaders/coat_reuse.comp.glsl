@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of pixels' coats from the rays around them.
+// Computes each pixel's specular light from the rays around it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/glossy_records.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps the branches that are reflected where ways fork, to be followed later.
+// Where a path splits at glass, queues the reflected branch, which is traced after the other paths
+// end.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/shaders/append_way.glsl"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Makes the clearcoats of surfaces their coats, with nothing under them.
+// Replaces each surface's reflectance by that of its clearcoat alone, so that the specular passes
+// can run again for clearcoats.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/glossy_records.h"

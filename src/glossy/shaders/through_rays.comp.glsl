@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws the rays that pixels send through their surfaces.
+// Draws a ray through the surface of each pixel whose surface transmits light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "glossy/shaders/append_way.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the library is built without the CPU backend: a world needs a device.
+// Without the CPU backend there is no Embree: a world needs a device.
 #include <stdexcept>
 
 #include "raytracing/raytracer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of Embree that differs between versions 3 and 4.
+// Wrappers of the functions that differ between versions 3 and 4 of Embree.
 #pragma once
 
 #if LAMBENT_EMBREE_MAJOR >= 4
@@ -24,7 +24,7 @@ inline void start(Context& context) {
 #endif
 }
 
-/// Filters are handed the context, which has been started.
+/// Filters receive the context, which must have been started.
 inline void intersect(RTCScene scene, Context& context, RTCRayHit& ray_hit) {
 #if LAMBENT_EMBREE_MAJOR >= 4
   RTCIntersectArguments arguments;

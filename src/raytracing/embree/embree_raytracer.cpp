@@ -26,9 +26,10 @@ bool count_bytes(void* total, ssize_t bytes, bool /*post*/) {
   return true;
 }
 
-/// Everything in one hierarchy while nothing moves, which is fastest to traverse. Once something
-/// does, two levels: what stands still in a hierarchy of its own, and each moving instance beside
-/// it; then moving costs no more than sorting these anew.
+/// All geometry is in one hierarchy while nothing moves, which is fastest to traverse. Once
+/// something moves, there are two levels: static geometry in a hierarchy of its own, and each
+/// moving instance beside it. Moving an instance then costs no more than rebuilding the upper
+/// level.
 class EmbreeRayTracer final : public RayTracer {
  public:
   explicit EmbreeRayTracer(const Scene& scene);
@@ -41,13 +42,13 @@ class EmbreeRayTracer final : public RayTracer {
   void update(const GeometryEdits& edits) override;
 
  private:
-  /// An instance of the scene as Embree has it.
+  /// An instance of the scene in Embree.
   struct Placement {
     Geometry geometry;
     std::uint32_t mask = kRayMeetsAll;
-    bool moves = false;     // on its own in the upper level
+    bool moves = false;     // an instance of its own in the upper level
     bool baked = false;     // its vertices are in world space
-    bool mirrored = false;  // its transform turns faces inside out
+    bool mirrored = false;  // its transform flips faces
     bool used = false;
   };
   /// The hierarchy of one mesh, for instances that are not baked.
@@ -78,7 +79,7 @@ class EmbreeRayTracer final : public RayTracer {
   std::vector<Placement> placements_;   // by slot
   std::vector<std::uint32_t> slot_of_;  // by instance
   std::vector<std::uint32_t> free_slots_;
-  SceneHandle still_;  // what stands still, where something else moves
+  SceneHandle still_;  // static geometry, where something else moves
   SceneHandle world_;
   bool two_levels_ = false;
   bool has_glass_ = false;
@@ -109,7 +110,7 @@ void EmbreeRayTracer::fail_to_build() {
 void EmbreeRayTracer::check_masks() const {
   if (rtcGetDeviceProperty(device_.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) != 0) return;
   for (const Placement& placement : placements_) {
-    // Where rays of motion meet what is see-through, its motion is unknown: nobody needs to be told
+    // Without masks, rays of motion hit blended surfaces, whose motion is then unknown: no error
     if (placement.used && (placement.mask | kRayOfMotion) != kRayMeetsAll) {
       throw std::runtime_error(
           "this Embree was built without ray masks, which instances that cast no GI or that probes "
@@ -130,16 +131,16 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   *ms = watch.lap();
 }
 
-/// Gives slots to the scene's instances: their old ones to those that stay, free ones to new ones.
-/// Those that vanished are dropped from the upper level. Returns whether all that is left of the
-/// work is there, too: false where what stands still loses something.
+/// Assigns slots to the scene's instances: their old ones to those that remain, free ones to new
+/// ones. Removed instances are detached from the upper level. Returns whether updating the upper
+/// level completes the change: false where static geometry is removed.
 bool EmbreeRayTracer::follow_list(const GeometryEdits& edits) {
   const std::vector<std::uint32_t> old_slots = std::move(slot_of_);
   std::vector<std::uint8_t> stays(placements_.size(), 0);
   slot_of_.clear();
   for (const std::int32_t before : edits.previous) {
     if (before == GeometryEdits::kNew) {
-      slot_of_.push_back(0);  // given below
+      slot_of_.push_back(0);  // assigned below
       continue;
     }
     slot_of_.push_back(old_slots[before]);
@@ -163,7 +164,7 @@ bool EmbreeRayTracer::follow_list(const GeometryEdits& edits) {
       slot_of_[i] = free_slots_.back();
       free_slots_.pop_back();
       placements_[slot_of_[i]].used = true;
-      // What came while others stood may well go again
+      // An instance that was added later is likely to be removed or moved again
       placements_[slot_of_[i]].moves = true;
     }
   }
@@ -188,7 +189,7 @@ void EmbreeRayTracer::make_mesh_scene(std::size_t mesh) {
   rtcCommitScene(made.scene.get());
 }
 
-/// Sets up a slot's geometry and attaches it.
+/// Creates a slot's geometry and attaches it.
 void EmbreeRayTracer::place(std::uint32_t slot, RTCScene into) {
   Placement& placement = placements_[slot];
   const Instance& instance = instance_at(slot);
@@ -208,15 +209,15 @@ void EmbreeRayTracer::place(std::uint32_t slot, RTCScene into) {
   rtcAttachGeometryByID(into, placement.geometry.get(), embree::id_of_slot(slot));
 }
 
-/// Builds all levels, keeping the hierarchies of meshes.
+/// Builds all levels, reusing the hierarchies of meshes.
 void EmbreeRayTracer::build() {
   const Scene& scene = *slots_.scene;
   meshes_.resize(scene.meshes.size());
   std::vector<int> uses(scene.meshes.size(), 0);
   for (const Instance& instance : scene.instances) ++uses[instance.mesh];
 
-  // Meshes placed once, for good, go into the hierarchy of what stands still; the others are built
-  // once and instanced
+  // Meshes of one static instance go into the static hierarchy; the others are built once and
+  // instanced
   two_levels_ = false;
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     Placement& placement = placements_[slot_of_[i]];
@@ -226,7 +227,8 @@ void EmbreeRayTracer::build() {
     two_levels_ = two_levels_ || placement.moves;
   }
 
-  // Robust: neighbouring triangles leave no crack, so that closed rooms stay dark.
+  // Robust traversal leaves no cracks between neighbouring triangles, so that closed rooms stay
+  // dark.
   world_.reset(rtcNewScene(device_.get()));
   rtcSetSceneFlags(world_.get(), RTC_SCENE_FLAG_ROBUST);
   still_.reset(two_levels_ ? rtcNewScene(device_.get()) : nullptr);
@@ -251,7 +253,7 @@ void EmbreeRayTracer::update(const GeometryEdits& edits) {
   bool in_place = follow_list(edits) && two_levels_;
   meshes_.resize(slots_.scene->meshes.size());
 
-  // Find what is touched. Once moved, always movable: a second time costs no rebuild
+  // Find what changed. What has moved once stays movable, so that a second move needs no rebuild
   std::vector<std::uint8_t> bent(meshes_.size(), 0);
   for (const std::uint32_t mesh : edits.deformed) {
     bent[mesh] = 1;
@@ -275,14 +277,14 @@ void EmbreeRayTracer::update(const GeometryEdits& edits) {
   if (in_place) {
     refit(edits, bent);
   } else {
-    // Hierarchies of meshes are kept, but for those of vertices that are gone
+    // Reuse the hierarchies of meshes, except those whose vertices changed
     for (const std::uint32_t mesh : edits.deformed) meshes_[mesh].scene.reset();
     build();
   }
   finish(&statistics_.refit_ms, watch);
 }
 
-/// Brings the meshes that were bent and the upper level up to date.
+/// Updates the meshes that were deformed, and the upper level.
 void EmbreeRayTracer::refit(const GeometryEdits& edits, const std::vector<std::uint8_t>& bent) {
   for (const std::uint32_t mesh : edits.deformed) {
     MeshScene& deforming = meshes_[mesh];
@@ -336,8 +338,8 @@ Hit EmbreeRayTracer::hit_of(const Ray& ray, const RTCRayHit& found) const {
   hit.triangle = found.hit.primID;
   hit.barycentrics = {found.hit.u, found.hit.v};
 
-  // Embree's normal is of object space for instances. Cofactors take it to the world, but for the
-  // sign of mirrored placements; baked vertices of these run the other way round
+  // Embree's normal is in object space for instances. Cofactors transform it to the world, except
+  // for the sign in mirrored placements, whose baked vertices have the opposite winding
   glm::vec3 normal(found.hit.Ng_x, found.hit.Ng_y, found.hit.Ng_z);
   if (!baked) {
     normal = cofactors(slots_.scene->instances[hit.instance].world_from_object) * normal;
@@ -366,7 +368,7 @@ void EmbreeRayTracer::occlusions(std::span<const Ray> rays,
     RTCRay query = to_embree(rays[i]);
     embree::Query asked(embree::Query::Kind::occlusion, rays[i]);
     embree::occluded(world_.get(), asked, query);
-    // Embree marks an occluded ray by a far end of minus infinity.
+    // Embree marks an occluded ray by setting its far end to minus infinity.
     occluded[i] = query.tfar < 0.0f ? 1 : 0;
   }
 }

@@ -11,8 +11,8 @@
 namespace lambent::embree {
 namespace {
 
-/// Whether a ray ends at a triangle that lets light through. Where it is asked what passes, the
-/// share is taken note of.
+/// Whether a ray ends at a transmissive triangle. For queries of transmittance, multiplies the
+/// query's share.
 bool stops_at_glass(const Scene& scene, const SeenTriangle& seen, float distance, Query& query) {
   const vec3& direction_ws = query.ray.direction;
   const bool crosses = crosses_glass(query.ray.mask);
@@ -23,7 +23,7 @@ bool stops_at_glass(const Scene& scene, const SeenTriangle& seen, float distance
   if (share == vec3(0.0f)) return true;
   if (query.kind == Query::Kind::occlusion) return false;
   query.through *= crosses ? share / passing_probability(share) : share;
-  // A volume is entered and left: the difference of the distances is the way through it
+  // A volume is entered and left: the difference of the distances is the path through it
   const Material& material =
       scene.materials[scene.meshes[scene.instances[seen.instance].mesh].material];
   if (material.bounds_volume) {
@@ -32,7 +32,7 @@ bool stops_at_glass(const Scene& scene, const SeenTriangle& seen, float distance
   return false;
 }
 
-/// Embree asks of each candidate hit on a triangle that may be see-through: does it count?
+/// Embree's filter function: rejects candidate hits that are transparent or transmit the ray.
 void filter_see_through(const RTCFilterFunctionNArguments* args) {
   const auto& slots = *static_cast<const Slots*>(args->geometryUserPtr);
   const Scene& scene = *slots.scene;

@@ -24,7 +24,7 @@ Positions copy_of(const Mesh& mesh) {
   return std::make_shared<const std::vector<glm::vec3>>(mesh.positions);
 }
 
-/// By mesh: 1 where an animation bends it.
+/// By mesh: 1 where an animation deforms it.
 std::vector<std::uint8_t> animated_meshes(const Scene& scene) {
   std::vector<std::uint8_t> animated(scene.meshes.size(), 0);
   if (scene.animations.empty()) return animated;
@@ -32,7 +32,7 @@ std::vector<std::uint8_t> animated_meshes(const Scene& scene) {
   return animated;
 }
 
-/// What a mesh was like; none where its vertices are not known, or were others.
+/// A mesh's positions in an earlier pose; none where they are unknown, or their number differed.
 std::optional<Positions> positions_before(const ScenePose& before, const ScenePose& now,
                                           std::size_t index) {
   if (index >= before.shapes.size()) return std::nullopt;
@@ -79,7 +79,7 @@ std::shared_ptr<const ScenePose> next_pose(const Scene& scene, const GeometryEdi
     if (was != nullptr && same_data(*was, shape)) {
       shape.positions = was->positions;
     } else if (was != nullptr || animated[i] != 0) {
-      // What was bent once is likely to be bent again
+      // A mesh that was deformed once is likely to be deformed again
       shape.positions = copy_of(mesh);
     }
     pose->shapes.push_back(std::move(shape));
@@ -93,7 +93,7 @@ std::vector<InstanceBefore> instances_before(const ScenePose& before, const Scen
   for (std::size_t i = 0; i < now.shapes.size(); ++i) {
     of_mesh[i] = positions_before(before, now, i);
   }
-  std::unordered_map<std::uint64_t, std::size_t> places;  // in `before`, where any differ
+  std::unordered_map<std::uint64_t, std::size_t> places;  // indices in `before`, if any differ
   std::vector<InstanceBefore> result(now.placements.size());
   for (std::size_t i = 0; i < result.size(); ++i) {
     const std::uint64_t identity = now.placements[i].identity;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a scene's surfaces are at one revision of a world: what it takes to find a point of them
-// again in another.
+// Poses: where a scene's surfaces are at one revision of a world. With two poses, a point of a
+// surface can be found again at another revision.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace lambent {
 
 struct GeometryEdits;
 
-/// Poses share what does not differ between them. Whoever keeps one can tell where all points were,
-/// however many updates have passed.
+/// Poses share what does not differ between them. With a pose, the positions of all points at its
+/// revision can be recovered, however many updates have passed.
 struct ScenePose {
   struct Placement {
     std::uint64_t identity;  ///< The same for the same instance in all poses of a world.
@@ -25,31 +25,31 @@ struct ScenePose {
   struct Shape {
     std::uint32_t revision;  ///< Mesh::revision.
     std::size_t vertices, triangles;
-    /// Object space [m]. Kept of meshes that the scene's animations bend and of those that were
-    /// bent before; null: not kept.
+    /// Object space [m]. Stored for meshes that the scene's animations deform and for those that
+    /// were deformed before; null: not stored.
     std::shared_ptr<const std::vector<glm::vec3>> positions;
   };
-  std::vector<Placement> placements;  ///< One an instance.
-  std::vector<Shape> shapes;          ///< One a mesh.
-  std::uint64_t identities = 0;       ///< That were given so far.
+  std::vector<Placement> placements;  ///< One for each instance.
+  std::vector<Shape> shapes;          ///< One for each mesh.
+  std::uint64_t identities = 0;       ///< Number of identities assigned so far.
 };
 
-/// The scene as a world is built over it.
+/// The pose of a scene for which a world is being built.
 std::shared_ptr<const ScenePose> first_pose(const Scene& scene);
 
-/// The scene as it is, `edits` after `before`.
+/// The pose of a scene after `edits` to the pose `before`.
 std::shared_ptr<const ScenePose> next_pose(const Scene& scene, const GeometryEdits& edits,
                                            const ScenePose& before);
 
-/// What an instance was like in an earlier pose.
+/// The state of an instance in an earlier pose.
 struct InstanceBefore {
   glm::mat4 world_from_object{1.0f};
-  /// Of its mesh, object space [m]; null: as they are.
+  /// Its mesh's positions, object space [m]; null: they are the present ones.
   std::shared_ptr<const std::vector<glm::vec3>> positions;
-  bool known = false;  ///< It was there, and so were its mesh's vertices.
+  bool known = false;  ///< The instance existed, and its vertices' positions are known.
 };
 
-/// What each instance of the pose `now` was like in `before`, a pose of the same world.
+/// The state in `before` of each instance of `now`; both are poses of the same world.
 std::vector<InstanceBefore> instances_before(const ScenePose& before, const ScenePose& now,
                                              const Scene& scene);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets rays through what is see-through, as the host does. Opaque triangles never ask.
+// Tests alpha and transmission as the host does. Not called for opaque triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require

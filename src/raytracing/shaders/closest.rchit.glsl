@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tells where a ray met the scene. Facing is of object space, as on the host: mirroring a mesh does
-// not turn its faces round.
+// Writes a ray's hit. The facing is that in object space, as on the host: mirroring a mesh does not
+// flip its faces.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require

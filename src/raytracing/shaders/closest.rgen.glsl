@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest hit of each ray.
+// Finds the nearest hit of each ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/shaders/find_closest.glsl"

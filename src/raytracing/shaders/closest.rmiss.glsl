@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nothing was hit: the record says so from the start.
+// Does nothing: the record is initialised to a miss.
 #version 460
 #extension GL_EXT_ray_tracing : require
 

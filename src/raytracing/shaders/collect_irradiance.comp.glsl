@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Direct irradiance at points: what arrives, in the order of the slots.
+// Sums up the direct irradiance that arrives at points, in the order of the slots.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/vulkan/shading_records.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Direct light that points reflect: what arrives, in the order of the slots.
+// Sums up the direct light that arrives and that points reflect, in the order of the slots.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/vulkan/shading_records.h"

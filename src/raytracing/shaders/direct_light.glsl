@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Access to lights and emissive triangles in a device's memory, as direct_light.inl.h requires it.
-// Whoever includes it names ReceiverRef first, and defines target_of afterwards.
+// The includer defines ReceiverRef first, and target_of and lobe_of afterwards.
 #ifndef LAMBENT_RAYTRACING_SHADERS_DIRECT_LIGHT_GLSL
 #define LAMBENT_RAYTRACING_SHADERS_DIRECT_LIGHT_GLSL
 
@@ -75,7 +75,7 @@ RayRecord no_ray() {
   return RayRecord(vec3(0.0f), 0.0f, vec3(0.0f, 0.0f, 1.0f), 0.0f, 0u);
 }
 
-/// The ray that asks whether a candidate reaches a point.
+/// The shadow ray to a candidate.
 RayRecord shadow_ray(LitPointRecord point, LightCandidate light) {
   return shadow_ray_record(point.position_ws, point.geometric_normal_ws, light);
 }

@@ -8,8 +8,8 @@
 
 layout(location = 0) rayPayloadEXT HitRecord hit;
 
-/// A mask of 0: the ray is not traced, and has missed. On its way, until there is a hit, front_face
-/// holds the ray's mask.
+/// The ray is not traced, and misses, where the mask is 0. During traversal, until there is a hit,
+/// front_face holds the ray's mask.
 HitRecord find_closest(uvec2 structure, RayRecord ray, uint flags, uint mask) {
   hit = HitRecord(uintBitsToFloat(kMissedDistanceBits), 0u, 0u, vec2(0.0f),
                   ray.mask);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays met: points that ask for direct light, and all else that the rays bring back.
+// Shades the hits of rays, without direct light, and writes the points that receive direct light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/shaders/sky.glsl"
@@ -12,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
   HitSurfacesArguments args;
 };
 
-/// Whether the side that a ray met bounds solid matter. The twin of SolidSides::is_solid().
+/// Whether the side that a ray hit bounds solid matter. The twin of SolidSides::is_solid().
 bool is_solid_side(HitRecord hit) {
   uint word = args.solid_first_words.at[hit.instance] + solid_sides_word(hit.triangle);
   return bounds_solid(args.solid_words.at[word], hit.triangle, hit.front_face) != 0u;
@@ -35,7 +35,7 @@ void main() {
     return;
   }
 
-  // Record the surface
+  // Write the surface
   Footprint footprint = {args.cone_width * hit.distance, 0u};
   Surface surface = surface_at(args.scene, ray.direction_ws, hit, footprint);
   point.position_ws = surface.position_ws;
@@ -47,7 +47,7 @@ void main() {
       shaded_surface(surface, ray.direction_ws, args.max_albedo, from_inside ? 1u : 0u);
 
   if (args.has_glass != 0u) {
-    // Rays that a pane stopped stand for those that it let pass, too
+    // Rays that a pane stopped also stand for those that it let pass
     float weight = 1.0f;
     if (lets_light_through(surface.transmission) && crosses_glass(ray.mask)) {
       weight = weight_of_stopped(straight_share_at(args.scene, hit.instance, hit.triangle,
@@ -57,7 +57,7 @@ void main() {
     shaded = seen_through_glass(shaded, args.through.at[i], weight, args.max_albedo);
   }
 
-  // Ask for the light that may reach it
+  // Mark points that reflect direct light
   if (shaded.albedo_over_pi != vec3(0.0f)) {
     point.random_index = args.first_indices.at[i / args.rays_per_index] + i % args.rays_per_index;
   }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates of direct light as irradiance: shadow rays, and what arrives where they do.
+// Draws candidates of direct light as irradiance: their shadow rays, and their unoccluded light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/vulkan/shading_records.h"
 
-/// What light is drawn for.
+/// What light is drawn for: irradiance at a point.
 struct IrradianceReceiver {
   LitPointRecord point;
 };

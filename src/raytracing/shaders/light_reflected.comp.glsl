@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Candidates of direct light as surfaces reflect it to the viewer: shadow rays, and what they are
-// worth.
+// Draws candidates of direct light as surfaces reflect it to the viewer: their shadow rays, and
+// their unoccluded light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/coat_share.h"
@@ -9,13 +9,13 @@
 #include "shared/phase.h"
 #include "shared/sampling.h"
 
-/// What light is drawn for.
+/// What light is drawn for: reflection at a point.
 struct ReflectingReceiver {
   LitPointRecord point;
   Reflectance reflectance;
   Frame frame;
-  vec3 to_viewer;  ///< In the frame.
-  vec2 coat_shares;  ///< Of the coat and the clearcoat, as in sampled_reflection, as are:
+  vec3 to_viewer;  ///< Unit, in the frame.
+  vec2 coat_shares;  ///< Shares of coat and clearcoat; see sampled_reflection().
   uint samples;
 };
 #define ReceiverRef ReflectingReceiver

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets rays through what is see-through, as the host does: what lets light through hides nothing.
-// Opaque triangles never ask.
+// Tests alpha and transmission as the host does: transmissive surfaces occlude nothing. Not called
+// for opaque triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require

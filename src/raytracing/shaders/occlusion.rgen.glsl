@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether each ray meets anything.
+// Finds whether each ray is occluded.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
@@ -17,7 +17,7 @@ void main() {
   occluded = 0u;
   uint mask = device_mask(ray.mask);
   if (mask != 0u && ray.t_min <= ray.t_max) {
-    // Until a ray is known to have missed, it has met something: no shader runs at hits
+    // A ray counts as occluded unless the miss shader runs, as no shader runs at hits
     occluded = 1u;
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;
     traceRayEXT(accelerationStructureEXT(args.structure), flags, mask, 0, 0, 0, ray.origin_ws,

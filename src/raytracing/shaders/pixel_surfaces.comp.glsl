@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rays met whose surfaces are looked at.
+// Finds the surfaces at the hits of rays that pixels show.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/coat_share.h"

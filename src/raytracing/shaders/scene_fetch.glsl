@@ -11,7 +11,7 @@
 #include "scene/coverage.h"
 #include "scene/texture_lookup.h"
 
-// One sampler a pair of wraps: wrap of u + 3 * wrap of v. All are bilinear.
+// One sampler for each pair of wraps: wrap of u + 3 * wrap of v. All are bilinear.
 const uint kWraps = 3u;
 layout(set = 0, binding = 0) uniform texture2D scene_textures[];
 layout(set = 0, binding = 1) uniform sampler scene_samplers[kWraps * kWraps];
@@ -60,7 +60,7 @@ MeshRecord fetch_mesh(SceneArray scene, uint mesh) {
 MaterialRecord fetch_material(SceneArray scene, uint material) {
   return scene.at[0].materials.at[material];
 }
-/// Of a placed mesh.
+/// The material of an instance.
 MaterialRecord material_of(SceneArray scene, uint instance) {
   return fetch_material(scene, fetch_mesh(scene, fetch_instance(scene, instance).mesh).material);
 }
@@ -94,7 +94,7 @@ bool has_layers(MaterialRecord material) {
 bool may_emit(MaterialRecord material) {
   return (material.flags & kMaterialMayEmit) != 0u;
 }
-/// Blended by the device's filter, whose weights are coarse.
+/// Filtered by the device, whose weights are coarse.
 vec4 sample_texture(SceneArray scene, TextureViewRecord view, vec2 uv, float level) {
   if (is_nearest(view)) return nearest_texel(scene, view, uv, int(level + 0.5f));
   uint wraps = wrap_u(view) + kWraps * wrap_v(view);

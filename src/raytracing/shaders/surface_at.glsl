@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a hit to what shading needs to know about the surface there, on a device.
+// Access to what surface.inl.h requires, on a device: the surface at a hit.
 #ifndef LAMBENT_RAYTRACING_SHADERS_SURFACE_AT_GLSL
 #define LAMBENT_RAYTRACING_SHADERS_SURFACE_AT_GLSL
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes note of the share of light that passes what a ray meets, as the host does. Opaque triangles
-// never ask.
+// Multiplies a ray's light by the share that passes a surface, as the host does. Not called for
+// opaque triangles.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
@@ -26,7 +26,7 @@ void main() {
                                  gl_WorldRayDirectionEXT);
   if (share == vec3(0.0f)) return;
   light.through *= light.crosses != 0u ? share / passing_probability(share) : share;
-  // A volume is entered and left: the difference of the distances is the way through it
+  // A volume is entered and left: the difference of the distances is the path through it
   if (bounds_volume(material)) {
     light.optical_depth += material.absorption * (from_front ? -gl_HitTEXT : gl_HitTEXT);
   }

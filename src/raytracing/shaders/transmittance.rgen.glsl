@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The share of light along each ray that passes what it meets.
+// Finds the share of light along each ray that passes the surfaces on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_ray_tracing : require
@@ -19,7 +19,7 @@ void main() {
   light = LightOnItsWay(vec3(1.0f), vec3(0.0f), crosses_glass(ray.mask) ? 1u : 0u, 0u);
   uint mask = device_mask(ray.mask);
   if (mask != 0u && ray.t_min <= ray.t_max) {
-    // Until a ray is known to have missed, it has met something: no shader runs at hits
+    // A ray counts as stopped unless the miss shader runs, as no shader runs at hits
     light.stopped = 1u;
     uint flags = gl_RayFlagsTerminateOnFirstHitEXT | gl_RayFlagsSkipClosestHitShaderEXT;
     traceRayEXT(accelerationStructureEXT(args.structure), flags, mask, 0, 0, 0, ray.origin_ws,

@@ -115,7 +115,7 @@ void DeviceScene::update_materials(const Scene& scene) {
 }
 
 void DeviceScene::update_meshes(const Scene& scene) {
-  // Find what differs: into the place it had, or into a buffer for all that need a new one
+  // Overwrite changed meshes whose size is the same, and collect the others for one new buffer
   mesh_data_.resize(scene.meshes.size());
   mesh_records_.resize(scene.meshes.size());
   std::vector<std::size_t> placed;
@@ -150,7 +150,7 @@ void DeviceScene::update_meshes(const Scene& scene) {
     placed.push_back(i);
   }
 
-  // Upload the new ones together: devices allow few allocations
+  // Upload the new ones together, as devices allow few allocations
   if (!placed.empty()) {
     std::vector<std::byte> content(fresh_bytes);
     for (const std::size_t i : placed) {

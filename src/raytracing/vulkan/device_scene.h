@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene in a device's memory, as kernels see it.
+// A scene in a device's memory, as kernels read it.
 #pragma once
 
 #include <cstddef>
@@ -21,14 +21,14 @@ namespace lambent {
 class EmissiveTriangles;
 class LightTree;
 
-/// An array of records on a device, of which only what differs is written again.
+/// An array of records on a device. Only records that differ are written again.
 template <class Record>
 class DeviceTable {
  public:
   std::uint64_t address() const { return buffer_.address(); }
   std::size_t bytes() const { return buffer_.bytes(); }
 
-  /// Makes the array hold these. The device must not be reading it.
+  /// Replaces the contents. The device must not be reading them.
   void set(const vulkan::Device& device, std::vector<Record> records, const std::string& name) {
     const std::size_t bytes = records.size() * sizeof(Record);
     if (buffer_.handle() == VK_NULL_HANDLE || bytes > buffer_.bytes()) {
@@ -47,42 +47,42 @@ class DeviceTable {
   }
 
  private:
-  std::vector<Record> records_;  // as the device has them
+  std::vector<Record> records_;  // copy of the device's contents
   vulkan::Buffer buffer_;
 };
 
 class DeviceScene {
  public:
-  /// Brings a scene and its lights to the device, which must outlive it. Throws std::runtime_error
+  /// Uploads a scene and its lights to the device, which must outlive it. Throws std::runtime_error
   /// where memory runs out or the device takes no more textures.
   DeviceScene(const vulkan::Device& device, const Scene& scene, const EmissiveTriangles& emissive,
               const LightTree& lights);
 
-  /// Follows edits: records are compared; of meshes, textures and the environment's map the
-  /// `revision` is, and their size. Not to be called while the device works with the scene. Command
-  /// buffers recorded before are void. Throws as the constructor does.
+  /// Updates to edits: records are compared; for meshes, textures and the environment's map, their
+  /// `revision` and size are. Not to be called while the device works with the scene. Command
+  /// buffers recorded before become invalid. Throws as the constructor does.
   void update(const Scene& scene, const EmissiveTriangles& emissive, const LightTree& lights);
 
-  /// What kernels take. The same after an update.
+  /// The scene's address for kernels. It does not change in updates.
   SceneArray address() const { return {record_.address()}; }
-  /// What kernels that read textures need bound (Recorder::bind_textures).
+  /// The textures that kernels which read them need bound (Recorder::bind_textures).
   VkDescriptorSet textures() const { return texture_set_.handle(); }
-  /// Where a mesh's attributes lie; positions and triangles can be built upon
-  /// (VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR).
+  /// The addresses of a mesh's attributes. Acceleration structures can be built from positions and
+  /// triangles (VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_BUILD_INPUT_READ_ONLY_BIT_KHR).
   const MeshRecord& mesh(std::size_t index) const { return mesh_records_[index]; }
 
-  /// Lights that each point asks.
+  /// Number of lights that every point samples.
   std::uint32_t asked_lights() const { return asked_lights_; }
-  /// Nodes of the tree of all others, from which points draw.
+  /// Number of nodes of the light tree, which holds all others.
   std::uint32_t light_tree_size() const { return tree_size_; }
   bool has_light_tree() const { return tree_size_ > 0; }
   bool has_emitters() const { return emitter_count_ > 0; }
   const vulkan::Device& device() const { return device_; }
-  /// Memory held on the device.
+  /// Memory held on the device [bytes].
   std::size_t bytes() const;
 
  private:
-  /// A mesh as it was when it was uploaded. Meshes that came together share a buffer.
+  /// The state of a mesh at its upload. Meshes that were uploaded together share a buffer.
   struct MeshData {
     std::uint32_t revision;
     std::size_t vertices, triangles;
@@ -96,7 +96,7 @@ class DeviceScene {
   };
   struct SkyData {
     std::uint32_t revision = 0;
-    const float* pixels = nullptr;  // never read: another map is at another address
+    const float* pixels = nullptr;  // compared, never dereferenced: another map, another address
     int width = 0, height = 0;
     bool operator==(const SkyData&) const = default;
   };

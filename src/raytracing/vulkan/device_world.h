@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A world as passes on a device find it.
+// A world in a device's memory.
 #pragma once
 
 #include <memory>
@@ -17,13 +17,13 @@ class LightTree;
 
 class DeviceWorld {
  public:
-  /// Brings a scene, which must outlive it, and its lights to the device. Throws
+  /// Uploads a scene, which must outlive it, and its lights to the device. Throws
   /// std::runtime_error where the device's memory runs out.
   DeviceWorld(const Scene& scene, const EmissiveTriangles& emissive, const LightTree& lights,
               std::shared_ptr<vulkan::Device> device);
 
-  /// Follows edits of the scene and of its lights. Not to be called while the device works on the
-  /// world; command buffers recorded before are void.
+  /// Updates to edits of the scene and of its lights. Not to be called while the device works on
+  /// the world; command buffers recorded before become invalid.
   void update(const SceneEdits& edits, const EmissiveTriangles& emissive, const LightTree& lights);
 
   const vulkan::Device& device() const { return *device_; }

@@ -15,9 +15,9 @@
 namespace lambent {
 namespace {
 
-// Slots that are in memory at once: 2^21 of rays, stakes and answers take up to 134 MB.
+// Most slots in memory at once: the rays and results of 2^21 take up to 134 MB.
 constexpr std::uint32_t kMaxSlots = 1u << 21;
-// Invocations of one dispatch: the groups that every device takes, of 64 invocations.
+// Most invocations of a dispatch: the number of groups that every device supports, of 64 each.
 constexpr std::uint32_t kMaxInvocations = 65535u * 64u;
 
 }  // namespace
@@ -55,7 +55,7 @@ void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
 
 void HitShading::grow(std::size_t bytes, const char* name, vulkan::Buffer& buffer) {
   if (buffer.handle() != VK_NULL_HANDLE && buffer.bytes() >= bytes) return;
-  // Twice as large at least: all that is outgrown is then no larger than what is in use
+  // At least double the size: all outgrown buffers together are then no larger than the present one
   const std::size_t room = std::max(bytes, 2 * buffer.bytes());
   vulkan::Buffer larger(device_, room, vulkan::Memory::device, name);
   if (buffer.handle() != VK_NULL_HANDLE) outgrown_.push_back(std::move(buffer));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hits become surfaces and are lit directly, on a device: shade_hits.h and the direct light of
-// frames, as passes that are recorded.
+// Shading of hits on a device: shade_hits.h and the direct light of frames, as recorded passes.
 #pragma once
 
 #include <cstddef>
@@ -29,100 +28,100 @@ struct DeviceMedia {
   std::uint32_t count = 0;
 };
 
-/// What passes read: the scene, and what traces rays through it.
+/// Inputs of passes: the scene, and the tracer of rays through it.
 struct DeviceStage {
   const DeviceScene& scene;
   const DeviceTracer& tracer;
-  DeviceSolidSides solid_sides = {};  ///< Where none are given, all rays count.
-  DeviceMedia media = {};             ///< Fog that dims light on its way to pixels.
+  DeviceSolidSides solid_sides = {};  ///< Addresses 0: all rays count.
+  DeviceMedia media = {};             ///< Fog that attenuates direct light at pixels.
 };
 
-/// Rays that were traced.
+/// Rays and their hits.
 struct DeviceHits {
   RayArray rays;
   HitArray hits;
   std::uint32_t count = 0;
 };
 
-/// Rays of a camera and of what it sees, and how wide they are.
+/// Rays whose surfaces pixels show, directly or in reflections, with their cones and hits.
 struct DeviceSeenHits {
   RayArray rays;
   HitArray hits;
   RayConeArray cones;
   std::uint32_t count = 0;
-  float unlit_radiance = 1.0f;  ///< As of FrameSettings, to rays of the camera.
+  float unlit_radiance = 1.0f;  ///< See FrameSettings; for rays of the camera.
 };
 
-/// What shading makes of hits; arrays of as many entries.
+/// Outputs of the shading of hits; arrays with one entry a hit.
 struct DeviceShadedHits {
   LitPointArray points;
   ShadedHitArray shaded;
   Vec3Array irradiance;  ///< From lights and emissive surfaces [W/m^2].
 };
 
-/// What a camera's hits become; arrays of as many entries.
+/// Outputs for rays of a camera; arrays with one entry a ray.
 struct DevicePixels {
   LitPointArray points;
   PixelSurfaceArray surfaces;
 };
 
-/// Direct light as pixels reflect it to the viewer [W/(m^2 sr)].
+/// Direct light that pixels reflect to the viewer [W/(m^2 sr)].
 struct DeviceReflectedLight {
   Vec3Array diffuse;
   Vec3Array specular;
-  /// The diffuse light that is drawn at random, sums of squares of luminance of its draws without
-  /// albedo, and the specular light. Addresses of 0: it is part of `diffuse` and `specular`.
+  /// The diffuse light that is sampled at random, the sums of squared luminances of its samples
+  /// over albedo, and the specular light. Addresses 0: it is part of `diffuse` and `specular`.
   Vec3Array drawn = {};
   FloatArray drawn_squares = {};
   Vec3Array drawn_specular = {};
 };
 
-/// Kept by the device (Device::kept).
+/// The kernels, owned by the device (Device::kept).
 struct HitShadingKernels {
   explicit HitShadingKernels(const vulkan::Device& device);
   vulkan::Kernel hit_surfaces, pixel_surfaces;
   vulkan::Kernel light_irradiance, light_reflected, collect_irradiance, collect_reflected;
 };
 
-/// Kernels of shading, and memory that passes use one after the other. The memory grows while
-/// passes are recorded; what was recorded before stays good.
+/// Kernels of shading, and memory that passes use in turn. The memory may grow while passes are
+/// recorded; what was recorded before remains valid.
 class HitShading {
  public:
   explicit HitShading(const vulkan::Device& device);
 
-  /// As shade_hits, for runs of `rays_per_index` rays of which the first has the index in
-  /// `first_indices` among all rays. What it reads must be visible; what it writes is, afterwards.
-  /// Binds the scene's textures.
+  /// Records shade_hits. The rays come in runs of `rays_per_index`, and `first_indices` holds the
+  /// index of each run's first ray among all rays. Its inputs must be visible; its results are,
+  /// afterwards. Binds the scene's textures.
   void shade_hits(vulkan::Recorder& recorder, const DeviceStage& stage, const DeviceHits& hits,
                   UintArray first_indices, std::uint32_t rays_per_index,
                   const ShadeHitsSettings& settings, const DeviceShadedHits& out);
 
-  /// As direct_irradiance: direct light alone, at points that are known.
+  /// Records direct_irradiance: direct light alone, at given points.
   void direct_irradiance(vulkan::Recorder& recorder, const DeviceStage& stage, LitPointArray points,
                          std::uint32_t count, const ShadeHitsSettings& settings,
                          Vec3Array irradiance);
 
-  /// The surfaces that a camera's rays met; ray 0 is pixel `first_index` of the image.
-  /// `traces_coats`: rays of their own bring coats' light, see coat_share.h.
+  /// Records the lookup of the surfaces that rays hit; ray 0 is pixel `first_index` of the image.
+  /// `traces_coats`: coats' light comes from rays of their own, see coat_share.h.
   void pixel_surfaces(vulkan::Recorder& recorder, const DeviceStage& stage,
                       const DeviceSeenHits& hits, std::uint32_t first_index, bool traces_coats,
                       const DevicePixels& out);
 
-  /// As shade_direct. Of the settings, the emissive samples, whether emitters are alone, the salt
-  /// (the frame's sample) and the seed count.
+  /// Records shade_direct. Of the settings, it reads emissive_samples, emitters_alone, the salt
+  /// (the frame's sample) and the seed.
   void reflected_light(vulkan::Recorder& recorder, const DeviceStage& stage,
                        const DevicePixels& pixels, std::uint32_t count,
                        const ShadeHitsSettings& settings, const DeviceReflectedLight& out);
 
-  /// Copies the number of shadow rays traced since the last time into the buffer (one word), and
-  /// starts counting anew.
+  /// Copies the number of shadow rays traced since the last call into the buffer (one word), and
+  /// resets the count.
   void take_ray_count(vulkan::Recorder& recorder, const vulkan::Buffer& count) const;
 
  private:
-  /// Points that are worked on at once, so that their slots fit into memory of a fixed size.
+  /// Points that are processed at once, so that their slots fit into memory of a fixed size.
   struct Chunk {
     std::uint32_t first, count;
-    std::uint32_t samples, slots;  // of the light tree, and of all, a point
+    std::uint32_t samples, slots;  // for each point: of the light tree, and of all lights
   };
   template <class Work>
   void for_each_chunk(const DeviceScene& scene, std::uint32_t count,
@@ -138,7 +137,7 @@ class HitShading {
   const HitShadingKernels& kernels_;
   vulkan::Buffer shadow_ray_memory_, unoccluded_memory_, occlusion_memory_, through_memory_;
   vulkan::Buffer ray_count_;
-  std::vector<vulkan::Buffer> outgrown_;  // commands may still refer to them
+  std::vector<vulkan::Buffer> outgrown_;  // recorded commands may still refer to them
 };
 
 }  // namespace lambent

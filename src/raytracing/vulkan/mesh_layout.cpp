@@ -7,11 +7,11 @@
 namespace lambent {
 namespace {
 
-// What the widest attribute, four floats, is aligned to.
+// Alignment of the widest attribute, four floats.
 constexpr std::size_t kAlignment = 16;
 
-/// Calls visit(bytes of the attribute, its offset, its address in the record) for each attribute
-/// that is there. Returns the bytes of all.
+/// Calls visit(bytes of the attribute, its offset, its address in the record) for each attribute of
+/// the mesh. Returns the total number of bytes.
 template <class Visit>
 std::size_t for_each_attribute(const Mesh& mesh, MeshRecord& record, Visit visit) {
   std::size_t offset = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a mesh lies in one piece of memory.
+// The layout of a mesh in one block of memory.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace lambent {
 /// Which optional attributes a mesh has: kMeshHasTangents, ...
 std::uint32_t attributes_of(const Mesh& mesh);
 
-/// Bytes that a mesh takes.
+/// Size of a mesh's block [bytes].
 std::size_t bytes_of(const Mesh& mesh);
 
 /// Writes a mesh's attributes, each at a multiple of 16 bytes.

@@ -36,7 +36,7 @@ vulkan::TriangleGeometry SceneAcceleration::geometry(std::size_t mesh) const {
   return geometry;
 }
 
-/// Builds the structures of meshes that are placed and have none.
+/// Builds the missing structures of meshes that have instances.
 void SceneAcceleration::build_missing() {
   shapes_.resize(scene_.meshes.size());
   std::vector<std::uint8_t> missing(shapes_.size(), 0);
@@ -78,7 +78,7 @@ void SceneAcceleration::update(const GeometryEdits& edits) {
   std::vector<vulkan::TriangleBuilder::Deformed> deformed;
   for (const std::uint32_t mesh : edits.deformed) {
     Shape& shape = shapes_[mesh];
-    // The first time it gets a structure that can follow; from then on that is fitted
+    // On the first deformation, rebuild the structure as one that can be refitted
     if (!std::exchange(shape.deforms, true)) shape.structure = {};
     if (shape.structure.address() == 0) continue;
     const float area = half_area(scene_.meshes[mesh]);

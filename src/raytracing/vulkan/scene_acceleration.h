@@ -13,32 +13,32 @@
 
 namespace lambent {
 
-/// Where the vertices and triangles of a mesh of the scene lie in the device's memory. `opaque` and
-/// `deforms` are left as they are.
+/// Returns where a mesh's vertices and triangles are in the device's memory. SceneAcceleration
+/// sets `opaque` and `deforms`.
 using GeometryOfMesh = std::function<vulkan::TriangleGeometry(std::size_t mesh)>;
 
 /// One structure of triangles for each mesh that is placed, and one over all instances, whose
-/// custom indices are those into Scene::instances. Meshes keep to themselves from the start, so
-/// that whatever moves costs no more than sorting the instances anew.
+/// custom indices are those into Scene::instances. Meshes always have structures of their own, so
+/// that a moving instance costs no more than rebuilding the one over instances.
 class SceneAcceleration {
  public:
-  /// The scene and the device must outlive it; `geometry_of` is asked again in each update.
+  /// The scene and the device must outlive it; `geometry_of` is called again in each update.
   SceneAcceleration(const vulkan::Device& device, const Scene& scene, GeometryOfMesh geometry_of);
 
-  /// Follows edits, once the device knows the vertices of meshes that differ. Waits. Throws
-  /// std::runtime_error where memory runs out.
+  /// Updates to edits, once the device has the vertices of meshes that differ. Waits for the
+  /// device. Throws std::runtime_error where memory runs out.
   void update(const GeometryEdits& edits);
 
   VkDeviceAddress address() const { return instances_.address(); }
   std::size_t bytes() const;
 
  private:
-  /// A mesh's structure, and what it was like when that was built.
+  /// A mesh's structure, and the mesh's state when it was built.
   struct Shape {
     vulkan::AccelerationStructure structure;
     float half_area = 0.0f;            // [m^2]
-    std::uint32_t triangles_hash = 0;  // of what refers to which vertex
-    bool deforms = false;              // it has, and may again
+    std::uint32_t triangles_hash = 0;  // hash of the vertex indices
+    bool deforms = false;              // its vertices have moved, and may again
   };
 
   vulkan::TriangleGeometry geometry(std::size_t mesh) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene as kernels see it: records in arrays, all reached from one address.
+// A scene as kernels read it: records in arrays, all reachable from one address.
 #ifndef LAMBENT_RAYTRACING_VULKAN_SCENE_RECORDS_H
 #define LAMBENT_RAYTRACING_VULKAN_SCENE_RECORDS_H
 
@@ -18,16 +18,16 @@ const uint kSamplingWrapMask = 3u;
 const uint kSamplingNearest = 16u;
 const uint kSamplingSecondUvs = 32u;
 
-/// How a material reads a texture; as struct TextureView of scene.h.
+/// How a material reads a texture; see TextureView in scene.h.
 struct TextureViewRecord {
   int texture;       ///< Index into the bound textures; -1: none.
   uint sampling;     ///< Wraps and flags, as above.
   vec2 uv_scale;     ///< Multiplies texture coordinates first.
   vec2 uv_rotation;  ///< Cosine and sine.
   vec2 uv_offset;    ///< Added last.
-  int width;         ///< Of the texture [texels].
+  int width;         ///< Width of the texture [texels].
   int height;        ///< [texels]
-  int levels;        ///< Its MIP levels.
+  int levels;        ///< Number of its MIP levels.
 };
 
 LAMBENT_FN uint wrap_u(TextureViewRecord view) {
@@ -37,16 +37,16 @@ LAMBENT_FN uint wrap_v(TextureViewRecord view) {
   return (view.sampling >> kSamplingWrapBits) & kSamplingWrapMask;
 }
 
-// MaterialRecord::flags
+// Bits of MaterialRecord::flags
 const uint kMaterialDoubleSided = 1u;
 const uint kMaterialUnlit = 2u;
 const uint kMaterialLambert = 4u;
-const uint kMaterialMayEmit = 8u;  ///< Some point of it may.
+const uint kMaterialMayEmit = 8u;  ///< Some point of it may emit light.
 const uint kMaterialBoundsVolume = 16u;
-const uint kMaterialLetsThrough = 32u;  ///< Light; see lets_light_through().
+const uint kMaterialLetsThrough = 32u;  ///< Transmits light; see lets_light_through().
 const uint kMaterialHasLayers = 64u;    ///< See has_layers().
 
-/// As struct Material of scene.h.
+/// See Material in scene.h.
 struct MaterialRecord {
   vec4 base_color;
   vec3 emission;  ///< [W/(m^2 sr)]
@@ -81,13 +81,13 @@ struct MaterialRecord {
   TextureViewRecord sheen_roughness_texture;
 };
 
-// MeshRecord::attributes: which arrays there are besides positions, normals and triangles.
+// Bits of MeshRecord::attributes: the arrays besides positions, normals and triangles.
 const uint kMeshHasTangents = 1u;
 const uint kMeshHasColors = 2u;
 const uint kMeshHasUvs0 = 4u;
 const uint kMeshHasUvs1 = 8u;
 
-/// As struct Mesh of scene.h. Addresses of arrays that are absent are 0.
+/// See Mesh in scene.h. Addresses of absent arrays are 0.
 struct MeshRecord {
   Vec3Array positions;  ///< Object space [m].
   Vec3Array normals;
@@ -100,11 +100,11 @@ struct MeshRecord {
   uint attributes;
 };
 
-// InstanceRecord::flags
+// Bits of InstanceRecord::flags
 const uint kInstanceReceivesGi = 1u;
 const uint kInstanceCastsGi = 2u;
 
-/// As struct Instance of scene.h.
+/// See Instance in scene.h.
 struct InstanceRecord {
   mat4 world_from_object;
   uint mesh;
@@ -125,23 +125,23 @@ struct EnvironmentMapRecord {
   int height;        ///< [texels]
 };
 
-/// As struct Environment of scene.h.
+/// See Environment in scene.h.
 struct EnvironmentRecord {
   EnvironmentMapRecord map;
   vec3 radiance;   ///< [W/(m^2 sr)]; multiplies the map where there is one.
-  float rotation;  ///< Of the map about +Y [rad].
+  float rotation;  ///< Rotation of the map about +Y [rad].
 };
 
-/// All of a scene.
+/// A scene.
 struct SceneRecord {
   InstanceArray instances;
   MeshArray meshes;
   MaterialArray materials;
   LightArray lights;
-  UintArray asked;  ///< Lights that every point asks.
+  UintArray asked;  ///< Indices of the lights that every point samples.
   EmitterArray emitters;
   LightTreeArray light_tree;
-  LightTreeArray light_groups;  ///< The same, as struct LightGroups has it.
+  LightTreeArray light_groups;  ///< The same tree in groups; see LightGroups.
   uint asked_count;
   uint emitter_count;
   uint light_tree_size;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two ray tracing pipelines are told.
+// The arguments of the ray tracing pipelines.
 #ifndef LAMBENT_RAYTRACING_VULKAN_TRACE_ARGUMENTS_H
 #define LAMBENT_RAYTRACING_VULKAN_TRACE_ARGUMENTS_H
 
@@ -10,24 +10,24 @@ LAMBENT_BEGIN
 
 struct TraceArguments {
   uvec2 structure;     ///< Address of the acceleration structure, low word first.
-  RayArray rays;       ///< `count` of them.
-  HitArray hits;       ///< Of closest hits: one a ray.
-  UintArray occluded;  ///< Of occlusion: a word a ray, 1 or 0.
-  Vec3Array through;   ///< Of light that passes: a share a ray.
-  SceneArray scene;    ///< Of what is see-through.
+  RayArray rays;       ///< `count` rays.
+  HitArray hits;       ///< Closest hits: one a ray. Transmittance: see `to_hits`.
+  UintArray occluded;  ///< Occlusion: a word a ray, 1 or 0.
+  Vec3Array through;   ///< Transmittance: a share a ray.
+  SceneArray scene;    ///< Read where surfaces are transparent.
   uint count;
-  uint to_hits;  ///< Of light that passes: 1: rays end at their hits.
+  uint to_hits;  ///< Transmittance: 1: rays end at `hits`.
 };
 
-/// What a ray's light has become of, as far as it is known.
+/// The light along a ray, as far as the ray has been traced.
 struct LightOnItsWay {
-  vec3 through;        ///< Share of it that passes surfaces.
-  vec3 optical_depth;  ///< Of the volumes on the way.
+  vec3 through;        ///< Share that passes the surfaces so far.
+  vec3 optical_depth;  ///< Sum over the volumes on the path.
   uint crosses;        ///< 1: see crosses_glass().
-  uint stopped;        ///< 1: something lets none through.
+  uint stopped;        ///< 1: an opaque surface stops it.
 };
 
-/// Rays go on for ever; device rays are asked no farther than this [m].
+/// Rays may be infinite; on devices they are traced no farther than this [m].
 const float kFarthestOfDevices = 3.0e38f;
 
 LAMBENT_END

@@ -28,13 +28,13 @@
 namespace lambent {
 namespace {
 
-// Rays of one round trip: large enough that its price does not show, small enough that several
-// threads' rays and hits, in flight at once, take little memory.
+// Rays of one round trip: enough to hide its fixed cost, few enough that the rays and hits of
+// several threads in flight take little memory.
 constexpr std::size_t kBatchRays = std::size_t{1} << 18;
-// Room that the first and smallest batches find.
+// Least capacity of staging memory [rays].
 constexpr std::size_t kLeastRoom = std::size_t{1} << 10;
 
-// Rays go up as they are.
+// Rays are uploaded without conversion.
 static_assert(sizeof(Ray) == sizeof(RayRecord) && std::is_trivially_copyable_v<Ray> &&
               offsetof(Ray, origin) == offsetof(RayRecord, origin_ws) &&
               offsetof(Ray, t_min) == offsetof(RayRecord, t_min) &&
@@ -44,7 +44,7 @@ static_assert(sizeof(Ray) == sizeof(RayRecord) && std::is_trivially_copyable_v<R
 
 }  // namespace
 
-/// Memory through which one batch of the host goes to the device and back.
+/// Staging memory for one batch of the host's rays and their results.
 class VulkanRayTracer::Staging {
  public:
   void make_room(const vulkan::Device& device, std::size_t rays) {
@@ -57,7 +57,7 @@ class VulkanRayTracer::Staging {
     down_ = Buffer(device, room_ * sizeof(HitRecord), Memory::readback, "hits down");
   }
 
-  /// Carries rays up, has `record` trace them, and their results, of so many bytes each, down.
+  /// Uploads rays, has `record` trace them, and reads back their results of `result_bytes` each.
   template <class Record>
   const std::byte* carry(const vulkan::Device& device, std::span<const Ray> rays,
                          std::size_t result_bytes, Record record) {
@@ -79,7 +79,7 @@ class VulkanRayTracer::Staging {
   vulkan::Buffer up_, rays_, results_, down_;
 };
 
-/// Staging memory for as long as a batch needs it.
+/// Staging memory, borrowed for the time of a batch.
 class VulkanRayTracer::Borrowed {
  public:
   explicit Borrowed(const VulkanRayTracer& tracer) : tracer_(tracer) {
@@ -203,7 +203,7 @@ void VulkanRayTracer::transmittances(vulkan::Recorder& recorder, const RayBatch&
 
 void VulkanRayTracer::closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const {
   assert(rays.size() == hits.size());
-  // While some rays are traced, others are copied
+  // Trace some rays while others are copied
   parallel_chunks(rays.size(), kBatchRays, [&](std::size_t begin, std::size_t end) {
     const Borrowed staging(*this);
     const std::byte* results =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray tracer on a Vulkan device: for passes that run there, and for those that run on the host.
+// A ray tracer on a Vulkan device, for passes that run there and for those that run on the host.
 #pragma once
 
 #include <cstddef>
@@ -18,22 +18,22 @@ namespace lambent {
 
 class VulkanRayTracer final : public RayTracer, public DeviceTracer {
  public:
-  /// Built over the scene as it is now, and as the device has it. Both must outlive it. Throws
-  /// std::runtime_error where memory runs out.
+  /// Built for the present state of the scene, which the device scene must match. Both must outlive
+  /// it. Throws std::runtime_error where memory runs out.
   VulkanRayTracer(const Scene& scene, const DeviceScene& device_scene);
   ~VulkanRayTracer() override;
 
-  // Of the host: rays go up, hits come down; callers take turns on the device.
+  // For the host: rays are uploaded and hits read back; callers take turns on the device.
   void closest_hits(std::span<const Ray> rays, std::span<Hit> hits) const override;
   void occlusions(std::span<const Ray> rays, std::span<std::uint8_t> occluded) const override;
   void transmittances(std::span<const Ray> rays, std::span<glm::vec3> through) const override;
   bool has_glass() const override { return has_glass_; }
   std::size_t batch_rays() const override;
   AccelerationStatistics statistics() const override { return statistics_; }
-  /// After the device's scene has been updated.
+  /// To be called after the device's scene was updated.
   void update(const GeometryEdits& edits) override;
 
-  // Of passes on the device.
+  // For passes on the device.
   void closest_hits(vulkan::Recorder& recorder, const RayBatch& batch,
                     HitArray hits) const override;
   void occlusions(vulkan::Recorder& recorder, const RayBatch& batch,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How texels are brought together and weighed, before the few are chosen that are gathered.
+// Clustering of texels, and their weights, for the choice of those that are gathered.
 #ifndef LAMBENT_RSM_MAPS_CHOICE_H
 #define LAMBENT_RSM_MAPS_CHOICE_H
 
@@ -13,34 +13,34 @@ LAMBENT_BEGIN
 
 // Texels along an edge of a block.
 const int kBlockEdge = 4;
-// Surfaces that a block tells apart; what shows more is rare and small.
+// Most surfaces that a block distinguishes; further ones are rare and small.
 const int kBlockSurfaces = 3;
-// Texels are of one surface where their normals are within 37 degrees, and where they are off its
-// plane by less than this share of the block's edge.
+// Texels belong to one surface where their normals are within 37 degrees, and where they are off
+// its plane by less than this share of the block's edge.
 const float kSameNormal = 0.8f;
 const float kSamePlane = 0.25f;
 
-// Points of the view that are asked what a cluster brings to them, and draws of a pixel that may be
-// made until so many see something.
+// Number of points of the view at which clusters' light is measured, and most draws of pixels until
+// that many show a surface.
 const int kViewPoints = 1024;
 const uint kViewPointDraws = 8192u;
-// Keeps these random numbers apart from others.
+// Makes these random numbers independent of others.
 const uint kViewSalt = 0x56494557u;
 
 LAMBENT_FN float power_of(vec3 flux) {
   return max(flux.x, max(flux.y, flux.z));
 }
 
-/// Whether two texels show one surface, on the scale of `edge` [m].
+/// Whether two texels belong to one surface, on the scale of `edge` [m].
 LAMBENT_FN bool same_surface(RsmTexelRecord a, RsmTexelRecord b, float edge) {
   return dot(a.normal_ws, b.normal_ws) > kSameNormal &&
          abs(dot(a.position_ws - b.position_ws, b.normal_ws)) <= kSamePlane * edge;
 }
 
-/// Texels, or clusters, summed up around one (the seed) that tells which surface they stand for:
-/// others' light counts, but not where they are, or the sum would hang in mid-air.
+/// Sum of texels, or of clusters, around one (the seed) that defines the surface they represent.
+/// The light of other surfaces is added, but not their positions: the mean would be in mid-air.
 struct ClusterSum {
-  vec3 position;  ///< Summed by power, as the normal.
+  vec3 position;  ///< Sum weighted by power, like the normal.
   vec3 normal;
   vec3 flux;
   float power;
@@ -75,13 +75,13 @@ LAMBENT_FN RsmTexelRecord cluster_texel(ClusterSum sum, RsmTexelRecord seed) {
   return texel;
 }
 
-/// The pixel of a draw; `shift` is random, the same for all.
+/// The pixel of a draw; `shift` is random, the same for all draws.
 LAMBENT_FN ivec2 view_point_pixel(uint draw, vec2 shift, ivec2 size) {
   vec2 place = fract(shift + plastic_sequence(draw)) * vec2(size);
   return min(ivec2(place), ivec2(size.x - 1, size.y - 1));
 }
 
-/// Sums over points of a texel's bounded_geometry_term, and of its square.
+/// Sums over points of a texel's bounded_geometry_term() and of its square.
 struct TermSums {
   float terms;
   float squares;
@@ -90,8 +90,8 @@ struct TermSums {
 /// A cluster of a block.
 struct ClusterRecord {
   RsmTexelRecord texel;
-  uint place;  ///< In the map, of the brightest of its texels.
-  uint found;  ///< 0: the block has fewer surfaces.
+  uint place;  ///< Index in the map of the brightest of its texels.
+  uint found;  ///< 0: unused, as the block has fewer surfaces.
   TermSums brought;
 };
 LAMBENT_DEVICE_ARRAY(ClusterArray, ClusterRecord, 4)

@@ -3,10 +3,10 @@
 //   RsmTexelRecord fetch_block_texel(int k)
 //       texel k of the block, rows from the top; without flux where the map has none
 //   void put_cluster(int index, RsmTexelRecord texel, int seed)
-//       takes the block's clusters; `seed` is the brightest of the texels
+//       receives the block's clusters; `seed` is the brightest of the texels
 // In C++ it is included in the body of a struct that has these as members.
 
-/// The brightest of those texels that are set in a mask; the first of equals.
+/// The brightest of the texels that are set in a mask; the first of equals.
 LAMBENT_FN int brightest_of(uint texels) {
   int best = -1;
   float most = -1.0f;
@@ -20,7 +20,8 @@ LAMBENT_FN int brightest_of(uint texels) {
   return best;
 }
 
-/// Parts the lit texels of the block by surface, brightest first, and returns how many there are.
+/// Divides the lit texels of the block by surface, brightest first, and returns the number of
+/// clusters.
 LAMBENT_FN int cluster_block() {
   uint left = 0u;
   for (int k = 0; k < kBlockEdge * kBlockEdge; ++k) {
@@ -35,7 +36,7 @@ LAMBENT_FN int cluster_block() {
     for (int k = 0; k < kBlockEdge * kBlockEdge; ++k) {
       if ((left & (1u << k)) == 0u) continue;
       RsmTexelRecord texel = fetch_block_texel(k);
-      // The last takes all that is left
+      // The last cluster takes all remaining texels
       if (count + 1 < kBlockSurfaces && !same_surface(texel, first, edge)) continue;
       add_to_cluster(sum, texel, first, edge);
       left &= ~(1u << k);

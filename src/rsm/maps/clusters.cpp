@@ -14,12 +14,12 @@
 namespace lambent {
 namespace {
 
-// A right angle between normals parts clusters as much as this share of the scene's size does.
+// Distance that a right angle between normals counts for, as a share of the scene's size.
 constexpr float kNormalScale = 0.3f;
-// A map is merged by several threads once that many clusters are left to each.
+// Least number of clusters a thread for which a map is merged by several threads.
 constexpr std::size_t kParallelClusters = 2048;
 
-/// A block of a map, for cluster_block.inl.h.
+/// A block of a map, as cluster_block.inl.h reads it.
 struct Block {
   Block(const ReflectiveShadowMap& of, int x, int y) : map(of), first_x(x), first_y(y) {}
 
@@ -51,7 +51,7 @@ Key key_of(const Cluster& cluster, float normal_scale) {
   return {p.x, p.y, p.z, n.x, n.y, n.z};
 }
 
-/// The coordinate in which clusters are farthest apart, by their weights.
+/// The coordinate along which clusters differ most, by their weights.
 int widest_axis(std::span<const Cluster> clusters, float normal_scale) {
   std::array<double, 6> mean{}, square{};
   double total = 0.0;
@@ -74,7 +74,7 @@ int widest_axis(std::span<const Cluster> clusters, float normal_scale) {
   return best;
 }
 
-/// Area of all clusters [m^2]. Where they overlap, areas do not add up; their extent tells: a
+/// Area of all clusters [m^2]. Where they overlap, areas do not add up, and the extent is used: a
 /// square of area A has a mean squared distance from its middle of A / 6, and so have squares of
 /// the clusters' own areas.
 float area_of(std::span<const Cluster> clusters, bool overlap) {
@@ -94,23 +94,23 @@ float area_of(std::span<const Cluster> clusters, bool overlap) {
   return std::min(sum, moment / sum);
 }
 
-/// How clusters are merged.
+/// Parameters of merging.
 struct Merging {
   float normal_scale;
   bool overlap;
 
-  /// Whether a cluster tells better than another which surface both stand for. Where they overlap,
-  /// what one light sends to the far side of a wall must not carry off what others send to this
-  /// one.
+  /// Whether cluster `a` defines the surface of a merged cluster rather than `b`. Where maps
+  /// overlap, light that one source sends to the far side of a wall must not move the light of
+  /// others there.
   bool leads(const Cluster& a, const Cluster& b) const {
     return overlap ? a.brought > b.brought : power_of(a.texel.flux) > power_of(b.texel.flux);
   }
 };
 
-/// Fills result with one cluster for each of its places.
+/// Fills the result with one cluster for each of its places.
 void merge(std::span<Cluster> clusters, const Merging& by, std::span<Cluster> result) {
   if (clusters.size() == 1) {
-    // Part its light among its places
+    // Divide its light among its places
     Cluster part = clusters.front();
     const float share = 1.0f / static_cast<float>(result.size());
     part.texel.flux *= share;
@@ -136,7 +136,7 @@ void merge(std::span<Cluster> clusters, const Merging& by, std::span<Cluster> re
     return;
   }
 
-  // Split where the weight is parted as the places are
+  // Split the clusters where the weight divides like the number of places
   const int axis = widest_axis(clusters, by.normal_scale);
   std::sort(clusters.begin(), clusters.end(), [&](const Cluster& a, const Cluster& b) {
     const float key_a = key_of(a, by.normal_scale)[axis];
@@ -152,7 +152,7 @@ void merge(std::span<Cluster> clusters, const Merging& by, std::span<Cluster> re
   while (split + 1 < clusters.size() && sum + 0.5 * clusters[split].weight < share) {
     sum += clusters[split++].weight;
   }
-  // Places go with the weight, which a heavy cluster keeps from being parted evenly
+  // Divide the places by weight, which a heavy cluster may keep from being split evenly
   const double fair = total > 0.0 ? sum / total * static_cast<double>(result.size()) : 1.0;
   const auto places =
       std::clamp<std::size_t>(static_cast<std::size_t>(fair + 0.5), 1, result.size() - 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Based on: Segovia et al., "Bidirectional Instant Radiosity", EGSR 2006: lights are worth what
-// they bring to the camera. Here that is asked of whole blocks of texels, at few points of the
-// view.
+// Based on: Segovia et al., "Bidirectional Instant Radiosity", EGSR 2006: lights are weighted by
+// their contribution to the camera. Here, that of whole blocks of texels is measured at a few
+// points of the view.
 #include "rsm/maps/lights.h"
 
 #include <algorithm>
@@ -19,20 +19,20 @@ namespace lambent {
 namespace {
 
 constexpr std::size_t kClustersPerTask = 256;
-// Clusters matter by their power times this power of the sum of squares of what a watt brings to
-// the points. Draws would want 1/2; clusters are worth a little less where they bring much, as
-// their error falls with their size.
+// A cluster's weight is its power times this power of the sum of squares of a watt's light at the
+// points. Sampling would call for 1/2; clusters that contribute much need a little less, as their
+// error falls with their size.
 constexpr float kBroughtExponent = 0.4f;
-// Clusters are scaled by at most this factor to bring what their texels brought; those of several
-// maps, which may hold light of a wall's far side, are dimmed as far as it takes.
+// Clusters are scaled by at most this factor to the light of their texels. Those of several maps,
+// which may hold light of a wall's far side, are scaled down as far as needed.
 constexpr float kMaxScale = 2.0f;
-// Weight that power alone has beside what is brought to the points: light that none of them sees is
-// not left to a few huge clusters.
+// Share of power alone in the weights, so that light which reaches none of the points is not left
+// to a few huge clusters.
 constexpr float kPowerShare = 0.1f;
-// Keeps these random numbers apart from others.
+// Makes these random numbers independent of others.
 constexpr uint kDealSalt = 0x4445414cu;
 
-/// What each cluster brings to the points; all 1 where there are none.
+/// The light of a watt of each cluster at the points; all 1 where there are no points.
 std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Cluster>& clusters) {
   std::vector<TermSums> sums(clusters.size(), TermSums{1.0f, 1.0f});
   if (points.count == 0) return sums;
@@ -44,7 +44,7 @@ std::vector<TermSums> brought_to(const ViewPoints& points, const std::vector<Clu
   return sums;
 }
 
-/// Tells each cluster how much it matters, and what it brings.
+/// Sets the clusters' weights and their light at the points.
 void weigh(std::span<const TermSums> sums, std::vector<Cluster>& clusters) {
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     Cluster& cluster = clusters[i];
@@ -54,7 +54,7 @@ void weigh(std::span<const TermSums> sums, std::vector<Cluster>& clusters) {
     cluster.brought = luminance(flux) * sums[i].terms;
   }
 
-  // Mix with power alone, both of the same sum
+  // Mix with power alone, scaled to the same sum
   double power = 0.0, brought = 0.0;
   for (const Cluster& cluster : clusters) {
     const vec3& flux = cluster.texel.flux;
@@ -103,7 +103,7 @@ std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<co
                             (static_cast<std::uint32_t>(settings.texels) + subs - 1) / subs * subs,
                             overlap);
 
-  // One normal and one place do not bring quite what many did: scale each cluster to do so
+  // One normal and one position do not give quite the light of many: scale each cluster to match
   const std::vector<TermSums> now = brought_to(points, clusters);
   for (std::size_t i = 0; i < clusters.size(); ++i) {
     RsmTexel& texel = clusters[i].texel;
@@ -155,15 +155,15 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
   std::vector<std::vector<Dealt>> dealt(subs);
   std::uint32_t first = 0;
   for (std::size_t m = 0; m < maps.size(); ++m) {
-    // Deal each run of neighbours to all sub-maps: in order, or in one of its own
+    // Deal each run of neighbours to all sub-maps: in order, or in an order of the run's own
     const std::vector<Cluster>& chosen = maps[m].chosen;
     std::vector<std::uint32_t> deal(subs);
     std::iota(deal.begin(), deal.end(), 0u);
     RandomStream random = make_random_stream(static_cast<uint>(m), kDealSalt, settings.seed);
     for (std::size_t k = 0; k < chosen.size(); ++k) {
       if (settings.shuffle && k % subs == 0) shuffle(deal, random);
-      // One sub-map holds one of `subs` shares of the light and must stand for all of it. The light
-      // is spread no wider for that, as the blurs bring all sub-maps together
+      // One sub-map holds one of `subs` shares of the light and must represent all of it. The
+      // softening does not grow for that, as the blurs combine all sub-maps
       Dealt light = {chosen[k].texel, first + chosen[k].place};
       light.texel.flux *= static_cast<float>(subs);
       light.texel.softening *= settings.softening;
@@ -172,15 +172,15 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
     first += maps[m].texels;
   }
 
-  // Sub-maps are asked in step: fill up those that got one less with a texel that brings nothing
+  // Sub-maps are read in step: fill up those with one texel less by a texel without light
   std::size_t longest = 0;
   for (const std::vector<Dealt>& sub_map : dealt) longest = std::max(longest, sub_map.size());
   Dealt dark = {{}, first};
   dark.texel.softening = 1.0f;
   for (std::vector<Dealt>& sub_map : dealt) sub_map.resize(longest, dark);
 
-  // A gather takes the way to every few texels of a sub-map: of others in each, so that blurs bring
-  // together the ways to all
+  // A gather sums the vectors to every few texels of a sub-map. Rotate these, so that blurs combine
+  // the vectors to different texels in each sub-map
   for (std::size_t s = 0; s < dealt.size(); ++s) {
     for (std::size_t k = 0; k + kTexelsPerWay <= longest; k += kTexelsPerWay) {
       const auto begin = dealt[s].begin() + static_cast<std::ptrdiff_t>(k);
@@ -221,7 +221,7 @@ ChosenOfMap merge_maps(std::span<const ChosenOfMap> maps, const ViewPoints& poin
                        const RsmSettings& settings) {
   ChosenOfMap all;
   for (const ChosenOfMap& map : maps) {
-    // A cluster that outweighed its share was parted among neighbours: make it whole again
+    // A cluster that outweighed its share was divided among neighbours: join its parts again
     const std::size_t first = all.chosen.size();
     for (const Cluster& cluster : map.chosen) {
       const std::uint32_t place = all.texels + cluster.place;

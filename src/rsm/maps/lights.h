@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which texels of the maps light the picture, and how they are dealt to sub-maps.
+// Chooses the texels of the maps that light the picture, and deals them to sub-maps.
 #pragma once
 
 #include <cstdint>
@@ -14,38 +14,38 @@
 
 namespace lambent {
 
-/// The texels that are gathered, twice: where they were rendered, and restructured.
+/// The texels that are gathered, in two orders: as rendered, and restructured.
 struct RsmLights {
-  /// RsmLayout::full: all texels of all maps, one map after the other, where they were rendered,
-  /// and at the end one that brings nothing. Those that stand for a cluster hold the light of all
-  /// of it. Other layouts do not read it, and it is empty.
+  /// RsmLayout::full: all texels of all maps, one map after the other, as rendered, and at the end
+  /// one without light. Those that represent a cluster hold the light of all of it. Empty in other
+  /// layouts, which do not read it.
   std::vector<RsmTexel> rendered;
-  /// The chosen ones, sub-map after sub-map, each contiguous and all of one length.
+  /// The chosen texels, sub-map after sub-map, each contiguous and all of one length.
   std::vector<RsmTexel> restructured;
-  /// Of each of `restructured`: where in `rendered` it came from.
+  /// For each of `restructured`, its index in `rendered`.
   std::vector<std::uint32_t> places;
-  /// Where in `restructured` each sub-map starts, and the end: sub_maps^2 + 1 entries.
+  /// The start of each sub-map in `restructured`, and the end: sub_maps^2 + 1 entries.
   std::vector<std::uint32_t> starts;
 
   std::uint32_t count(int sub_map) const { return starts[sub_map + 1] - starts[sub_map]; }
 };
 
-/// Gives a map by its index. Maps are asked for once each, in their order, and are not read any
-/// more when the next is asked for: they may all share one map's memory.
+/// Returns the map of an index. It is called once for each map, in order, and a map is not read any
+/// more after the next call, so that all maps may share one map's memory.
 using FetchMap = std::function<const ReflectiveShadowMap&(std::size_t)>;
 
-/// Brings the texels of each map together in settings.texels clusters (rounded up to fill all
-/// sub-maps alike), more of them where they matter to the view, if that is asked for: no light is
-/// lost. With settings.merge_maps, those of all maps together. All texels, as they are, where
-/// settings.texels is 0. Each lands in exactly one sub-map, and every sub-map alone stands for all
-/// light.
+/// Merges the texels of each map into settings.texels clusters (rounded up to fill all sub-maps
+/// equally), with more of them where they matter to the view if settings.view_importance: no light
+/// is lost. With settings.merge_maps, those of all maps together. Where settings.texels is 0, all
+/// texels are gathered as they are. Each lands in exactly one sub-map, and every sub-map alone
+/// represents all light.
 RsmLights choose_lights(std::size_t maps, const FetchMap& fetch, const RsmView& view,
                         const RsmSettings& settings);
-/// The same of maps that are all there.
+/// The same for maps that are all in memory.
 RsmLights choose_lights(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
                         const RsmSettings& settings);
 
-/// Points of the view, as planes; those beyond the last see nothing.
+/// Points of the view, as planes; unused entries have no normal.
 struct ViewPoints {
   explicit ViewPoints(int most);
   void add(const glm::vec3& position_ws, const glm::vec3& normal_ws);
@@ -55,44 +55,44 @@ struct ViewPoints {
   int capacity, count = 0;
 };
 
-/// kViewPoints of them that are asked what clusters bring them.
+/// The points, kViewPoints or fewer, at which the light of clusters is measured.
 ViewPoints view_points(const RsmView& view, std::uint32_t seed);
 
-// The steps of choose_lights, for those that have made the ones before elsewhere.
+// The steps of choose_lights(), for callers that have performed earlier steps elsewhere.
 
-/// Brings the clusters of a map's blocks together in settings.texels, by what each brings to the
-/// points (`sums`; all 1 where there are no points). `overlap` as of merge_clusters.
+/// Merges the clusters of a map's blocks into settings.texels, by the light of each at the points
+/// (`sums`; all 1 where there are no points). `overlap`: see merge_clusters().
 std::vector<Cluster> choose_clusters(std::vector<Cluster> clusters, std::span<const TermSums> sums,
                                      const ViewPoints& points, const RsmSettings& settings,
                                      bool overlap = false);
 
-/// What was chosen of a map, and how many texels it has.
+/// The chosen clusters of a map, and its number of texels.
 struct ChosenOfMap {
   std::vector<Cluster> chosen;
   std::uint32_t texels = 0;
 };
 
-/// Whether the texels of so many maps are brought together across maps.
+/// Whether the texels of this many maps are merged across maps.
 inline bool merges_maps(const RsmSettings& settings, std::size_t maps) {
   return settings.merge_maps && settings.texels > 0 && maps > 1;
 }
 
-/// Brings what was chosen of each map together once more, in settings.texels clusters of all maps:
-/// surfaces that several lights reach send all of their light from the same clusters.
+/// Merges the chosen clusters of all maps once more, into settings.texels: surfaces that several
+/// lights reach send all of their light from the same clusters.
 ChosenOfMap merge_maps(std::span<const ChosenOfMap> maps, const ViewPoints& points,
                        const RsmSettings& settings);
 
-/// Deals what was chosen to sub-maps. `rendered` stays empty.
+/// Deals the chosen clusters to sub-maps. `rendered` stays empty.
 RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& settings);
 
-/// All texels that are lit, as they are, neighbours after each other.
+/// All lit texels, unmerged, ordered such that neighbours follow each other.
 std::vector<Cluster> all_texels(const ReflectiveShadowMap& map);
 
-/// Makes `rendered` of all texels of all maps.
+/// Fills `rendered` from all texels of all maps.
 void place_rendered(std::vector<RsmTexel> texels, RsmLights& lights);
 
-/// The order in which a curve that keeps neighbours together (Morton 1966) visits the texels of a
-/// square map of any size.
+/// The texels of a square map of any size in the order of a curve that keeps neighbours together
+/// (Morton 1966).
 std::vector<std::uint32_t> morton_order(int resolution);
 
 }  // namespace lambent

@@ -25,14 +25,15 @@ namespace {
 
 using Kind = RsmProjection::Kind;
 
-// Wider cones are mapped to the octahedron: a plane's texels get too uneven.
+// Wider cones have octahedral maps, as the texels of a plane would be too uneven.
 constexpr float kWidestPerspective = 1.04719755f;  // from the axis [rad], 60 degrees
-// Narrower ones would leave no plane to map to.
+// Narrower cones would leave no plane to map to.
 constexpr float kNarrowestPerspective = 1e-3f;  // from the axis [rad]
 
-// Orientations about the axis that are tried for the tightest orthographic map.
+// Number of orientations about the axis that are tried for the smallest orthographic map.
 constexpr int kOrientations = 16;
-// Its sides are moved out by this share of the scene's size, so that walls seen edge-on lie within.
+// Margin of an orthographic map, as a share of the scene's size, so that walls seen edge-on are
+// inside.
 constexpr float kFrustumMargin = 1e-3f;
 
 mat3 axes_along(const vec3& direction) {
@@ -40,7 +41,7 @@ mat3 axes_along(const vec3& direction) {
   return {frame.tangent, frame.bitangent, frame.normal};
 }
 
-/// An orthographic map that holds all vertices of the scene, turned so that its area is smallest.
+/// The orthographic map that contains all vertices of the scene, rotated for the smallest area.
 RsmProjection fit_orthographic(const Scene& scene, const vec3& direction) {
   const mat3 axes = axes_along(direction);
   std::vector<vec3> points;
@@ -54,7 +55,7 @@ RsmProjection fit_orthographic(const Scene& scene, const vec3& direction) {
   best.world_from_light = axes;
   float best_area = std::numeric_limits<float>::max();
   for (int i = 0; i < kOrientations && !points.empty(); ++i) {
-    // A quarter turn brings the same rectangles again
+    // Orientations repeat after a quarter turn
     const float angle = 0.5f * kPi * static_cast<float>(i) / kOrientations;
     const float c = cos(angle), s = sin(angle);
     Bounds box;
@@ -87,7 +88,7 @@ RsmTexel texel_of_light(const World& world, const Light& light, const Ray& ray, 
                             surface.reflectance, ray.direction, sample.irradiance, cross_section));
 }
 
-/// Traces one ray a texel and calls make(texel, ray, hit) for those that meet a surface.
+/// Traces one ray for each texel and calls shade(first texel, rays, hits) for each row.
 template <class MakeRay, class Shade>
 void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, Shade shade) {
   const auto resolution = static_cast<std::size_t>(map.resolution);
@@ -99,7 +100,7 @@ void trace_map(const World& world, ReflectiveShadowMap& map, MakeRay make_ray, S
       rays[x] = make_ray(texel_middle(static_cast<int>(x), static_cast<int>(y), map.resolution));
     }
     tracer_of(world).closest_hits(rays, hits);
-    // What casts no indirect light keeps it off what is behind, too
+    // Instances that cast no indirect light still shadow what is behind them
     for (Hit& hit : hits) {
       if (!hit.missed() && !world.scene().instances[hit.instance].casts_gi) hit = {};
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How maps are laid over the scene, and shaded, whatever traces them.
+// Projections and shading of maps, for any tracer.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace lambent {
 
-/// The projection of a light's map: see render_rsm.
+/// The projection of a light's map; see render_rsm().
 RsmProjection fit_projection(const Scene& scene, const Light& light);
 
-/// Of the map of what the camera sees.
+/// The projection of the map of what the camera sees.
 RsmProjection camera_projection(const Camera& camera, float aspect);
 
-/// How what the camera sees is lit for its map.
+/// The settings of direct light for the map of what the camera sees.
 ShadeHitsSettings camera_shading(const RsmSettings& settings);
 
-/// Fails as render_rsms does.
+/// Fails as render_rsms() does.
 Expected<void> check_map_request(const Camera& camera, float aspect, const RsmSettings& settings);
 
-/// The public functions of these names, for what they accept; `map` and `maps` keep their memory.
+/// The public functions of these names, for valid arguments; `map` and `maps` reuse their memory.
 void render_rsm(const World& world, const Light& light, const RsmSettings& settings,
                 ReflectiveShadowMap& map);
 void render_rsm(const World& world, const Camera& camera, float aspect, const RsmSettings& settings,

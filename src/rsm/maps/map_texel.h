@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a ray of a map met to its texel.
+// The texel for a hit of a map's ray.
 #ifndef LAMBENT_RSM_MAPS_MAP_TEXEL_H
 #define LAMBENT_RSM_MAPS_MAP_TEXEL_H
 
@@ -9,18 +9,18 @@
 
 LAMBENT_BEGIN
 
-// A shading normal tilted away from its triangle changes the light on it by at most this factor:
-// beyond, the light grazes the triangle, and few texels would bring enormous light.
+// Largest factor by which a shading normal tilted away from its triangle changes the light on it:
+// beyond it, the light grazes the triangle, and few texels would have enormous light.
 const float kMaxTilt = 4.0f;
-const float kMinGrazingCosine = 1e-3f;  // bounds a texel's area likewise
+const float kMinGrazingCosine = 1e-3f;  // likewise bounds a texel's area
 
-/// A texel that saw nothing.
+/// The texel of a ray that hit nothing.
 LAMBENT_FN RsmTexelRecord empty_texel() {
   RsmTexelRecord texel = {vec3(0.0f), 0.0f, vec3(0.0f), 0.0f, vec3(0.0f), 0.0f};
   return texel;
 }
 
-/// A texel that stands for a piece of a surface and reflects so much.
+/// A texel that represents a part of a surface and reflects this flux.
 LAMBENT_FN RsmTexelRecord make_texel(vec3 position_ws, vec3 normal_ws, float area, vec3 flux) {
   RsmTexelRecord texel = {position_ws + normal_ws * (kTexelOffset * sqrt(area)),
                           area,
@@ -31,15 +31,15 @@ LAMBENT_FN RsmTexelRecord make_texel(vec3 position_ws, vec3 normal_ws, float are
   return texel;
 }
 
-/// Cosine between a triangle and the ray that met it, as texels' areas are found with.
+/// Cosine between a triangle and the ray that hit it, as used for the areas of texels.
 LAMBENT_FN float grazing_cosine(vec3 geometric_normal_ws, vec3 ray_direction_ws) {
   return max(kMinGrazingCosine, -dot(geometric_normal_ws, ray_direction_ws));
 }
 
-/// The texel of a surface that a light's ray met. `irradiance` is the light's, on a surface
-/// perpendicular to the ray; `cross_section` the texel's area, likewise [m^2]. Light is reflected
-/// as the shading normal receives it, but sent out from the triangle: texels of one bumpy wall must
-/// not light each other.
+/// The texel of a surface that a light's ray hit. `irradiance`: that of the light, on a surface
+/// perpendicular to the ray; `cross_section`: the texel's area perpendicular to the ray [m^2].
+/// Light is received by the shading normal, but sent out from the triangle: texels of one bumpy
+/// wall must not light each other.
 LAMBENT_FN RsmTexelRecord lit_texel(vec3 position_ws, vec3 normal_ws, vec3 geometric_normal_ws,
                                     Reflectance reflectance, vec3 ray_direction_ws, vec3 irradiance,
                                     float cross_section) {
@@ -51,7 +51,8 @@ LAMBENT_FN RsmTexelRecord lit_texel(vec3 position_ws, vec3 normal_ws, vec3 geome
                     albedo * irradiance * (cross_section * tilt));
 }
 
-/// The texel of a surface that a camera's ray met and that sends back that radiance, evenly.
+/// The texel of a surface that a camera's ray hit and that reflects this radiance, in all
+/// directions.
 LAMBENT_FN RsmTexelRecord seen_texel(vec3 position_ws, vec3 geometric_normal_ws,
                                      vec3 ray_direction_ws, vec3 radiance, float cross_section) {
   float area = cross_section / grazing_cosine(geometric_normal_ws, ray_direction_ws);

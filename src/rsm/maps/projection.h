@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From texels of a map to rays of its light and back. A texel's place is a point of the square
-// [-1, 1]^2, x to the right, y up.
+// Conversion between texels of a map and rays of its light. Positions in a map are points of the
+// square [-1, 1]^2, x to the right, y up.
 #ifndef LAMBENT_RSM_MAPS_PROJECTION_H
 #define LAMBENT_RSM_MAPS_PROJECTION_H
 
@@ -15,7 +15,7 @@ LAMBENT_FN vec2 texel_middle(int x, int y, int resolution) {
   return vec2((float(x) + 0.5f) * scale - 1.0f, 1.0f - (float(y) + 0.5f) * scale);
 }
 
-/// Where a point of the square lies in the map, in texels from its top left corner.
+/// Position of a point of the square in the map, in texels from its top left corner.
 LAMBENT_FN vec2 texel_place(vec2 square, int resolution) {
   float scale = 0.5f * float(resolution);
   return vec2((square.x + 1.0f) * scale, (1.0f - square.y) * scale);
@@ -26,15 +26,15 @@ LAMBENT_FN vec3 perspective_direction(vec2 square, vec2 half_extent) {
   return vec3(square.x * half_extent.x, square.y * half_extent.y, -1.0f);
 }
 
-/// The point of the square for a direction of a perspective map, wherever it points: the map's
-/// edge for what lies outside or behind.
+/// The point of the square for a direction of a perspective map; directions outside or behind are
+/// clamped to the map's edge.
 LAMBENT_FN vec2 perspective_square(vec3 direction, vec2 half_extent) {
   float scale = 1.0f / max(-direction.z, 1e-6f);
   return vec2(clamp(direction.x * scale / half_extent.x, -1.0f, 1.0f),
               clamp(direction.y * scale / half_extent.y, -1.0f, 1.0f));
 }
 
-/// Solid angle [sr] of a small piece of the square of a perspective map, per area of the square:
+/// Solid angle [sr] of a small part of the square of a perspective map, per area of the square:
 /// that of a plane at distance 1, seen obliquely.
 LAMBENT_FN float perspective_solid_angle(vec2 square, vec2 half_extent) {
   vec3 direction = perspective_direction(square, half_extent);
@@ -42,12 +42,12 @@ LAMBENT_FN float perspective_solid_angle(vec2 square, vec2 half_extent) {
   return half_extent.x * half_extent.y / (square_length * sqrt(square_length));
 }
 
-/// The same of an octahedral map. A face of the octahedron lies in a plane |x| + |y| + |z| = 1, at
-/// distance 1 / sqrt(3) and sqrt(3) times its area in the square: both factors cancel.
+/// The same for an octahedral map. A face of the octahedron is in a plane |x| + |y| + |z| = 1, at
+/// distance 1 / sqrt(3), and has sqrt(3) times its area in the square: both factors cancel.
 LAMBENT_FN float octahedral_solid_angle(vec2 square) {
   float x = abs(square.x);
   float y = abs(square.y);
-  // The fold keeps lengths, so the lower half may be measured in the square as it is.
+  // The fold preserves lengths, so that the lower half may be measured in the square as it is.
   float z = abs(1.0f - x - y);
   if (x + y > 1.0f) {
     float unfolded = 1.0f - y;
@@ -87,7 +87,7 @@ LAMBENT_FN float perpendicular_area(MapProjection p, vec2 square, int resolution
   return share * solid_angle * (dist * dist);
 }
 
-/// Where a point lies in the map [texels]; points that the map does not show, at its edge.
+/// Position of a point in the map [texels]; points that the map does not show are at its edge.
 LAMBENT_FN vec2 project_to_map(MapProjection p, vec3 position_ws, int resolution) {
   vec3 local = (position_ws - p.origin_ws) * p.world_from_light;
   vec2 square = vec2(0.0f);

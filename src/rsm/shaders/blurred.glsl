@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light that is being blurred.
+// Functions for the blur of light.
 #include "rsm/vulkan/device_passes.h"
 #include "shared/color.h"
 #include "shared/cross_bilateral.h"
@@ -7,7 +7,7 @@
 #include "shared/packing.h"
 #include "shared/reorient_irradiance.h"
 
-/// What tells a pixel's surface from its neighbours'.
+/// The data of a pixel that distinguishes its surface from its neighbours'.
 struct GuidePixel {
   vec3 position_ws;
   vec3 normal_ws;  // 0 where nothing is seen
@@ -20,7 +20,7 @@ GuidePixel guide_pixel(vec4 point, uint normal) {
   return pixel;
 }
 
-/// Sums over pixels, by their weight.
+/// Weighted sums over pixels.
 struct BlurredLight {
   vec3 light;
   vec3 means;  // R of shared/reorient_irradiance.h
@@ -36,7 +36,7 @@ BlurredLight start_blur(uvec3 words) {
   return sum;
 }
 
-/// Adds a neighbour whose tap has that weight.
+/// Adds a neighbour, with the weight of its tap.
 void add_blurred(inout BlurredLight sum, GuidePixel here, GuidePixel there, uvec3 words,
                  float tap_weight, float inverse_tolerance) {
   float weight =
@@ -56,7 +56,7 @@ uvec3 finish_blur(BlurredLight sum) {
                pack_upper_halves(light.z, means.z));
 }
 
-/// What the mean light brings the pixel's own normal.
+/// Irradiance of the mean light at the pixel's own normal.
 vec3 relit(BlurredLight sum, GuidePixel here) {
   vec3 light = sum.light / sum.weight;
   return light * reoriented_fraction(sum.means / sum.weight, here.normal_ws, luminance(light));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light without extent sends to a pixel's surface, as that reflects it to the camera.
+// Unoccluded light of a light without extent at a pixel, as the pixel reflects it to the camera.
 #include "raytracing/coat_share.h"
 #include "rsm/shaders/direct_place.glsl"
 #include "shared/demodulate.h"
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push {
   DirectRaysArguments args;
 };
 
-/// What direct_light.glsl draws lights for. None are drawn here: each is asked by its index.
+/// Required by direct_light.glsl for random draws of lights; here, lights are chosen by index.
 struct AskingReceiver {
   LitPointRecord point;
 };
@@ -35,15 +35,15 @@ MediumRecord fetch_medium(DirectRaysArguments of, uint medium) {
 
 #include "scene/media/media.inl.h"
 
-/// A pixel that asks.
+/// A pixel that receives direct light.
 struct AskingPixel {
   LitPointRecord point;
   Reflectance reflectance;
   Frame frame;
-  vec3 to_viewer;  ///< In the frame.
+  vec3 to_viewer;  ///< Unit, in the frame.
 };
 
-/// The pixel at a place of the band; false where that is outside, or where nothing is seen.
+/// The pixel at a place of the band; false where that is outside, or shows nothing.
 bool find_pixel(ivec2 at, out AskingPixel pixel) {
   if (at.x >= args.width || at.y >= args.rows) return false;
   int i = at.y * args.width + at.x;
@@ -56,7 +56,7 @@ bool find_pixel(ivec2 at, out AskingPixel pixel) {
   return true;
 }
 
-/// Diffuse light over filtered_albedo. 0 where nothing is sent.
+/// Unoccluded light of a light; diffuse light is divided by filtered_albedo().
 ReflectedPair sent_light(AskingPixel pixel, uint light, out LightCandidate candidate) {
   LightRecord record = args.scene.at[0].lights.at[light];
   candidate = punctual_candidate(record, pixel.point);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Workgroups that work on a row of a sub-image: the rays of neighbours go to the same lights.
+// Workgroups process a row of a sub-image, so that the rays of neighbours go to the same lights.
 layout(local_size_x = 64) in;
 
 #include "rsm/shaders/sub_image.glsl"
@@ -11,7 +11,7 @@ ivec2 own_pixel() {
                             tile_of_group(kSubImages, 0) + ivec2(gl_LocalInvocationID), kSubImages);
 }
 
-/// Of this invocation among all.
+/// Index of this invocation among all.
 uint invocation_index() {
   return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x +
          gl_LocalInvocationIndex;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What all gathers do with a pixel before and after.
+// The parts that all gathers have in common: finding a pixel, and writing its light.
 layout(local_size_x = 32, local_size_y = 8) in;
 
 #include "rsm/vulkan/device_passes.h"
@@ -9,14 +9,14 @@ layout(local_size_x = 32, local_size_y = 8) in;
 #include "shared/packing.h"
 #include "shared/reorient_irradiance.h"
 
-/// A pixel that gathers.
+/// A pixel that gathers light.
 struct Pixel {
   ivec2 at;
   vec3 position_ws;
   vec3 normal_ws;
 };
 
-/// This invocation's place, where the first row of workgroups is that row of tiles.
+/// This invocation's place in its sub-image; `first_row`: row of tiles of the first workgroups.
 ivec2 own_place(int first_row) {
   return tile_of_group(kSubImages, first_row) + ivec2(gl_LocalInvocationID);
 }
@@ -33,20 +33,20 @@ bool find_pixel(DeviceView view, ivec2 size, ivec2 place, out Pixel pixel) {
   return true;
 }
 
-/// Of this invocation among all, workgroup after workgroup.
+/// Index of this invocation among all, workgroup after workgroup.
 uint invocation_index() {
   uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
   return group * gl_WorkGroupSize.x * gl_WorkGroupSize.y + gl_LocalInvocationIndex;
 }
 
-/// Restructures what blurs read of the pixel.
+/// Writes the pixel's geometry to the mosaic, for blurs.
 void write_guide(DeviceGuide guide, int place, Pixel pixel, float depth) {
   bool seen = depth > 0.0f && pixel.normal_ws != vec3(0.0f);
   guide.points.at[place] = vec4(pixel.position_ws, seen ? 1.0f / depth : 0.0f);
   guide.normals.at[place] = seen ? encode_unit_vector(pixel.normal_ws) : 0u;
 }
 
-/// Writes what the pixel gathered: to the picture, or as it can be blurred.
+/// Writes the pixel's light: to the picture, or to the mosaic in the form that can be blurred.
 void finish_pixel(DeviceView view, GatherTarget target, ivec2 size, uint flags, Pixel pixel,
                   GatheredLight gathered) {
   int i = pixel.at.y * size.x + pixel.at.x;

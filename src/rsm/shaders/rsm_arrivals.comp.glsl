@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// For each pixel, the share of its rays to texels that found nothing in their way.
+// Computes, for each pixel, the share of its rays to texels that are unoccluded.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/gather_pixel.glsl"

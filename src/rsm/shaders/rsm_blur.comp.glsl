@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The separable cross-bilateral blur: horizontally into shared memory, from there vertically. Among
-// the pixels of one of unit x unit sub-images, or, with a unit of 1, of the picture.
+// The separable cross-bilateral blur: horizontally into shared memory, and from there vertically.
+// It blurs each of unit x unit sub-images or, with a unit of 1, the picture.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 layout(local_size_x = 16, local_size_y = 16) in;
@@ -8,7 +8,7 @@ layout(local_size_x = 16, local_size_y = 16) in;
 #include "rsm/shaders/blurred.glsl"
 #include "rsm/shaders/sub_image.glsl"
 
-layout(constant_id = 1) const int kRelit = 0;  // 1: the end of all blurs
+layout(constant_id = 1) const int kRelit = 0;  // 1: the last blur, which writes relit irradiance
 layout(push_constant, scalar) uniform Push {
   BlurArguments args;
 };
@@ -42,7 +42,7 @@ void blur_across(inout BlurredLight sum, GuidePixel here, ivec2 pixel) {
   }
 }
 
-/// And along y, from what was blurred along x; `row` is the pixel's among those.
+/// Adds the pixels at all taps along y, from rows blurred along x; `row`: the pixel's among them.
 void blur_along(inout BlurredLight sum, GuidePixel here, ivec2 pixel, int row) {
   for (int k = 0; k < 2 * args.tap_count; ++k) {
     int rows = k % 2 == 0 ? -args.distances[k / 2] : args.distances[k / 2];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each texel of a camera's map reflects.
+// Computes the texels of a camera's map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_maps.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings the texels of each block of a map together.
+// Clusters the texels of each block of a map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_maps.h"

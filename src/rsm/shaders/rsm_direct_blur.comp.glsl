@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings together what arrives and what is sent around a pixel: first along rows, then along
-// columns, and dims the pixel's light by it.
+// Sums up arriving and unoccluded light around a pixel, first along rows, then along columns, and
+// scales the pixel's light by their ratio.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_direct.h"

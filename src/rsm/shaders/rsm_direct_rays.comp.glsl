@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadow rays to the lights that a sub-map's pixels ask, and what they are worth.
+// Makes shadow rays to the lights that a sub-map's pixels test, and stores their unoccluded light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/direct_lights.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lights send to a pixel if nothing is in the way: the brightest one, which is asked, and all
-// others.
+// Computes the unoccluded light of all lights at a pixel: of the brightest one, for which it makes
+// a shadow ray, and of the sum of all others.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/direct_lights.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What arrives at a pixel of the lights that it asks, slot after slot.
+// Sums up the light that arrives at a pixel from the lights that it tests, slot after slot.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/direct_place.glsl"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers the light of a sub-map at the pixels of the sub-images that ask it. A workgroup's pixels
-// are all of one sub-image, so its texels are fetched once for all of them.
+// Gathers the light of a sub-map at the pixels of the sub-images that use it. All pixels of a
+// workgroup are of one sub-image, so that its texels are fetched once for all of them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/gather_pixel.glsl"
@@ -13,7 +13,7 @@ const int kGroup = int(gl_WorkGroupSize.x * gl_WorkGroupSize.y);
 const int kTexelVectors = 3;
 shared vec4 staged[kGroup * kTexelVectors];
 
-/// Has each invocation fetch one texel; those beyond the last bring nothing.
+/// Has each invocation fetch one texel; those beyond the last have no light.
 void stage_texel(int sub_map, int k) {
   RsmTexelRecord texel = {vec3(0.0f), 0.0f, vec3(0.0f), 1.0f, vec3(0.0f), 0.0f};
   if (k < args.count) {
@@ -34,7 +34,7 @@ RsmTexelRecord staged_texel(int k) {
   return texel;
 }
 
-/// This invocation's pixels, one below the other's tile.
+/// Places of this invocation's pixels, one below the other by a tile's height.
 ivec2 place_of(int i) {
   ivec2 place = own_place(0);
   int rows = int(gl_WorkGroupSize.y);

@@ -8,7 +8,7 @@ layout(push_constant, scalar) uniform Push {
   DiskArguments args;
 };
 
-/// Where a map's texel (x, y) of a sub-map lies.
+/// Index of texel `place` of a sub-map in the map's array.
 uint texel_index(int resolution, ivec2 sub_map, ivec2 place) {
   ivec2 texel = pixel_of_sub_image(sub_map, place, args.sub_maps);
   bool rendered = (args.flags & kGatherRendered) != 0u;
@@ -23,7 +23,7 @@ void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
                      sub_image_size(map.resolution, sub_map.y, n));
   vec2 middle = project_to_map(map.projection, pixel.position_ws, map.resolution);
   for (int k = 0; k < args.count; ++k) {
-    // Sub-maps share the disk's samples, and each stands for all of them
+    // Sub-maps share out the disk's samples, and each represents all of them
     DiskSample disk = map.samples.at[sub_map_of(sub_map, n) * args.count + k];
     ivec2 place = nearest_in_sub_map(middle + disk.offset, sub_map, n);
     if (place.x < 0 || place.y < 0 || place.x >= size.x || place.y >= size.y) continue;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gathers the light of sub-maps at the pixels of a picture that is not restructured: neighbours ask
-// different ones. What restructuring is measured against.
+// Gathers the light of sub-maps at the pixels of a picture that is not restructured, where
+// neighbours use different sub-maps. The baseline that restructuring is compared with.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/gather_pixel.glsl"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ray through the middle of each texel of a map.
+// Makes a ray through the middle of each texel of a map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_maps.h"

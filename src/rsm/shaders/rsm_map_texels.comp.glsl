@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each texel of a light's map reflects.
+// Computes the texels of a light's map.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "raytracing/shaders/surface_at.glsl"
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
 
 RsmTexelRecord texel_at(ivec2 place, RayRecord ray, HitRecord hit) {
   if (missed(hit)) return empty_texel();
-  // What casts no indirect light keeps it off what is behind, too
+  // Instances that cast no indirect light still shadow what is behind them
   uint flags = args.scene.at[0].instances.at[hit.instance].flags;
   if ((flags & kInstanceCastsGi) == 0u) return empty_texel();
   float cross_section =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gives each surface of the frame the light of the pixels of the small picture that show it.
+// Upsamples the light of the small view to the surfaces of the frame.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_passes.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The first pixels of a sequence that see something. One workgroup: each invocation looks at a run
-// of draws.
+// Finds the first pixels of a sequence that show a surface. One workgroup; each invocation tests a
+// run of draws.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_maps.h"
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
 const uint kRun = kViewPointDraws / gl_WorkGroupSize.x;
 shared int seen_before[gl_WorkGroupSize.x];
 
-/// The pixel of a draw, or -1 where it sees nothing.
+/// The pixel of a draw, or -1 where it shows nothing.
 int seen_pixel(uint draw, vec2 shift) {
   ivec2 at = view_point_pixel(draw, shift, ivec2(args.width, args.height));
   int pixel = at.y * args.width + at.x;
@@ -27,7 +27,7 @@ void main() {
   int own = 0;
   for (uint i = 0u; i < kRun; ++i) own += seen_pixel(first + i, shift) >= 0 ? 1 : 0;
 
-  // Sum up what earlier runs saw
+  // Count the pixels that earlier runs found
   seen_before[gl_LocalInvocationIndex] = own;
   barrier();
   int place = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws texels for each pixel, stratified over what they bring, and makes the rays to them.
+// Samples texels for each pixel, stratified over the light they contribute, and makes rays to them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/shaders/gather_pixel.glsl"
@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push {
   VisibilityArguments args;
 };
 
-shared uint asking;  // pixels of this workgroup
+shared uint asking;  // number of this workgroup's pixels that trace rays
 
 /// Counts the rays of the workgroup.
 void count_rays(bool asks) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a watt of each cluster brings to points of the view.
+// Computes the light of a watt of each cluster at points of the view.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "rsm/vulkan/device_maps.h"

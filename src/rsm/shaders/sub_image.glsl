@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Workgroups that work in one sub-image each. Neighbouring workgroups work on the same part of the
+// Each workgroup processes one sub-image. Neighbouring workgroups process the same part of the
 // picture in one sub-image after the other, so that what they read of it stays in the cache.
 #include "rsm/deinterleave.h"
 
@@ -11,7 +11,7 @@ ivec2 sub_image_of_group(int units) {
   return ivec2(sub % units, sub / units);
 }
 
-/// First place of its tile, where the first row of workgroups is that row of tiles.
+/// First place of this workgroup's tile; `first_row`: row of tiles of the first workgroups.
 ivec2 tile_of_group(int units, int first_row) {
   return ivec2(int(gl_WorkGroupID.x) / (units * units), int(gl_WorkGroupID.y) + first_row) *
          ivec2(gl_WorkGroupSize);

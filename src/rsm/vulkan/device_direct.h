@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes take on a device that find direct light in the sub-images of a view. They work on
-// bands of its rows, of which the first is a multiple of the sub-images: places below are a band's.
+// Arguments of the passes on a device that compute direct light in the sub-images of a view. They
+// process bands of its rows, which begin at multiples of the sub-images: places below are a band's.
 #ifndef LAMBENT_RSM_VULKAN_DEVICE_DIRECT_H
 #define LAMBENT_RSM_VULKAN_DEVICE_DIRECT_H
 
@@ -10,40 +10,40 @@
 
 LAMBENT_BEGIN
 
-/// Lights of a band's pixels, and rays that ask whether they arrive. Slots lie one after the other,
-/// each with one ray for each invocation, workgroup after workgroup.
+/// Lights of a band's pixels, and their shadow rays. Slots are stored one after the other, each
+/// with one ray for each invocation, workgroup after workgroup.
 struct DirectRaysArguments {
   SceneArray scene;
   LitPointArray points;
   PixelSurfaceArray surfaces;
-  RayArray shadow_rays;      ///< Mask 0 where nothing is to be had.
-  ReflectedPairArray pairs;  ///< What arrives by a ray, if anything does; weighted.
-  UintArray ray_count;       ///< Rays drawn so far: one number.
+  RayArray shadow_rays;      ///< Mask 0 where the slot has no light.
+  ReflectedPairArray pairs;  ///< Weighted light of a slot if its ray is unoccluded.
+  UintArray ray_count;       ///< One number: rays drawn so far.
   MediumArray media;
-  DealtLightArray dealt;  ///< Sub-map after sub-map.
-  /// The view's: what all lights but the brightest send, and which that is; written by
-  /// rsm_direct_sent, where lights are shared out. Else no address.
+  DealtLightArray dealt;  ///< Lights of one sub-map after the other.
+  /// For the whole view: unoccluded light of all lights but the brightest, and the index of that
+  /// one; written by rsm_direct_sent where lights are shared out. Otherwise addresses are 0.
   ReflectedPairArray direct;
   UintArray brightest;
-  int width;      ///< Of the view [pixels].
-  int first_row;  ///< Of the band.
+  int width;      ///< Width of the view [pixels].
+  int first_row;  ///< First row of the band.
   int rows;
   int sub_maps;
-  int per_sub_map;  ///< Lights that a pixel asks,
-  int first_slot;   ///< of which this is the first one,
-  int slots;        ///< and these are so many.
-  int lights;       ///< Of the scene.
+  int per_sub_map;  ///< Number of lights that a pixel tests.
+  int first_slot;   ///< First of these lights that is processed.
+  int slots;        ///< Number of these lights that are processed.
+  int lights;       ///< Number of lights in the scene.
   uint media_count;
   uint is_shared;
 };
 
-/// Sums what arrives.
+/// Sums up the light that arrives.
 struct DirectSumArguments {
   ReflectedPairArray pairs;
   UintArray occluded;
-  Vec3Array through;          ///< In place of it where has_glass is 1.
-  ReflectedPairArray direct;  ///< The view's, ...
-  LightShareArray shares;     ///< ... or these where lights are shared out.
+  Vec3Array through;          ///< Replaces `occluded` where has_glass is 1.
+  ReflectedPairArray direct;  ///< Result for the view where lights are not shared out.
+  LightShareArray shares;     ///< Result for the view where lights are shared out.
   int width;
   int first_row;
   int rows;
@@ -54,13 +54,14 @@ struct DirectSumArguments {
   uint unused;
 };
 
-/// A direction of the blur of what arrives and what is sent.
+/// One direction of the blur of arriving and unoccluded light.
 struct DirectBlurArguments {
   DeviceView view;
   LightShareArray shares;
   LightShareArray blurred;       ///< Written by the first direction.
-  ReflectedPairArray brightest;  ///< What arrives of each pixel's brightest light.
-  ReflectedPairArray direct;     ///< That of the others, dimmed by the last one, and both added up.
+  ReflectedPairArray brightest;  ///< Arriving light of each pixel's brightest light.
+  ReflectedPairArray
+      direct;  ///< Unoccluded light of the others; the last direction writes the sum.
   int width;
   int height;
   int period;
@@ -69,13 +70,13 @@ struct DirectBlurArguments {
   uint unused;
 };
 
-/// From the view's light to a band of a frame's.
+/// Upsamples the view's light to a band of a frame.
 struct DirectUpsampleArguments {
   DeviceView view;
   ReflectedPairArray direct;
   LitPointArray points;
   PixelSurfaceArray surfaces;
-  Vec3Array diffuse;  ///< Of the frame's pixels; light is added, as it is to the next.
+  Vec3Array diffuse;  ///< Of the frame's pixels; light is added here and to `specular`.
   Vec3Array specular;
   int view_width;
   int view_height;

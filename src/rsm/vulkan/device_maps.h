@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes take on a device that make maps and bring their texels together.
+// Arguments of the passes on a device that render maps and cluster their texels.
 #ifndef LAMBENT_RSM_VULKAN_DEVICE_MAPS_H
 #define LAMBENT_RSM_VULKAN_DEVICE_MAPS_H
 
@@ -9,15 +9,15 @@
 
 LAMBENT_BEGIN
 
-/// A ray a texel.
+/// Makes a ray for each texel.
 struct MapRaysArguments {
   RayArray rays;
   MapProjection projection;
   int resolution;
-  uint mask;  ///< Of the rays.
+  uint mask;  ///< Mask of the rays.
 };
 
-/// The texels of a light's map, from what its rays met.
+/// Computes the texels of a light's map from its rays' hits.
 struct MapTexelsArguments {
   SceneArray scene;
   RayArray rays;
@@ -25,11 +25,11 @@ struct MapTexelsArguments {
   RsmTexelArray texels;
   MapProjection projection;
   int resolution;
-  uint light;  ///< Index among the scene's.
+  uint light;  ///< Index of the light in the scene.
   uint unused;
 };
 
-/// The texels of a camera's map, from what its rays met and how that was lit.
+/// Computes the texels of a camera's map from its rays' hits and their direct light.
 struct CameraTexelsArguments {
   SceneArray scene;
   RayArray rays;
@@ -43,8 +43,8 @@ struct CameraTexelsArguments {
   uint unused;
 };
 
-/// Points of the view: kViewPoints positions, then as many normals; those beyond the last see
-/// nothing.
+/// Finds points of the view: writes kViewPoints positions, then as many normals; unused entries
+/// have no normal.
 struct ViewPointsArguments {
   DeviceView view;
   Vec3Array points;
@@ -55,19 +55,19 @@ struct ViewPointsArguments {
   uint unused;
 };
 
-/// kBlockSurfaces clusters of each block of a map, block after block, row after row.
+/// Writes kBlockSurfaces clusters for each block of a map, block after block, row after row.
 struct ClusterArguments {
   RsmTexelArray texels;
   ClusterArray clusters;
   int resolution;
-  int blocks;  ///< Along an edge.
+  int blocks;  ///< Number of blocks along an edge.
 };
 
-/// What clusters bring to points.
+/// Computes the light of clusters at points.
 struct WeighArguments {
   Vec3Array points;
   ClusterArray clusters;
-  int count;  ///< Of clusters.
+  int count;  ///< Number of clusters.
   uint unused;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the passes of a gather take on a device. Pictures are arrays, rows from the top; mosaics lie
-// as mosaic_index (rsm/deinterleave.h) tells.
+// Arguments of the passes of a gather on a device. Pictures are arrays, rows from the top; mosaics
+// are addressed by mosaic_index() (rsm/deinterleave.h).
 #ifndef LAMBENT_RSM_VULKAN_DEVICE_PASSES_H
 #define LAMBENT_RSM_VULKAN_DEVICE_PASSES_H
 
@@ -11,36 +11,36 @@
 
 LAMBENT_BEGIN
 
-/// What the camera sees, as struct RsmView of lambent/rsm.h.
+/// What the camera sees; see RsmView in lambent/rsm.h.
 struct DeviceView {
   Vec3Array positions_ws;
   Vec3Array normals_ws;
   FloatArray depths;
 };
 
-/// The same restructured, as blurs read it: 20 bytes a pixel.
+/// The same, restructured for blurs: 20 bytes a pixel.
 struct DeviceGuide {
   Vec4Array points;   ///< Position [m], one over depth [1/m]; 0: nothing is seen.
-  UintArray normals;  ///< encode_unit_vector.
+  UintArray normals;  ///< encode_unit_vector().
 };
 
-/// Where the light of a gather goes.
+/// The outputs of a gather.
 struct GatherTarget {
-  DeviceGuide guide;  ///< Filled where light is blurred.
-  /// Where light is blurred: three planes of pack_upper_halves, irradiance and R of
+  DeviceGuide guide;  ///< Written where light is blurred.
+  /// Written where light is blurred: three planes of pack_upper_halves(), irradiance and R of
   /// shared/reorient_irradiance.h, red and x, green and y, blue and z.
   UintArray light;
-  Vec3Array picture;   ///< Where it is not: irradiance [W/m^2].
-  FloatArray arrived;  ///< With kGatherDimmed: share of the light that arrives, a pixel.
+  Vec3Array picture;   ///< Written where light is not blurred: irradiance [W/m^2].
+  FloatArray arrived;  ///< With kGatherDimmed: share of the light that arrives; one a pixel.
 };
 
 const uint kGatherBlurred = 1u;  ///< Light will be blurred.
-const uint kGatherDimmed = 2u;
-/// Texels are asked where they were rendered: `places` tells where.
+const uint kGatherDimmed = 2u;   ///< Light is scaled by GatherTarget::arrived.
+/// Texels are read in the order as rendered, at the indices `places`.
 const uint kGatherRendered = 4u;
 
-/// Pixels of an invocation of rsm_gather, a tile's height apart: a texel that was read from the
-/// workgroup's memory, which takes as long as its arithmetic, serves all of them.
+/// Pixels of an invocation of rsm_gather, a tile's height apart: reading a texel from the
+/// workgroup's memory, which takes as long as its arithmetic, then serves all of them.
 const int kGatherPixels = 2;
 
 struct RsmGatherArguments {
@@ -51,15 +51,15 @@ struct RsmGatherArguments {
   int width;
   int height;
   int sub_maps;
-  int count;  ///< Texels a sub-map.
+  int count;  ///< Texels in a sub-map.
   uint flags;
   uint unused;
 };
 
-/// A map whose texels a disk samples.
+/// A map that a disk samples.
 struct DiskMap {
   RsmTexelArray texels;
-  DiskSampleArray samples;  ///< For the sub-maps in turn: `count` of each.
+  DiskSampleArray samples;  ///< `count` samples for each sub-map, one sub-map after the other.
   MapProjection projection;
   int resolution;
 };
@@ -73,28 +73,30 @@ struct DiskArguments {
   int width;
   int height;
   int sub_maps;
-  int count;  ///< Samples a sub-map.
+  int count;  ///< Samples for a sub-map.
   uint flags;
   float softening;
   uint unused;
 };
 
-/// Rays of pixels to texels of their sub-maps. They lie workgroup after workgroup, invocation after
-/// invocation, `rays_per_pixel` of each; those of pixels that gather nothing are not traced.
+/// Rays from pixels to texels of their sub-maps. They are stored workgroup after workgroup,
+/// invocation after invocation, `rays_per_pixel` of each; those of pixels that gather nothing are
+/// not traced.
 struct VisibilityArguments {
   DeviceView view;
   RsmTexelArray texels;
   RayArray rays;
-  UintArray occluded;   ///< A word a ray: what was found.
-  FloatArray arrived;   ///< A pixel of the picture: the share of rays that arrive.
-  UintArray ray_count;  ///< One word: rays to be traced are added to it.
+  UintArray occluded;  ///< The rays' results; a word a ray.
+  FloatArray
+      arrived;  ///< The share of rays that are unoccluded; one for each pixel of the picture.
+  UintArray ray_count;  ///< One word, to which the number of traced rays is added.
   int width;
   int height;
   int sub_maps;
-  int count;           ///< Texels a sub-map.
-  int first_tile_row;  ///< Rows of tiles before these.
+  int count;           ///< Texels in a sub-map.
+  int first_tile_row;  ///< First row of tiles.
   int rays_per_pixel;
-  uint mask;  ///< Of the rays.
+  uint mask;  ///< Mask of the rays.
   uint seed;
 };
 
@@ -102,22 +104,22 @@ struct RestructureArguments {
   RsmTexelArray rendered;
   RsmTexelArray sub_maps;
   int resolution;
-  int count;  ///< Of sub-maps along an edge.
+  int count;  ///< Number of sub-maps along an edge.
 };
 
 const int kMaxBlurTaps = 8;
-/// A blur's tile, and how far its taps may reach.
+/// Edge of a blur's tile, and the farthest tap [pixels of a sub-image].
 const int kBlurTile = 16;
 const int kMaxBlurReach = 8;
 
 struct BlurArguments {
   DeviceGuide guide;
   UintArray light;
-  UintArray blurred;  ///< As `light`, or, relit at last, not written.
+  UintArray blurred;  ///< The result, in the format of `light`; not written by the last blur.
   Vec3Array picture;  ///< Relit irradiance [W/m^2].
   int width;
   int height;
-  int unit;  ///< Distance of taps of 1 [pixels of the picture].
+  int unit;  ///< Distance of a tap at distance 1 [pixels of the picture].
   int reach;
   float inverse_tolerance;  ///< One over RsmSettings::plane_tolerance.
   int tap_count;
@@ -125,8 +127,7 @@ struct BlurArguments {
   float weights[kMaxBlurTaps];
 };
 
-/// From a picture of 1 / downscale of the size, whose view and light these are, to the frame's
-/// surfaces.
+/// Upsamples light from a picture of 1 / downscale of the size to the frame's surfaces.
 struct UpsampleArguments {
   DeviceView small;
   Vec3Array light;
@@ -136,7 +137,7 @@ struct UpsampleArguments {
   int small_height;
   int width;
   int height;
-  int first_row;  ///< Of the frame, which the surfaces begin with.
+  int first_row;  ///< First row of the surfaces, counted in the frame.
   float inverse_downscale;
   float plane_tolerance;
 };

@@ -16,7 +16,7 @@
 namespace lambent {
 namespace {
 
-// Rays that are in memory at once, where the rays of a band's pixels to one light are no more.
+// Most rays in memory at once, unless the rays of a band's pixels to one light are more.
 constexpr std::uint32_t kMaxRays = 1u << 20;
 
 // Specialisation constant of src/rsm/shaders/sub_image.glsl.
@@ -28,7 +28,7 @@ vulkan::Kernel make_kernel(const vulkan::Device& device, vulkan::Spirv spirv, co
   return {device, spirv, name, {&constant, 1}};
 }
 
-/// Those that all views need, kept by the device (Device::kept).
+/// Kernels that all views need, owned by the device (Device::kept).
 class AllKernels {
  public:
   explicit AllKernels(const vulkan::Device& device)
@@ -36,7 +36,7 @@ class AllKernels {
         upsample(device, shaders::rsm_direct_upsample_comp(), "rsm.direct_upsample"),
         device_(device) {}
 
-  /// Compiled at the first call for a number of sub-images.
+  /// Compiles the kernels at the first call for a number of sub-images.
   const RsmDirectKernels& of(int sub_images) {
     const std::lock_guard lock(compiling_);
     return compiled_.try_emplace(sub_images, device_, sub_images).first->second;
@@ -87,7 +87,7 @@ void RsmDirectVulkan::start(std::size_t lights, const RsmSettings& settings, int
 }
 
 RsmDirectVulkan::Groups RsmDirectVulkan::groups(int rows) const {
-  // The sub-images' rows take turns along x, in groups as wide as the kernels'
+  // Rows of sub-images take turns along x, in groups as wide as the kernels'
   constexpr int kGroup = 64;
   const int p = settings_.sub_images;
   const int across = (sub_image_size(width_, 0, p) + kGroup - 1) / kGroup;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Direct light of directional, point and spot lights, found in the sub-images of a view on a Vulkan
-// device.
+// Direct light of directional, point and spot lights, computed in the sub-images of a view on a
+// Vulkan device.
 #pragma once
 
 #include <cstddef>
@@ -18,36 +18,36 @@
 
 namespace lambent {
 
-/// Compiled for a number of sub-images along an edge of the picture.
+/// Kernels that are compiled for a number of sub-images along an edge of the picture.
 struct RsmDirectKernels {
   RsmDirectKernels(const vulkan::Device& device, int sub_images);
   vulkan::Kernel rays, sent, sum;
 };
 
-/// Finds the light, and keeps it there from frame to frame: 24 bytes a pixel, 100 where lights are
-/// shared out, and 69 to 140 MB of rays.
+/// Computes the light, and keeps its buffers from frame to frame: 24 bytes a pixel, 100 where
+/// lights are shared out, and 69 to 140 MB of rays.
 class RsmDirectVulkan {
  public:
   /// The device must outlive it.
   explicit RsmDirectVulkan(const vulkan::Device& device);
 
-  /// Starts a view of that size: deals so many lights to its sub-images.
+  /// Starts a view of this size, and deals `lights` lights to its sub-images.
   void start(std::size_t lights, const RsmSettings& settings, int width, int height);
 
-  /// Rows of a band that has about so many pixels.
+  /// Number of rows of a band that has about `pixels` pixels.
   int rows_of_a_band(std::uint32_t pixels) const;
-  /// Records what makes room for bands of so many rows; what was recorded before must have run.
+  /// Makes room for bands of this many rows; earlier recordings must have run.
   void reserve_band(int rows);
-  /// Records the light of a band of rows, whose pixels lie in these arrays; the first row is a
-  /// multiple of rows_of_a_band. Then a barrier.
+  /// Records the light of a band of rows, whose pixels are in these arrays, and a barrier. The
+  /// first row is a multiple of rows_of_a_band().
   void record_band(vulkan::Recorder& recorder, const DeviceStage& stage, const DevicePixels& pixels,
                    int first_row, int rows);
-  /// After all bands: records that lights which are shared out are brought together.
+  /// After all bands: records the blur of arriving shares, where lights are shared out.
   void record_finish(vulkan::Recorder& recorder, const RsmViewOnDevice& view);
-  /// Shadow rays of the view. Waits.
+  /// Number of shadow rays of the view. Waits for the device.
   std::uint64_t rays() const;
 
-  /// Records that `count` pixels of a frame, from `first_row` on, take their light from the view.
+  /// Records the upsampling of the view's light to `count` pixels of a frame, from `first_row` on.
   /// `camera` is the view's.
   void record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& view,
                          const DevicePixels& pixels, const Camera& camera, int width, int first_row,
@@ -55,15 +55,15 @@ class RsmDirectVulkan {
 
  private:
   struct Groups {
-    std::uint32_t width, height;  // of a dispatch
+    std::uint32_t width, height;  // invocations of a dispatch
     std::uint32_t invocations() const { return width * height; }
   };
   Groups groups(int rows) const;
-  /// Records that the rays of so many slots are traced, and what arrives summed: as light of
-  /// `target`, or where `is_share`, as shares.
+  /// Records the tracing of the rays of `slots` slots, and the sum of the light that arrives: as
+  /// light in `target` or, if `is_share`, as shares.
   void record_sum(vulkan::Recorder& recorder, const DeviceStage& stage, int first_row, int rows,
                   int first_slot, int slots, const vulkan::Buffer& target, bool is_share);
-  /// Slots of a band of so many rows that are worked on at once.
+  /// Number of slots of a band of this many rows that are processed at once.
   int slots_at_once(int rows) const;
   const RsmDirectKernels& kernels();
 

@@ -16,10 +16,10 @@ namespace {
 
 using vulkan::Memory;
 
-// Groups of passes that are timed.
+// Number of groups of passes that are timed.
 constexpr std::uint32_t kTimedPasses = 8;
 
-/// Samples of the disks of a map, for the sub-maps in turn.
+/// Adds the samples of the disks of a map, for one sub-map after the other.
 void add_samples(int resolution, const RsmSettings& settings, int per_sub_map,
                  std::vector<DiskSample>& samples) {
   const int subs = settings.sub_maps * settings.sub_maps;
@@ -32,7 +32,7 @@ void add_samples(int resolution, const RsmSettings& settings, int per_sub_map,
   }
 }
 
-/// Forgets what a result held.
+/// Clears a result.
 void start(int width, int height, RsmIrradiance& result) {
   result.width = width;
   result.height = height;
@@ -57,7 +57,7 @@ const RsmKernels& RsmGatherKernels::of(int sub_images) {
 
 RsmGathererVulkan::RsmGathererVulkan(const vulkan::Device& device)
     : device_(device), kernels_(device.kept<RsmGatherKernels>()) {
-  // Passes are given addresses of what they do not read, too
+  // Passes also receive addresses of buffers that they do not read
   texels_.places.reserve(device_, 0, "rsm.places");
   picture_.arrived.reserve(device_, 0, "rsm.arrived");
   picture_.points.reserve(device_, 0, "rsm.points");
@@ -79,7 +79,7 @@ void RsmGathererVulkan::set_lights(const RsmLights& lights, const RsmSettings& s
   vulkan::write(device_, std::span(lights.places), texels_.places);
 }
 
-/// A map on the device, as it was rendered.
+/// A map on the device, with texels in the order as rendered.
 struct RsmGathererVulkan::DiskSource {
   const RsmProjection* projection;
   int resolution;

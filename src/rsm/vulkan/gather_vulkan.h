@@ -13,46 +13,46 @@
 
 namespace lambent {
 
-/// Gathers the light of maps on a device, and keeps its buffers there from frame to frame: 44 bytes
-/// a pixel (12 for what is not blurred), and 40 a ray for visibility.
+/// Gathers the light of maps on a device. Keeps its buffers from frame to frame: 44 bytes a pixel
+/// (12 without blurs), and 40 for each ray for visibility.
 class RsmGathererVulkan {
  public:
   /// The device must outlive it.
   explicit RsmGathererVulkan(const vulkan::Device& device);
 
-  /// Brings the texels that RsmPattern::whole gathers to the device. Waits for the copy.
+  /// Uploads the texels that RsmPattern::whole gathers. Waits for the copy.
   void set_lights(const RsmLights& lights, const RsmSettings& settings);
-  /// Brings maps to the device, as RsmPattern::disk reads them. Waits.
+  /// Uploads maps for RsmPattern::disk. Waits for the copy.
   void set_maps(std::span<const ReflectiveShadowMap> maps, const RsmSettings& settings);
-  /// The same of maps that are there, and must stay.
+  /// The same for maps that are on the device already; they must stay there.
   void set_maps(const RsmMapsOnDevice& maps, const RsmSettings& settings);
 
-  /// Records all passes and a barrier after each. What was set must have been so with the same
-  /// settings, which must be in range. `tracer` is asked for visibility alone, and may be null
-  /// without. The view and this must outlive the execution, which must have ended when this is
-  /// called again.
+  /// Records all passes, with a barrier after each. set_lights() or set_maps() must have been
+  /// called with the same settings, which must be in range. `tracer` is used for visibility alone,
+  /// and may be null without it. The view and this object must outlive the execution, which must
+  /// have ended before the next call.
   void record(vulkan::Recorder& recorder, const RsmViewOnDevice& view, const RsmSettings& settings,
               const DeviceTracer* tracer = nullptr, bool keep_stages = false);
 
   /// Records the upsampling of the last view's light, which must have had these settings, to
-  /// surfaces of a larger frame, or of its rows from `first_row` on: where their depth is 0,
-  /// `irradiance` becomes 0. Then a barrier.
+  /// surfaces of a larger frame, or of its rows from `first_row` on, and a barrier. Where the depth
+  /// of a surface is 0, `irradiance` becomes 0.
   void record_upsampling(vulkan::Recorder& recorder, const RsmViewOnDevice& small,
                          const RsmSettings& settings, const RsmViewOnDevice& frame, int first_row,
                          Vec3Array irradiance) const;
 
-  /// Irradiance of the last view recorded: width * height of vec3, rows from the top [W/m^2]. The
+  /// Irradiance of the last view recorded: width * height vec3, rows from the top [W/m^2]. The
   /// buffer may be larger.
   const vulkan::Buffer& irradiance() const { return picture_.picture; }
 
-  /// Gathers the light of maps that `mapper` made or prepared, and leaves it on the device; the
-  /// result's times, rays and stages are filled in. Waits.
+  /// Gathers the light of maps that `mapper` rendered or prepared, and leaves it on the device;
+  /// fills in the result's times, rays and stages. Waits for the device.
   void light(RsmMapperVulkan& mapper, const RsmMapsOnDevice& maps, const RsmViewOnDevice& view,
              const RsmSettings& settings, const DeviceWorld& world, RsmIrradiance& result,
              bool keep_stages = false);
 
-  /// All of it, as RsmGatherer does: brings everything to the device, and the light back. Textures
-  /// that the tracer needs: `textures`.
+  /// Does all steps, as RsmGatherer does: uploads everything, and reads the light back. `textures`:
+  /// those that the tracer needs.
   void gather(std::span<const ReflectiveShadowMap> maps, const RsmView& view,
               const RsmSettings& settings, RsmIrradiance& result,
               const DeviceTracer* tracer = nullptr, VkDescriptorSet textures = VK_NULL_HANDLE,

@@ -202,7 +202,7 @@ RsmLights RsmMapperVulkan::choose(const RsmMapsOnDevice& maps, const RsmViewOnDe
                                   const RsmSettings& settings, const DeviceWorld* world,
                                   double* map_ms) {
   assert(!maps.one_at_a_time || (world != nullptr && map_ms != nullptr));
-  // Where every texel is gathered, or from where it was rendered, all go to the host
+  // Where all texels are gathered, or read in the order as rendered, download all maps
   const bool full = settings.layout == RsmLayout::full;
   std::vector<ReflectiveShadowMap> on_host;
   if (settings.texels == 0 || full) on_host = download_maps(device_, maps);

@@ -20,7 +20,7 @@ namespace {
 // Specialisation constants of src/rsm/shaders/.
 constexpr std::uint32_t kSubImagesConstant = 0, kRelitConstant = 1;
 
-// Of the workgroups that gather; see src/rsm/shaders/gather_pixel.glsl.
+// Size of the gathers' workgroups; see src/rsm/shaders/gather_pixel.glsl.
 constexpr int kGatherTileWidth = 32, kGatherTileHeight = 8;
 
 vulkan::Kernel make_kernel(const vulkan::Device& device, vulkan::Spirv spirv, const char* name,
@@ -35,7 +35,7 @@ int groups(int size, int group) {
   return (size + group - 1) / group;
 }
 
-/// Rays of a row of tiles.
+/// Number of rays of a row of tiles.
 std::size_t rays_of_row(int width, const RsmSettings& settings) {
   const int p = mosaic_sub_images(settings);
   const auto tiles =
@@ -92,7 +92,7 @@ RsmPassesOnDevice::RsmPassesOnDevice(vulkan::Recorder& recorder, const RsmKernel
 
 RsmPassesOnDevice::Tiles RsmPassesOnDevice::tiles_of(const vulkan::Kernel& kernel,
                                                      int units) const {
-  // The sub-images' tiles take turns along x
+  // Tiles of sub-images take turns along x
   const auto tile_width = static_cast<int>(kernel.group_size(0));
   const int across = groups(sub_image_size(view_.width, 0, units), tile_width);
   return {static_cast<std::uint32_t>(across * units * units * tile_width),
@@ -127,7 +127,7 @@ void RsmPassesOnDevice::gather() {
 void RsmPassesOnDevice::gather_whole() {
   const int p = mosaic_sub_images(settings_);
   const bool rendered = settings_.layout == RsmLayout::full;
-  // Where the picture is not restructured, neighbouring pixels ask different sub-maps
+  // Where the picture is not restructured, neighbouring pixels use different sub-maps
   const bool mixed = p == 1 && settings_.sub_maps > 1;
   const vulkan::Kernel& kernel = mixed ? kernels_.gather_mixed : kernels_.gather;
   const vulkan::Buffer& texels = rendered ? texels_.rendered : texels_.restructured;
@@ -233,7 +233,7 @@ void RsmPassesOnDevice::blur_sub_images(std::span<const BlurTap> taps) {
 }
 
 void RsmPassesOnDevice::interleave(std::span<const BlurTap> taps) {
-  // What is not blurred was gathered into the picture
+  // Light that is not blurred was gathered into the picture
   if (blurs(settings_)) blur(taps, 1, &picture_.picture);
 }
 

@@ -17,13 +17,13 @@
 
 namespace lambent {
 
-/// What the camera sees, as buffers of a device that its owner keeps.
+/// What the camera sees, in buffers of a device that the caller owns.
 struct RsmViewOnDevice {
   int width = 0, height = 0;
   DeviceView arrays;  ///< Each of width * height entries, rows from the top.
 };
 
-/// A view of the host's, copied to a device.
+/// A view of the host, copied to a device.
 struct UploadedRsmView {
   UploadedRsmView(const vulkan::Device& device, const RsmView& view)
       : positions(vulkan::upload(device, view.positions_ws, "rsm.positions")),
@@ -36,18 +36,18 @@ struct UploadedRsmView {
   RsmViewOnDevice on_device;
 };
 
-/// Compiled for a number of sub-images along an edge of the mosaic.
+/// Kernels that are compiled for a number of sub-images along an edge of the mosaic.
 struct RsmKernels {
   RsmKernels(const vulkan::Device& device, int sub_images);
   vulkan::Kernel gather, gather_mixed, gather_disk, visibility_rays, arrivals, blur, blur_relit;
 };
 
-/// Those that gathers need, kept by the device (Device::kept).
+/// All kernels of gathers, owned by the device (Device::kept).
 class RsmGatherKernels {
  public:
   explicit RsmGatherKernels(const vulkan::Device& device);
 
-  /// Compiled at the first call for a number of sub-images.
+  /// Compiles the kernels at the first call for a number of sub-images.
   const RsmKernels& of(int sub_images);
 
   vulkan::Kernel restructure, upsample;
@@ -58,37 +58,38 @@ class RsmGatherKernels {
   std::map<int, RsmKernels> compiled_;
 };
 
-/// Texels that are gathered. RsmPattern::whole: those of sub-maps one after the other, `count` of
-/// each; where maps are read as rendered, all texels of all maps and where in them the former are.
+/// Texels that are gathered. RsmPattern::whole: those of one sub-map after the other, `count` of
+/// each. Where maps are read as rendered: all texels of all maps, and the indices of the former in
+/// them.
 struct RsmTexelsOnDevice {
   vulkan::Buffer restructured, rendered, places;
   int count = 0;
-  // RsmPattern::disk: DiskMaps, their texels and samples
+  // RsmPattern::disk: DiskMaps, with their texels and samples
   vulkan::Buffer maps, map_texels, samples;
   int map_count = 0, samples_per_sub_map = 0;
 };
 
-/// What passes keep of a picture; see GatherTarget.
+/// Buffers of a picture; see GatherTarget.
 struct RsmPictureOnDevice {
   vulkan::Buffer points, normals, light, blurred, arrived, picture;
   vulkan::Buffer stages[kRsmStages];  ///< RsmStage::blurred is the picture itself.
   vulkan::Buffer rays, occluded, ray_count;
 };
 
-/// Rays for visibility that are in memory at a time, at most, where a row of tiles has fewer.
+/// Most rays for visibility in memory at a time, unless a row of tiles has more.
 inline constexpr std::uint32_t kMaxVisibilityRays = 1u << 22;
 
 /// Sub-images along an edge of the mosaic; 1: the picture is not restructured.
 int mosaic_sub_images(const RsmSettings& settings);
 
-/// Rays in memory at a time for a picture of that size.
+/// Number of rays in memory at a time for a picture of this size.
 std::size_t visibility_rays_at_a_time(int width, int height, const RsmSettings& settings);
 
 /// Records each pass as it is called, and a barrier after it.
 class RsmPassesOnDevice final : public RsmPasses {
  public:
-  /// All of these must outlive this, and buffers and kernels the execution. `tracer` may be null
-  /// where no visibility is asked for.
+  /// All arguments must outlive this object, and buffers and kernels the execution. `tracer` may be
+  /// null where the settings ask for no visibility.
   RsmPassesOnDevice(vulkan::Recorder& recorder, const RsmKernels& kernels,
                     const RsmTexelsOnDevice& texels, const RsmPictureOnDevice& picture,
                     const RsmViewOnDevice& view, const RsmSettings& settings,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each pixel of a frame becomes the mean of itself and of what was kept.
+// Temporal anti-aliasing: blends each pixel of a frame with its history.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "temporal/taa_records.h"
@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Push {
   TaaArguments args;
 };
 
-// What taa_resolve.inl.h asks for; all is in the arguments.
+// What taa_resolve.inl.h requires of its includer; all data is in the arguments.
 #define TaaPictureRef uint
 #define TaaHistoryRef uint
 

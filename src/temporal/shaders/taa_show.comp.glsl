@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts filtered radiance into the picture, once no pixel reads its neighbours there any more.
+// Copies the filtered radiance into the picture, once no pixel reads its neighbours there any more.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "temporal/taa_records.h"
