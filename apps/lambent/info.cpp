@@ -112,8 +112,8 @@ std::vector<std::string> features_of(const Material& m) {
   add(may_emit(m) && !m.unlit, "emissive");
   add(m.alpha_mode == AlphaMode::mask, "alpha mask");
   add(m.alpha_mode == AlphaMode::blend, "alpha blend");
-  add(lets_light_through(m) && !m.bounds_volume, "thin glass");
-  add(lets_light_through(m) && m.bounds_volume, "refracting volume");
+  add(is_transmissive(m) && !m.bounds_volume, "thin glass");
+  add(is_transmissive(m) && m.bounds_volume, "refracting volume");
   add(m.double_sided, "double-sided");
   add(m.unlit, "unlit");
   add(m.lambert, "lambert");

@@ -50,7 +50,7 @@ void queue_direct_light(const LightDraws& draws, const Media& media, const GBuff
       pair.specular *= passed;
     }
     if (pair.diffuse + pair.specular == vec3(0.0f)) continue;
-    pending.push_back({pixel, pair, slot >= asked_lights(draws)});
+    pending.push_back({pixel, pair, slot >= enumerated_lights(draws)});
     shadows.push_back(shadow_ray(point.position_ws, point.geometric_normal_ws, candidate));
   }
 }

@@ -105,7 +105,7 @@ void FramePassesVulkan::gbuffer(const Band& band, int sample) {
   pixels_ = static_cast<std::uint32_t>(band.rows) * settings.width;
   sample_ = static_cast<std::uint32_t>(sample);
   reserve_pixels(pixels_);
-  rays_bring_ = 0;
+  ray_light_flags_ = 0;
   frame_->rays += pixels_;
   add("gbuffer", [this](Recorder& to) {
     const FrameSettings& s = request_->settings;
@@ -158,7 +158,8 @@ void FramePassesVulkan::compose(float share) {
       request_->sources.field != nullptr ? memory_.mirror_irradiance : memory_.irradiance;
   add("compose", [=, this, &mirrored](Recorder& to) {
     const glm::mat4& view = request_->camera.world_from_view;
-    const uint brought = filters_through(*request_) ? rays_bring_ & ~kHasTransmission : rays_bring_;
+    const uint brought =
+        filters_through(*request_) ? ray_light_flags_ & ~kHasTransmission : ray_light_flags_;
     const uint has = brought | (has_fog(*request_) ? kHasFog : 0u) |
                      (has_indirect ? kHasIndirect : 0u) |
                      (is_looked_up(*request_) ? kIsLookedUp : 0u) | (filtered ? kIsFiltered : 0u) |

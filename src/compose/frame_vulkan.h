@@ -36,7 +36,6 @@
 #include "shaders/coat_reuse_comp.h"
 #include "shaders/compose_comp.h"
 #include "shaders/fog_pixels_comp.h"
-#include "shaders/fork_ways_comp.h"
 #include "shaders/gather_rays_comp.h"
 #include "shaders/gather_sum_comp.h"
 #include "shaders/keep_behind_comp.h"
@@ -51,6 +50,7 @@
 #include "shaders/seen_distances_comp.h"
 #include "shaders/show_clearcoats_comp.h"
 #include "shaders/show_through_comp.h"
+#include "shaders/split_paths_comp.h"
 #include "shaders/start_through_comp.h"
 #include "shaders/through_rays_comp.h"
 #include "shaders/view_geometry_comp.h"
@@ -82,7 +82,7 @@ struct FrameKernels {
   vulkan::Kernel coat_reuse{device, shaders::coat_reuse_comp(), "coat reuse"};
   vulkan::Kernel show_clearcoats{device, shaders::show_clearcoats_comp(), "show clearcoats"};
   vulkan::Kernel clearcoat_light{device, shaders::clearcoat_light_comp(), "clearcoat light"};
-  vulkan::Kernel fork_ways{device, shaders::fork_ways_comp(), "forks of ways"};
+  vulkan::Kernel split_paths{device, shaders::split_paths_comp(), "forks of paths"};
   vulkan::Kernel through_rays{device, shaders::through_rays_comp(), "rays through surfaces"};
   vulkan::Kernel start_through{device, shaders::start_through_comp(), "start of what is seen"};
   vulkan::Kernel keep_behind{device, shaders::keep_behind_comp(), "keep light behind glass"};
@@ -122,11 +122,11 @@ struct SeenThroughBuffers {
   vulkan::Buffer filtered_emitters, filtered_coats, filtered;
 };
 
-/// Memory of a WayList.
-struct WayBuffers {
+/// Memory of a PathList.
+struct PathBuffers {
   vulkan::Buffer rays, cones, paths, pixels, count;
 
-  WayList list() const {
+  PathList list() const {
     return {{rays.address()},
             {cones.address()},
             {paths.address()},
@@ -173,11 +173,11 @@ struct FrameMemory {
   // Pixels, rays and lists of paths, for the rows around a band whose coats are lit by rays.
   // Bounces use the two lists in turn
   vulkan::Buffer coats, coat_inverse_distances, coat_points, coat_surfaces, coat_rays;
-  WayBuffers ways[2];
-  WayBuffers forks;  // reflected branches, traced later
-  vulkan::Buffer way_hits, way_points, way_surfaces, way_diffuse, way_specular;
-  vulkan::Buffer way_queries, way_answers;
-  vulkan::Buffer way_drawn, way_drawn_squares, way_drawn_specular, coat_distances;
+  PathBuffers path_lists[2];
+  PathBuffers forks;  // reflected branches, traced later
+  vulkan::Buffer path_hits, path_points, path_surfaces, path_diffuse, path_specular;
+  vulkan::Buffer path_queries, path_answers;
+  vulkan::Buffer path_drawn, path_drawn_squares, path_drawn_specular, coat_distances;
   // Fog: its froxels, and its effect on a band's pixels
   FroxelFog fog;
   vulkan::Buffer media, froxels, fog_record, pixel_fog;
@@ -249,20 +249,20 @@ class FramePassesVulkan final : public FramePasses {
   void light_clearcoats();
   /// Looks up the field's light for the coats of the band's pixels, which lie at these addresses.
   void look_up_coats(std::uint64_t points, std::uint64_t surfaces);
-  void reserve_ways(std::size_t pixels);
-  void reserve_list(std::size_t ways, WayBuffers& list);
-  std::uint32_t count_ways(const WayBuffers& list);
+  void reserve_paths(std::size_t pixels);
+  void reserve_list(std::size_t paths, PathBuffers& list);
+  std::uint32_t count_paths(const PathBuffers& list);
   bool follow_all(std::uint32_t first_bounce, std::uint32_t first_index, std::uint32_t salt);
-  void follow_ways(std::uint32_t ways, std::uint32_t bounce, std::uint32_t first_index,
-                   std::uint32_t salt);
+  void follow_paths(std::uint32_t paths, std::uint32_t bounce, std::uint32_t first_index,
+                    std::uint32_t salt);
   void reuse_coat_rays(const Band& around);
   /// Samples of emitters at each hit behind glass; 0 where nothing is drawn at random.
   std::uint32_t draws_behind_glass() const;
   void begin_through(std::size_t pixels);
   void start_through();
-  void keep_behind(Recorder& to, std::uint32_t ways, const WayBuffers& from);
-  void fork_ways(const WayBuffers& ways, std::uint32_t count, std::uint32_t bounce,
-                 std::uint32_t first_index, std::uint32_t salt);
+  void keep_behind(Recorder& to, std::uint32_t paths, const PathBuffers& from);
+  void split_paths(const PathBuffers& from, std::uint32_t count, std::uint32_t bounce,
+                   std::uint32_t first_index, std::uint32_t salt);
   void keep_through();
   void denoise_coats(const DenoiseViewOnDevice& view);
   void denoise_through(const DenoiseViewOnDevice& view, const ShownPixels& shown, float share);
@@ -295,11 +295,11 @@ class FramePassesVulkan final : public FramePasses {
   Band band_;
   std::uint32_t first_pixel_ = 0, pixels_ = 0;  // of the band
   std::uint32_t sample_ = 0;
-  uint rays_bring_ = 0;         // kinds of light from rays, see ComposeArguments::has
-  const char* way_pass_ = "";   // name of the pass whose paths are traced
-  std::uint32_t way_seed_ = 0;  // seed of the paths' random numbers
-  bool forks_ways_ = false;     // paths split, with reflected branches in FrameMemory::forks
-  bool keeps_behind_ = false;   // light of the first opaque surfaces behind glass is stored apart
+  uint ray_light_flags_ = 0;     // kinds of light from rays, see ComposeArguments::has
+  const char* path_pass_ = "";   // name of the pass whose paths are traced
+  std::uint32_t path_seed_ = 0;  // seed of the paths' random numbers
+  bool splits_paths_ = false;    // paths split, with reflected branches in FrameMemory::forks
+  bool keeps_behind_ = false;    // light of the first opaque surfaces behind glass is stored apart
 };
 
 }  // namespace lambent

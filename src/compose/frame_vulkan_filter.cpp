@@ -74,7 +74,7 @@ std::uint32_t FramePassesVulkan::first_traced_pixel() const {
 /// Stores the band's light that is to be filtered.
 void FramePassesVulkan::keep_pixels() {
   add("compose", [this](Recorder& to) {
-    const uint has = (rays_bring_ & kHasCoats) | (has_fog(*request_) ? kHasFog : 0u) |
+    const uint has = (ray_light_flags_ & kHasCoats) | (has_fog(*request_) ? kHasFog : 0u) |
                      (gathers(*request_) ? kIsFiltered : 0u) |
                      (filters_coats() ? kCoatsAreFiltered : 0u) |
                      (filters_clearcoats(*request_) ? kClearcoatsAreFiltered : 0u);

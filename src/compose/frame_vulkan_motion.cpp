@@ -34,7 +34,7 @@ void FramePassesVulkan::upload_before() {
       placed.world_from_object = was.world_from_object;
       placed.flags = was.known ? kBeforeKnown : 0u;
       if (was.positions == nullptr) continue;
-      placed.flags |= kBeforeBent;
+      placed.flags |= kPreviouslyDeformed;
       placed.positions.address =
           memory_.positions_before.address() + first_of.at(was.positions.get()) * sizeof(vec3);
     }

@@ -29,6 +29,6 @@ LAMBENT_FN PixelMotion surface_motion(SceneRef scene, SceneBeforeRef before, Mot
   vec3 before_ws = transform_point(transform_before(before, instance_index, instance), position);
   PixelMotion motion = motion_between(now, image_point(views.before, before_ws));
   vec2 by_itself = image_point(views.now, before_ws).pixel - now.pixel;
-  if (motion.known != 0u && length(by_itself) > kLeastOwnMotion) motion.known = kMotionOfItself;
+  if (motion.known != 0u && length(by_itself) > kLeastOwnMotion) motion.known = kObjectMotion;
   return motion;
 }

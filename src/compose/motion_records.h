@@ -10,12 +10,13 @@ LAMBENT_BEGIN
 
 // Bits of InstanceBeforeRecord::flags
 const uint kBeforeKnown = 1u;  ///< The instance existed, and its vertices' positions are known.
-const uint kBeforeBent = 2u;   ///< Its mesh was deformed differently.
+const uint kPreviouslyDeformed = 2u;  ///< Its mesh was deformed differently.
 
 /// See InstanceBefore in scene_pose.h.
 struct InstanceBeforeRecord {
   mat4 world_from_object;
-  Vec3Array positions;  ///< Its mesh's previous positions, object space [m]; see kBeforeBent.
+  Vec3Array
+      positions;  ///< Its mesh's previous positions, object space [m]; see kPreviouslyDeformed.
   uint flags;
   uint padding;
 };

@@ -116,14 +116,14 @@ class SphereFinder {
       const float distance = along - std::sqrt(square);
       // A ray that starts inside a sphere passes through it
       if (distance <= ray.t_min || distance >= best.distance) continue;
-      if (is_spoken_for(store_.probe_grid_position_ws(probe))) continue;
+      if (is_covered_by_earlier_volume(store_.probe_grid_position_ws(probe))) continue;
       best = {distance, probe, (ray.origin + distance * ray.direction - centre) / radius_};
     }
   }
 
   /// Whether an earlier volume alone answers lookups at a place, so that this volume's probe there
   /// is not used.
-  bool is_spoken_for(const vec3& place_ws) const {
+  bool is_covered_by_earlier_volume(const vec3& place_ws) const {
     for (int earlier = 0; earlier < volume_; ++earlier) {
       if (volume_blend_weight(store_.grid(earlier), place_ws) >= 1.0f) return true;
     }

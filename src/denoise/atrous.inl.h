@@ -97,7 +97,7 @@ LAMBENT_REAL_FN AtrousLobe lobe_at(int x, int y) {
   AtrousLobe lobe;
   lobe.mirror_ws = lobe_vector(kMirrorPlane, x, y);
   lobe.sharpness = fetch_lobe(kLobeSharpnessPlane, x, y);
-  lobe.inverse_distance = fetch_lobe(kSeenDistancePlane, x, y);
+  lobe.inverse_distance = fetch_lobe(kInverseHitDistancePlane, x, y);
   return lobe;
 }
 

@@ -31,7 +31,7 @@ const int kDenoiseGuidePlanes = kGuidePlanes + 1;
 const int kMirrorPlane = 0;
 const int kAcrossPlane = 3;
 const int kLobeSharpnessPlane = 6;
-const int kSeenDistancePlane = 7;
+const int kInverseHitDistancePlane = 7;
 const int kLobePlanes = 8;
 
 // The filter averages over this share of a lobe's own width [GGX alpha, radians]. All passes

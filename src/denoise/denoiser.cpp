@@ -86,7 +86,7 @@ void load_lobes(const DenoiseView& view, PlanePicture& lobes) {
     store_vector(row, kMirrorPlane, x, guide.mirror_ws);
     store_vector(row, kAcrossPlane, x, guide.across_ws);
     row.at(kLobeSharpnessPlane)[x] = guide.sharpness;
-    row.at(kSeenDistancePlane)[x] = guide.inverse_distance;
+    row.at(kInverseHitDistancePlane)[x] = guide.inverse_distance;
   });
 }
 

@@ -206,8 +206,8 @@ void FroxelFog::queue_light(const FogRequest& request, const FroxelSample& sampl
   for (uint slot = 0; slot < slots; ++slot) {
     LightReceiver receiver{{position_ws, vec3(0.0f), vec3(0.0f)}, nullptr, &fog};
     float weight = sample.point.weight;
-    if (slot < asked_lights(draws)) {
-      const LightRecord light = fetch_light(draws, fetch_asked(draws, slot));
+    if (slot < enumerated_lights(draws)) {
+      const LightRecord light = fetch_light(draws, fetch_enumerated(draws, slot));
       if (light.type != kLightDirectional) {
         const FroxelPoint near_lamp = lamp_point(
             media_, {sample.ray.origin, sample.ray.direction}, sample.segment, sample.point,

@@ -60,7 +60,7 @@ struct CoatPath {
 LAMBENT_DEVICE_ARRAY(CoatPathArray, CoatPath, 4)
 
 /// CoatPath::pdf of paths that begin through a surface: no other estimator samples their emitters.
-const float kFoundByNobodyElse = 1e30f;
+const float kNoLightSampling = 1e30f;
 
 /// Least distance to hits [m], so that its reciprocal is finite.
 const float kLeastSeenDistance = 1e-4f;

@@ -28,7 +28,7 @@ const int kReuse = 2;
 const float kEveryPixelRoughness = 0.5f;
 
 /// Most surfaces that a path hits, counting those that it passes through.
-const uint kMaxWays = 12u;
+const uint kMaxPathVertices = 12u;
 
 /// Most coats that a path is reflected from after the pixel's own. Beyond that, the field supplies
 /// the coat's light.

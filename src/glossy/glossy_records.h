@@ -5,13 +5,13 @@
 #define LAMBENT_GLOSSY_GLOSSY_RECORDS_H
 
 #include "field/vulkan/device_records.h"
-#include "glossy/way_math.h"
+#include "glossy/path_math.h"
 #include "raytracing/vulkan/shading_records.h"
 
 LAMBENT_BEGIN
 
 /// A list of paths that have not ended: their next rays, their state and their pixels.
-struct WayList {
+struct PathList {
   RayArray rays;
   RayConeArray cones;
   CoatPathArray paths;
@@ -24,7 +24,7 @@ struct CoatRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  WayList ways;    ///< Rays are appended here.
+  PathList list;   ///< Rays are appended here.
   uint count;      ///< Number of pixels.
   uint first_row;  ///< First row, counted in the picture.
   uint width;      ///< Width of the picture [pixels].
@@ -38,7 +38,7 @@ struct ThroughRaysArguments {
   LitPointArray points;
   PixelSurfaceArray surfaces;
   CoatRayArray coat_rays;
-  WayList ways;               ///< Rays are appended here.
+  PathList list;              ///< Rays are appended here.
   FloatArray coat_distances;  ///< See TransmittedLight; one a pixel.
   uint count;                 ///< Number of pixels.
   uint first_index;           ///< Index of the first pixel in the picture.
@@ -73,7 +73,7 @@ struct CoatLightArguments {
   Vec3Array field;  ///< Results of the field queries.
   CoatPathArray paths;
   UintArray pixels;
-  WayList next;  ///< Paths that go on are appended here.
+  PathList next;  ///< Paths that go on are appended here.
   CoatRayArray coat_rays;
   uint count;
   uint first_index;
@@ -84,12 +84,12 @@ struct CoatLightArguments {
 };
 
 /// Appends the reflected branches of paths that split at glass.
-struct ForkWaysArguments {
+struct SplitPathsArguments {
   LitPointArray points;  ///< One a path, as are the next three arrays.
   PixelSurfaceArray surfaces;
   CoatPathArray paths;
   UintArray pixels;
-  WayList reflected;  ///< Reflected branches are appended here.
+  PathList reflected;  ///< Reflected branches are appended here.
   uint count;
   uint first_index;
   uint salt;

@@ -82,10 +82,10 @@ using DrawsRef = const LightDraws&;
 inline bool emitters_alone(const LightDraws& draws) {
   return draws.emitters_alone;
 }
-inline uint asked_lights(const LightDraws& draws) {
+inline uint enumerated_lights(const LightDraws& draws) {
   return draws.emitters_alone ? 0u : static_cast<uint>(lights_of(draws.world).asked().size());
 }
-inline uint fetch_asked(const LightDraws& draws, uint slot) {
+inline uint fetch_enumerated(const LightDraws& draws, uint slot) {
   return lights_of(draws.world).asked()[slot];
 }
 inline LightRecord fetch_light(const LightDraws& draws, uint light) {

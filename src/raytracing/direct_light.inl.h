@@ -10,8 +10,8 @@
 //   DrawsRef     the lights to draw from
 // and
 //   bool emitters_alone(DrawsRef draws)                    leaves out the tree's other lights
-//   uint asked_lights(DrawsRef draws)                      number of asked lights
-//   uint fetch_asked(DrawsRef draws, uint slot)            index of a slot's light
+//   uint enumerated_lights(DrawsRef draws)                      number of asked lights
+//   uint fetch_enumerated(DrawsRef draws, uint slot)            index of a slot's light
 //   LightRecord fetch_light(DrawsRef draws, uint light)
 //   uint tree_samples(DrawsRef draws)                      0: the tree is empty
 //   uint tree_candidates(DrawsRef draws)                   <= kMostPicks; see candidates_per_sample
@@ -70,7 +70,7 @@ LAMBENT_FN ReflectedPair sampled_reflection(Reflectance reflectance, Frame frame
 
 /// Number of slots at a point.
 LAMBENT_FN uint slot_count(DrawsRef draws) {
-  return asked_lights(draws) + tree_samples(draws);
+  return enumerated_lights(draws) + tree_samples(draws);
 }
 
 /// The candidate for a light without extent.
@@ -146,7 +146,7 @@ LAMBENT_FN LightCandidate resampled_candidate(DrawsRef draws, ReceiverRef receiv
 LAMBENT_FN LightCandidate candidate_of_slot(DrawsRef draws, ReceiverRef receiver, uint slot,
                                             LAMBENT_INOUT(LightPicks) picks,
                                             LAMBENT_INOUT(RandomStream) random) {
-  uint asked = asked_lights(draws);
+  uint asked = enumerated_lights(draws);
   if (slot >= asked) return resampled_candidate(draws, receiver, slot - asked, picks, random);
-  return punctual_candidate(fetch_light(draws, fetch_asked(draws, slot)), receiver.point);
+  return punctual_candidate(fetch_light(draws, fetch_enumerated(draws, slot)), receiver.point);
 }

@@ -384,7 +384,7 @@ SolidSides find_solid_sides(const World& world, std::span<const PlaceGrid> grids
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     // Light reaches both sides of glass
-    if (lets_light_through(scene.materials[scene.meshes[instance.mesh].material])) continue;
+    if (is_transmissive(scene.materials[scene.meshes[instance.mesh].material])) continue;
     const auto count = static_cast<std::uint32_t>(scene.meshes[instance.mesh].triangles.size());
     for (std::uint32_t t = 0; t < count; ++t) {
       std::uint32_t solid = judge(votes, i, t).value_or(sides_by_winding(scene, instance));

@@ -46,13 +46,13 @@ LAMBENT_FN bool missed(HitRecord hit) {
 }
 
 /// The bits of ray masks that distinguish instances: an instance's mask has all other bits.
-const uint kTellingMaskBits = 0xEu;
+const uint kInstanceMaskBits = 0xEu;
 
 /// The mask of a ray or an instance in the eight bits that devices have: those that distinguish
 /// instances, and the lowest for all others.
 LAMBENT_FN uint device_mask(uint mask) {
-  uint others = mask & ~kTellingMaskBits;
-  return (mask & kTellingMaskBits) | (others != 0u ? 1u : 0u);
+  uint others = mask & ~kInstanceMaskBits;
+  return (mask & kInstanceMaskBits) | (others != 0u ? 1u : 0u);
 }
 
 LAMBENT_DEVICE_ARRAY(RayArray, RayRecord, 4)

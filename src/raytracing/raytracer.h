@@ -73,7 +73,7 @@ struct GeometryEdits {
 /// once. Triangles of AlphaMode::mask let rays through where coverage is below the cutoff; those of
 /// AlphaMode::blend let a ray through with probability 1 - coverage, decided by a hash of the hit,
 /// or by the pixel whose sample the ray is (scene/coverage.h). Transmissive surfaces
-/// (lets_light_through) stop rays, except those that cross glass (crosses_glass), which pass with a
+/// (is_transmissive) stop rays, except those that cross glass (crosses_glass), which pass with a
 /// probability, decided by a hash of the ray.
 class RayTracer {
  public:

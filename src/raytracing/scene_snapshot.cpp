@@ -53,7 +53,7 @@ bool uses_texture(const Material& m, const std::vector<std::uint8_t>& edited) {
 /// Whether the materials stop different rays or transmit different light.
 bool coverage_differs(const Material& a, const Material& b, bool texture_edited) {
   if (a.alpha_mode != b.alpha_mode) return true;
-  if (lets_light_through(a) || lets_light_through(b)) return true;
+  if (is_transmissive(a) || is_transmissive(b)) return true;
   if (a.alpha_mode == AlphaMode::opaque) return false;
   return texture_edited || a.base_color.a != b.base_color.a || a.alpha_cutoff != b.alpha_cutoff ||
          a.base_color_texture != b.base_color_texture;

@@ -26,8 +26,8 @@ void queue_direct_light(const World& world, const DirectLightQuery& query, std::
 }
 
 /// Finds the share of light that passes along rays which may cross glass.
-void find_what_passes(const RayTracer& tracer, std::span<const Ray> rays, std::span<const Hit> hits,
-                      ShadeHitsScratch& scratch) {
+void trace_transmittances(const RayTracer& tracer, std::span<const Ray> rays,
+                          std::span<const Hit> hits, ShadeHitsScratch& scratch) {
   scratch.to_hits.assign(rays.begin(), rays.end());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     scratch.to_hits[i].t_max = before_hit(hits[i].distance);
@@ -66,7 +66,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
   scratch.hits.clear();
   prefetch_surfaces(scene, hits);
   const bool glass = tracer_of(world).has_glass();
-  if (glass) find_what_passes(tracer_of(world), rays, hits, scratch);
+  if (glass) trace_transmittances(tracer_of(world), rays, hits, scratch);
 
   for (std::size_t i = 0; i < rays.size(); ++i) {
     ShadedHit& result = shaded[i];
@@ -92,7 +92,7 @@ std::size_t shade_hits(const World& world, std::span<const Ray> rays, std::span<
     if (glass) {
       // Rays that a pane stopped also stand for those that it let pass
       float weight = 1.0f;
-      if (lets_light_through(surface.transmission) && crosses_glass(rays[i].mask)) {
+      if (is_transmissive(surface.transmission) && crosses_glass(rays[i].mask)) {
         const SeenTriangle seen{hits[i].instance, hits[i].triangle, hits[i].barycentrics,
                                 hits[i].front_face};
         weight = weight_of_stopped(straight_share_of(scene, seen, direction));

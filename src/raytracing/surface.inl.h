@@ -8,7 +8,7 @@
 //   bool has_tangents(MeshRef mesh)
 //   bool is_lambert(MaterialRef material)
 //   bool receives_gi(InstanceRef instance)
-//   bool lets_light_through(MaterialRef material)
+//   bool is_transmissive(MaterialRef material)
 //   bool bounds_volume(MaterialRef material)
 //   bool has_layers(MaterialRef material)
 
@@ -116,7 +116,7 @@ LAMBENT_FN Optics optics_at(SceneRef scene, MeshRef mesh, MaterialRef material, 
   if (has_layers(material)) {
     optics.reflectance.layers = layers_at(scene, mesh, material, p, cone_share);
   }
-  if (lets_light_through(material)) {
+  if (is_transmissive(material)) {
     float transmission = material.transmission;
     if (material.transmission_texture.texture >= 0) {
       transmission *= texture_at(scene, mesh, material.transmission_texture, p, cone_share).x;

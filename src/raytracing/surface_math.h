@@ -188,7 +188,7 @@ LAMBENT_FN Transmission no_transmission() {
   return none;
 }
 
-LAMBENT_FN bool lets_light_through(Transmission transmission) {
+LAMBENT_FN bool is_transmissive(Transmission transmission) {
   return transmission.tint != vec3(0.0f);
 }
 

@@ -96,7 +96,7 @@ LAMBENT_FN vec3 passing_share(Transmission through, Reflectance reflectance, flo
 }
 
 /// Transmittance of the volume that a ray comes from, over a distance [m].
-LAMBENT_FN vec3 left_of_light(Transmission through, float distance) {
+LAMBENT_FN vec3 volume_transmittance(Transmission through, float distance) {
   return exp(-through.absorption * distance);
 }
 

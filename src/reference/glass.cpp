@@ -36,11 +36,11 @@ glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::ui
     if (hit.missed()) return share;
     const Surface surface = surface_at(world.scene(), ray, hit);
     const Transmission& through = surface.transmission;
-    if (!lets_light_through(through)) return glm::vec3(0.0f);
+    if (!is_transmissive(through)) return glm::vec3(0.0f);
     if (!from_punctual && !goes_straight(through)) return glm::vec3(0.0f);
     const SeenTriangle seen{hit.instance, hit.triangle, hit.barycentrics, hit.front_face};
     share *= straight_share_of(world.scene(), seen, ray.direction) *
-             left_of_light(through, hit.distance);
+             volume_transmittance(through, hit.distance);
     const glm::vec3 origin = offset_ray_origin(surface.position_ws, -surface.geometric_normal_ws);
     ray.t_max -= glm::dot(origin - ray.origin, ray.direction);
     ray.origin = origin;
@@ -49,10 +49,10 @@ glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::ui
   return glm::vec3(0.0f);
 }
 
-bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, Traveller& traveller,
+bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, PathSegment& traveller,
            SobolSampler& random) {
   const Transmission& through = surface.transmission;
-  if (!lets_light_through(through)) return false;
+  if (!is_transmissive(through)) return false;
   if (++traveller.crossed > kMaxCrossed) {
     throughput = glm::vec3(0.0f);
     return false;

@@ -18,7 +18,7 @@ namespace lambent::reference {
 inline constexpr float kFoundByScatteringAlone = std::numeric_limits<float>::infinity();
 
 /// The state of a scattered ray until the next surface that scatters it.
-struct Traveller {
+struct PathSegment {
   float pdf;       ///< Density with which its direction was drawn [1/sr].
   float distance;  ///< Length of its path so far, through panes [m].
   int crossed;     ///< Number of surfaces that it has passed.
@@ -35,7 +35,7 @@ glm::vec3 light_through(const World& world, Ray ray, bool from_punctual, std::ui
 
 /// Whether a path goes on through a surface, drawn at random; `ray` is then the one behind it.
 /// Otherwise, the throughput is divided by the probability of reflection.
-bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, Traveller& traveller,
+bool cross(const Surface& surface, Ray& ray, glm::vec3& throughput, PathSegment& traveller,
            SobolSampler& random);
 
 }  // namespace lambent::reference

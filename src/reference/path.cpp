@@ -58,7 +58,7 @@ glm::vec3 PathIntegrator::sky_found(const glm::vec3& direction_ws, float pdf) co
 }
 
 glm::vec3 PathIntegrator::emission_found(const Surface& surface, const Ray& ray, const Hit& hit,
-                                         const Traveller& traveller) const {
+                                         const PathSegment& traveller) const {
   if (surface.emission == glm::vec3(0.0f)) return surface.emission;
   const float distance = traveller.distance + hit.distance;
   const float cosine = std::abs(glm::dot(surface.geometric_normal_ws, ray.direction));
@@ -164,7 +164,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
                                                          std::uint64_t& rays) const {
   Incident incident;
   glm::vec3 throughput(1.0f);
-  Traveller traveller{pdf, 0.0f, 0};
+  PathSegment traveller{pdf, 0.0f, 0};
   for (int bounce = 1;; ++bounce) {
     ++rays;
     const Hit hit = tracer_of(world_).closest_hit(ray);
@@ -175,7 +175,7 @@ PathIntegrator::Incident PathIntegrator::sample_incident(Ray ray, float pdf, Sob
         return incident;
       }
       const Surface surface = surface_at(scene_, ray, hit);
-      throughput *= left_of_light(surface.transmission, hit.distance);
+      throughput *= volume_transmittance(surface.transmission, hit.distance);
       (bounce == 1 ? incident.emitted : incident.other) +=
           throughput * emission_found(surface, ray, hit, traveller);
       if (cross(surface, ray, throughput, traveller, random)) {
@@ -280,7 +280,7 @@ PixelSample PathIntegrator::sample_seen(const Ray& ray, const Hit& hit, SobolSam
   sample.albedo = surface.reflectance.diffuse;
   sample.normal = surface.normal_ws;
 
-  if (lets_light_through(surface.transmission)) {
+  if (is_transmissive(surface.transmission)) {
     sample.transmission = sample_through(surface, ray, random, rays);
   }
 

@@ -79,7 +79,7 @@ class PathIntegrator {
   Incident sample_incident(Ray ray, float pdf, SobolSampler& random, std::uint64_t& rays) const;
   glm::vec3 sky_found(const glm::vec3& direction_ws, float pdf) const;
   glm::vec3 emission_found(const Surface& surface, const Ray& ray, const Hit& hit,
-                           const Traveller& traveller) const;
+                           const PathSegment& traveller) const;
   float found_weight(float pdf, float light_pdf) const;
   float drawn_weight(float light_pdf, float pdf) const;
 

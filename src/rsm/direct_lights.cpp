@@ -46,9 +46,9 @@ DealtLights deal_direct_lights(std::size_t lights, const RsmSettings& settings) 
     }
     std::sort(result.dealt.end() - static_cast<std::ptrdiff_t>(result.per_sub_map),
               result.dealt.end(),
-              [](const DealtLight& a, const DealtLight& b) { return a.light < b.light; });
+              [](const AssignedLight& a, const AssignedLight& b) { return a.light < b.light; });
   }
-  for (DealtLight& dealt : result.dealt) {
+  for (AssignedLight& dealt : result.dealt) {
     dealt.weight = static_cast<float>(subs) / static_cast<float>(asked[dealt.light]);
   }
   return result;

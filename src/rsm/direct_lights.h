@@ -12,13 +12,13 @@
 namespace lambent {
 
 struct DealtLights {
-  std::size_t lights = 0;         ///< Number of lights in the scene.
-  std::size_t per_sub_map = 0;    ///< Number of lights that a pixel tests.
-  std::vector<DealtLight> dealt;  ///< `per_sub_map` for each sub-map, in order of their index.
+  std::size_t lights = 0;            ///< Number of lights in the scene.
+  std::size_t per_sub_map = 0;       ///< Number of lights that a pixel tests.
+  std::vector<AssignedLight> dealt;  ///< `per_sub_map` for each sub-map, in order of their index.
 
   /// Whether lights are shared out: a pixel does not test all of them.
   bool shared() const { return per_sub_map < lights; }
-  std::span<const DealtLight> of(int sub_map) const {
+  std::span<const AssignedLight> of(int sub_map) const {
     return std::span(dealt).subspan(static_cast<std::size_t>(sub_map) * per_sub_map, per_sub_map);
   }
 };

@@ -18,12 +18,12 @@ LAMBENT_BEGIN
 const float kOtherSurfaceWeight = 1e-4f;
 
 /// A light that the pixels of a sub-map test.
-struct DealtLight {
+struct AssignedLight {
   uint light;    ///< Index of the light in the scene.
   float weight;  ///< Number of sub-maps over those that test it, so that the mean over all sub-maps
                  ///< counts each light once.
 };
-LAMBENT_DEVICE_ARRAY(DealtLightArray, DealtLight, 4)
+LAMBENT_DEVICE_ARRAY(DealtLightArray, AssignedLight, 4)
 
 /// Light that was tested, by color: arriving light, and unoccluded light. Both as reflected to the
 /// viewer, diffuse light without albedo.

@@ -19,15 +19,15 @@ namespace lambent {
 struct GatherRow {
   ConstPlanes guide;  ///< kGuidePlanes planes.
   Planes light;       ///< kLightPlanes planes, of one value each.
-  /// kWayPlanes planes for the mean direction of the light, where the light will be blurred;
-  /// otherwise null. Sums over every kTexelsPerWay-th texel, which is enough for a mean.
+  /// kDirectionPlanes planes for the mean direction of the light, where the light will be blurred;
+  /// otherwise null. Sums over every kTexelsPerDirection-th texel, which is enough for a mean.
   Planes ways;
   int count = 0;  ///< Number of pixels; up to the next multiple of kLanes are written.
 };
 
 /// x, y and z of the vectors to texels, summed over texels, weighted by the luminance they
 /// contribute.
-inline constexpr int kWayPlanes = 3;
+inline constexpr int kDirectionPlanes = 3;
 
 /// Packs a row's light and its mean direction into light that can be blurred: kLightPlanes planes
 /// of two values.

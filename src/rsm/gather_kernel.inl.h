@@ -6,12 +6,12 @@
 /// Pixels that gather light, in registers.
 struct GatherLanes : GuideLanes {
   Lanes light[kLightPlanes];
-  Lanes ways[kWayPlanes];
+  Lanes ways[kDirectionPlanes];
 };
 
 LAMBENT_FORCE_INLINE void load_light(GatherLanes& p, const GatherRow& row, int i, bool ways) {
   for (int c = 0; c < kLightPlanes; ++c) load(p.light[c], row.light.at(c) + i);
-  for (int c = 0; c < kWayPlanes && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
+  for (int c = 0; c < kDirectionPlanes && ways; ++c) load(p.ways[c], row.ways.at(c) + i);
 }
 
 LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
@@ -22,7 +22,7 @@ LAMBENT_FORCE_INLINE void clear_light(GatherLanes& p) {
 LAMBENT_FORCE_INLINE void store_light(const GatherLanes& p, const GatherRow& row, int i,
                                       bool ways) {
   for (int c = 0; c < kLightPlanes; ++c) store(row.light.at(c) + i, p.light[c]);
-  for (int c = 0; c < kWayPlanes && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
+  for (int c = 0; c < kDirectionPlanes && ways; ++c) store(row.ways.at(c) + i, p.ways[c]);
 }
 
 /// The fields of a texel that a gather reads; flux is over pi. `T` is a float where all pixels read
@@ -106,7 +106,7 @@ LAMBENT_FORCE_INLINE TexelFields<float> fields_of(const RsmTexel& t) {
 template <class TexelAt>
 LAMBENT_FORCE_INLINE void gather_alike(const GatherRow& row, std::size_t count,
                                        const TexelAt& texel_at, bool ways) {
-  constexpr std::size_t kStep = kTexelsPerWay;
+  constexpr std::size_t kStep = kTexelsPerDirection;
   for (int i = 0; i < row.count; i += kLanes) {
     GatherLanes pixels;
     load_guide(pixels, row.guide, i);
@@ -169,7 +169,7 @@ static void per_pixel(const GatherRow& row, const RsmTexel* texels, const std::u
       t.red *= kInvPi;
       t.green *= kInvPi;
       t.blue *= kInvPi;
-      add_texel(pixels, t, ways && k % kTexelsPerWay == 0);
+      add_texel(pixels, t, ways && k % kTexelsPerDirection == 0);
     }
     store_light(pixels, row, i, ways);
   }

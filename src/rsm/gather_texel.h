@@ -9,9 +9,10 @@
 
 LAMBENT_BEGIN
 
-/// The vectors to texels are summed for every kTexelsPerWay-th texel, which is enough for a mean.
-/// Raising it saves up to a twentieth of a gather: a vector costs a third more than a texel alone.
-const int kTexelsPerWay = 8;
+/// The vectors to texels are summed for every kTexelsPerDirection-th texel, which is enough for a
+/// mean. Raising it saves up to a twentieth of a gather: a vector costs a third more than a texel
+/// alone.
+const int kTexelsPerDirection = 8;
 
 /// Light gathered at a point, and its mean direction.
 struct GatheredLight {

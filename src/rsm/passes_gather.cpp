@@ -27,7 +27,7 @@ void for_each_row(const Mosaic& mosaic, Before before, Body body) {
   const auto rows = static_cast<std::size_t>(mosaic.layout().height);
   const int stride = mosaic.layout().stride;
   parallel_chunks(rows * p, kRowsPerTask, [&](std::size_t begin, std::size_t end) {
-    AlignedFloats ways(static_cast<std::size_t>(kWayPlanes) * stride);
+    AlignedFloats ways(static_cast<std::size_t>(kDirectionPlanes) * stride);
     for (std::size_t y = begin; y < end; ++y) {
       before(static_cast<int>(y));
       for (std::size_t i = 0; i < p; ++i) {
@@ -46,7 +46,7 @@ GatherRow gather_row(Mosaic& mosaic, const RowOf& at, const Planes& ways) {
 void clear(const GatherRow& row) {
   for (int c = 0; c < kLightPlanes; ++c) std::fill_n(row.light.at(c), row.count, 0.0f);
   if (row.ways.first == nullptr) return;
-  for (int c = 0; c < kWayPlanes; ++c) std::fill_n(row.ways.at(c), row.count, 0.0f);
+  for (int c = 0; c < kDirectionPlanes; ++c) std::fill_n(row.ways.at(c), row.count, 0.0f);
 }
 
 /// Part of a row: `count` pixels from `first` on.
@@ -131,8 +131,8 @@ std::uint64_t gather_whole(const World& world, const RsmView& view, const RsmLig
       const std::size_t pixel = static_cast<std::size_t>(first.y) * mosaic.width() + first.x;
       for (int x = 0; x < (mixed ? row.count : 1); ++x) {
         const int own = mixed ? sub_map_of({x, at.row}, n) : sub;
-        rays += dim_by_visibility(world, mixed ? part_of(row, x, 1) : row, sub_map(lights, own),
-                                  settings.visibility_rays, pixel + x, p, settings.seed);
+        rays += apply_visibility(world, mixed ? part_of(row, x, 1) : row, sub_map(lights, own),
+                                 settings.visibility_rays, pixel + x, p, settings.seed);
       }
     }
     if (row.ways.first != nullptr) make_reorientable(row);

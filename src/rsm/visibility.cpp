@@ -24,7 +24,7 @@ void draw_rays(const vec3& position_ws, const vec3& normal_ws, std::span<const R
   brought.resize(texels.size());
   float total = 0.0f;
   for (std::size_t k = 0; k < texels.size(); ++k) {
-    total += texel_worth(position_ws, normal_ws, to_record(texels[k]));
+    total += texel_target(position_ws, normal_ws, to_record(texels[k]));
     brought[k] = total;
   }
   if (!(total > 0.0f)) return;
@@ -39,9 +39,9 @@ void draw_rays(const vec3& position_ws, const vec3& normal_ws, std::span<const R
 
 }  // namespace
 
-std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
-                                std::span<const RsmTexel> texels, int rays, std::size_t first_pixel,
-                                std::size_t pixel_step, std::uint32_t seed) {
+std::uint64_t apply_visibility(const World& world, const GatherRow& row,
+                               std::span<const RsmTexel> texels, int rays, std::size_t first_pixel,
+                               std::size_t pixel_step, std::uint32_t seed) {
   std::vector<Ray> asked;
   std::vector<int> pixels;
   std::vector<float> brought;

@@ -15,8 +15,8 @@ namespace lambent {
 /// rays that are unoccluded, to texels sampled with probabilities in proportion to their light.
 /// Unbiased in luminance. `first_pixel` and `pixel_step` number the row's pixels, each of which has
 /// random numbers of its own. Returns the number of rays traced.
-std::uint64_t dim_by_visibility(const World& world, const GatherRow& row,
-                                std::span<const RsmTexel> texels, int rays, std::size_t first_pixel,
-                                std::size_t pixel_step, std::uint32_t seed);
+std::uint64_t apply_visibility(const World& world, const GatherRow& row,
+                               std::span<const RsmTexel> texels, int rays, std::size_t first_pixel,
+                               std::size_t pixel_step, std::uint32_t seed);
 
 }  // namespace lambent

@@ -15,7 +15,7 @@ LAMBENT_BEGIN
 const uint kVisibilitySalt = 0x56495349u;
 
 /// Luminance that a texel contributes at a point.
-LAMBENT_FN float texel_worth(vec3 position_ws, vec3 normal_ws, RsmTexelRecord texel) {
+LAMBENT_FN float texel_target(vec3 position_ws, vec3 normal_ws, RsmTexelRecord texel) {
   return luminance(texel.flux) * bounded_geometry_term(position_ws, normal_ws, texel.position_ws,
                                                        texel.normal_ws, texel.softening);
 }

@@ -151,7 +151,7 @@ std::string_view name_of(FirstLight light) {
 
 FirstLight choose_first_light(const World& world, const Camera& camera) {
   if (has_lights_or_sky(world.scene())) return FirstLight::scene;
-  const SeenView view = pass_moving_surfaces(world, camera);
+  const SeenView view = sample_view(world, camera);
   const ViewLight light = measure_view_light(world, view);
   const bool indoors = enclosure(world, camera) >= kMinEnclosure;
   if (light.lit_by_emission >= kMinLitShare &&
@@ -171,7 +171,7 @@ FirstLight choose_first_light(const World& world, const Camera& camera) {
 
 void set_first_light(FirstLight light, const World& world, const Camera& camera, Scene& scene) {
   if (light == FirstLight::scene) return;
-  const SeenView view = pass_moving_surfaces(world, camera);
+  const SeenView view = sample_view(world, camera);
   const std::uint32_t revision = scene.environment.revision + 1;
   if (light == FirstLight::studio) {
     glm::vec3 front(camera.world_from_view[2]);  // the camera looks along its -Z

@@ -88,7 +88,7 @@ float irradiance_of(const World& world, const LitPoint& point, RandomStream& ran
 
 }  // namespace
 
-SeenView pass_moving_surfaces(const World& world, const Camera& camera) {
+SeenView sample_view(const World& world, const Camera& camera) {
   const float tan_y = std::tan(0.5f * camera.vertical_fov);
   const float half_up = camera.orthographic ? 0.5f * camera.vertical_extent : tan_y;
   const glm::mat3 axes(camera.world_from_view);

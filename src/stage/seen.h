@@ -21,7 +21,7 @@ struct SeenView {
   float sky_share = 0.0f;         ///< Share of the samples that show the sky.
 };
 /// Samples what the camera sees.
-SeenView pass_moving_surfaces(const World& world, const Camera& camera);
+SeenView sample_view(const World& world, const Camera& camera);
 
 /// Statistics of the light at a view's points.
 struct ViewLight {

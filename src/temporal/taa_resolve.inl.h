@@ -109,7 +109,7 @@ LAMBENT_FN TaaPixel resolve_taa(TaaFrame frame, TaaPictureRef picture, TaaHistor
   TaaSurroundings found = look_around(frame, picture, pixel);
   vec3 radiance = radiance_at(picture, pixel);
   float depth = fetch_motion(picture, pixel).depth;
-  uint moves = found.nearest.known == kMotionOfItself ? 1u : 0u;
+  uint moves = found.nearest.known == kObjectMotion ? 1u : 0u;
   TaaPixel fresh = {radiance, depth, depth, moves, 1.0f};
   if (frame.has_history == 0u || found.nearest.known == 0u) return fresh;
 

@@ -158,7 +158,7 @@ LAMBENT_FN void call_choice(LAMBENT_INOUT(RsmResultCursor) to, RsmInputs a) {
   tell(to, disk.offset);
   tell(to, disk.weight);
   tell_texel(to, weigh_disk_texel(a.texel, 100.0f * a.number, 3, 2.0f));
-  tell(to, texel_worth(a.position_ws, a.normal_ws, a.texel));
+  tell(to, texel_target(a.position_ws, a.normal_ws, a.texel));
   tell(to, drawn_worth(a.number, 3, a.square.x, 8));
   RayRecord ray = ray_to_point(a.position_ws, a.normal_ws, a.texel.position_ws, 1u);
   tell(to, ray.origin_ws);

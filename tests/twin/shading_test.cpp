@@ -261,7 +261,7 @@ TEST_F(ShadingTwin, ShadesSmallAndLargeBatchesInOneCommandBuffer) {
     std::vector<LitPointRecord> records(batch.rays.size());
     for (std::size_t i = 0; i < records.size(); ++i) {
       if (batch.hits[i].missed()) {
-        records[i].random_index = kAsksForNoLight;
+        records[i].random_index = kNoDirectLight;
         continue;
       }
       const Surface surface = surface_at(twin.scene, batch.rays[i], batch.hits[i]);

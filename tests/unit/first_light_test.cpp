@@ -95,7 +95,7 @@ TEST(FirstLight, LampsReachMostOfWhatTheCameraSees) {
     const Camera camera = first_view(world).value().camera;
     set_first_light(FirstLight::lamps, world, camera, scene);
     ASSERT_TRUE(world.update().has_value());
-    const SeenView view = pass_moving_surfaces(world, camera);
+    const SeenView view = sample_view(world, camera);
     float reached = 0.0f;
     for (const SeenPoint& seen : view.points) {
       bool lit = false;

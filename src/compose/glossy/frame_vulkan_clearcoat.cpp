@@ -61,7 +61,7 @@ void FramePassesVulkan::light_clearcoats() {
                                          has_rays ? 1u : 0u};
     to.run(kernels_.clearcoat_light, lit, pixels_);
   });
-  rays_bring_ |= kHasClearcoats;
+  ray_light_flags_ |= kHasClearcoats;
 }
 
 }  // namespace lambent

@@ -34,7 +34,7 @@ void FramePassesVulkan::glossy() {
   if (traces_coats(*request_) && has_coats(request_->world.scene())) {
     const Band around = rows_around_band();
     see_around_band(around);
-    if (trace_coats(around, request_->settings.seed)) rays_bring_ |= kHasCoats;
+    if (trace_coats(around, request_->settings.seed)) ray_light_flags_ |= kHasCoats;
   }
   look_up_coats(memory_.points.address(), memory_.surfaces.address());
 }
@@ -60,8 +60,8 @@ Band FramePassesVulkan::rows_around_band() const {
 
 /// Fills in the surfaces of the band and of the rows around it, one after the other.
 void FramePassesVulkan::see_around_band(const Band& around) {
-  reserve_ways(static_cast<std::size_t>(around.rows) *
-               static_cast<std::size_t>(request_->settings.width));
+  reserve_paths(static_cast<std::size_t>(around.rows) *
+                static_cast<std::size_t>(request_->settings.width));
   const auto width = static_cast<std::uint32_t>(request_->settings.width);
   const std::uint32_t before =
       static_cast<std::uint32_t>(band_.first_row - around.first_row) * width;
@@ -79,8 +79,8 @@ void FramePassesVulkan::see_around_band(const Band& around) {
       const std::uint32_t first_pixel =
           static_cast<std::uint32_t>(around.first_row) * width + first;
       const CameraRaysArguments arguments = {
-          {m.ways[0].rays.address() + first * sizeof(RayRecord)},
-          {m.ways[0].cones.address() + first * sizeof(RayCone)},
+          {m.path_lists[0].rays.address() + first * sizeof(RayRecord)},
+          {m.path_lists[0].cones.address() + first * sizeof(RayCone)},
           camera_record(request_->camera, settings.width, settings.height),
           width,
           first_pixel,
@@ -90,7 +90,7 @@ void FramePassesVulkan::see_around_band(const Band& around) {
           settings.seed,
           request_->jitter(),
           0u};
-      const HitArray hits{m.way_hits.address() + first * sizeof(HitRecord)};
+      const HitArray hits{m.path_hits.address() + first * sizeof(HitRecord)};
       to.run(kernels_.camera_rays, arguments, count);
       to.barrier();
       world_.tracer().closest_hits(to, {arguments.rays, count}, hits);
@@ -105,25 +105,25 @@ void FramePassesVulkan::see_around_band(const Band& around) {
   });
 }
 
-void FramePassesVulkan::reserve_ways(std::size_t pixels) {
+void FramePassesVulkan::reserve_paths(std::size_t pixels) {
   FrameMemory& m = memory_;
   reserve<LitPointRecord>(pixels, "points around the band", m.coat_points);
   reserve<PixelSurfaceRecord>(pixels, "surfaces around the band", m.coat_surfaces);
   reserve<CoatRay>(pixels, "coats' rays", m.coat_rays);
-  for (WayBuffers& list : m.ways) reserve_list(pixels, list);
-  reserve<HitRecord>(pixels, "hits of ways", m.way_hits);
+  for (PathBuffers& list : m.path_lists) reserve_list(pixels, list);
+  reserve<HitRecord>(pixels, "hits of paths", m.path_hits);
 }
 
-void FramePassesVulkan::reserve_list(std::size_t ways, WayBuffers& list) {
-  reserve<RayRecord>(ways, "rays of ways", list.rays);
-  reserve<RayCone>(ways, "cones of ways", list.cones);
-  reserve<CoatPath>(ways, "ways", list.paths);
-  reserve<uint>(ways, "pixels of ways", list.pixels);
-  reserve<uint>(1, "number of ways", list.count);
+void FramePassesVulkan::reserve_list(std::size_t paths, PathBuffers& list) {
+  reserve<RayRecord>(paths, "rays of paths", list.rays);
+  reserve<RayCone>(paths, "cones of paths", list.cones);
+  reserve<CoatPath>(paths, "paths", list.paths);
+  reserve<uint>(paths, "pixels of paths", list.pixels);
+  reserve<uint>(1, "number of paths", list.count);
 }
 
 /// The length of a list; runs all passes recorded so far.
-std::uint32_t FramePassesVulkan::count_ways(const WayBuffers& list) {
+std::uint32_t FramePassesVulkan::count_paths(const PathBuffers& list) {
   run_steps();
   uint count = 0;
   vulkan::read(device_, list.count, std::span(&count, 1));
@@ -137,12 +137,12 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
   const std::uint32_t first_index = static_cast<std::uint32_t>(first_row) * width;
   add("glossy", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
-    to.fill(m.ways[0].count, 0u);
+    to.fill(m.path_lists[0].count, 0u);
     to.barrier();
     const CoatRaysArguments drawn = {{m.coat_points.address()},
                                      {m.coat_surfaces.address()},
                                      {m.coat_rays.address()},
-                                     m.ways[0].list(),
+                                     m.path_lists[0].list(),
                                      pixels,
                                      static_cast<uint>(first_row),
                                      width,
@@ -151,8 +151,8 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
                                      seed};
     to.run(kernels_.coat_rays, drawn, pixels);
   });
-  way_pass_ = "glossy";
-  way_seed_ = seed;
+  path_pass_ = "glossy";
+  path_seed_ = seed;
   if (!follow_all(1, first_index, sample_)) return false;
   reuse_coat_rays(around);
   return true;
@@ -162,40 +162,40 @@ bool FramePassesVulkan::trace_coats(const Band& around, std::uint32_t seed) {
 bool FramePassesVulkan::follow_all(std::uint32_t first_bounce, std::uint32_t first_index,
                                    std::uint32_t salt) {
   bool any = false;
-  for (std::uint32_t bounce = first_bounce; bounce <= kMaxWays; ++bounce) {
-    const std::uint32_t ways = count_ways(memory_.ways[list_of(bounce)]);
-    if (ways == 0) break;
-    follow_ways(ways, bounce, first_index, salt);
+  for (std::uint32_t bounce = first_bounce; bounce <= kMaxPathVertices; ++bounce) {
+    const std::uint32_t paths = count_paths(memory_.path_lists[list_of(bounce)]);
+    if (paths == 0) break;
+    follow_paths(paths, bounce, first_index, salt);
     any = true;
   }
   return any;
 }
 
 /// Traces one bounce of paths, adds the light of the hits, and lists the paths that go on.
-void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
-                                    std::uint32_t first_index, std::uint32_t salt_of_pass) {
+void FramePassesVulkan::follow_paths(std::uint32_t paths, std::uint32_t bounce,
+                                     std::uint32_t first_index, std::uint32_t salt_of_pass) {
   FrameMemory& m = memory_;
-  reserve<LitPointRecord>(ways, "points of ways", m.way_points);
-  reserve<PixelSurfaceRecord>(ways, "surfaces of ways", m.way_surfaces);
-  reserve<vec3>(ways, "diffuse light of ways", m.way_diffuse);
-  reserve<vec3>(ways, "specular light of ways", m.way_specular);
+  reserve<LitPointRecord>(paths, "points of paths", m.path_points);
+  reserve<PixelSurfaceRecord>(paths, "surfaces of paths", m.path_surfaces);
+  reserve<vec3>(paths, "diffuse light of paths", m.path_diffuse);
+  reserve<vec3>(paths, "specular light of paths", m.path_specular);
   const bool keeps_behind = keeps_behind_;
   const bool apart = keeps_behind && draws_behind_glass() > 0;
-  const std::size_t drawn = apart ? ways : 0;
-  reserve<vec3>(drawn, "drawn light of ways", m.way_drawn);
-  reserve<float>(drawn, "squares of drawn light of ways", m.way_drawn_squares);
-  reserve<vec3>(drawn, "drawn specular light of ways", m.way_drawn_specular);
-  reserve<QueryRecord>(2 * std::size_t{ways}, "queries of ways", m.way_queries);
-  reserve<vec3>(2 * std::size_t{ways}, "answers of ways", m.way_answers);
-  frame_->rays += ways;
-  WayBuffers &from = m.ways[list_of(bounce)], &next = m.ways[list_of(bounce + 1)];
+  const std::size_t drawn = apart ? paths : 0;
+  reserve<vec3>(drawn, "drawn light of paths", m.path_drawn);
+  reserve<float>(drawn, "squares of drawn light of paths", m.path_drawn_squares);
+  reserve<vec3>(drawn, "drawn specular light of paths", m.path_drawn_specular);
+  reserve<QueryRecord>(2 * std::size_t{paths}, "queries of paths", m.path_queries);
+  reserve<vec3>(2 * std::size_t{paths}, "answers of paths", m.path_answers);
+  frame_->rays += paths;
+  PathBuffers &from = m.path_lists[list_of(bounce)], &next = m.path_lists[list_of(bounce + 1)];
   const uint salt = coat_salt(salt_of_pass, bounce);
   const bool has_field = request_->sources.field != nullptr;
-  add(way_pass_, [=, this, &m, &from](Recorder& to) {
+  add(path_pass_, [=, this, &m, &from](Recorder& to) {
     const DeviceSeenHits hits = {
-        {from.rays.address()}, {m.way_hits.address()}, {from.cones.address()}, ways};
-    const DevicePixels met = {{m.way_points.address()}, {m.way_surfaces.address()}};
-    world_.tracer().closest_hits(to, {hits.rays, ways}, hits.hits);
+        {from.rays.address()}, {m.path_hits.address()}, {from.cones.address()}, paths};
+    const DevicePixels met = {{m.path_points.address()}, {m.path_surfaces.address()}};
+    world_.tracer().closest_hits(to, {hits.rays, paths}, hits.hits);
     to.barrier();
     m.gather_shading.pixel_surfaces(to, stage(), hits, 0, false, met);
     const CoatHitsArguments shaded = {
@@ -204,57 +204,57 @@ void FramePassesVulkan::follow_ways(std::uint32_t ways, std::uint32_t bounce,
         met.surfaces,
         {from.paths.address()},
         {from.pixels.address()},
-        {m.way_queries.address()},
+        {m.path_queries.address()},
         {m.coat_rays.address()},
         {m.coat_distances.address()},
-        ways,
+        paths,
         bounce,
         static_cast<uint>(request_->settings.reflected_emissive_samples),
         first_index,
         has_field ? 1u : 0u,
         0u};
-    to.run(kernels_.coat_hits, shaded, ways);
+    to.run(kernels_.coat_hits, shaded, paths);
     to.barrier();
     ShadeHitsSettings lighting;
     lighting.emissive_samples = request_->settings.reflected_emissive_samples;
     lighting.salt = salt;
-    lighting.seed = way_seed_;
-    m.gather_shading.reflected_light(to, stage(), met, ways, lighting,
-                                     {{m.way_diffuse.address()},
-                                      {m.way_specular.address()},
-                                      {apart ? m.way_drawn.address() : 0},
-                                      {apart ? m.way_drawn_squares.address() : 0},
-                                      {apart ? m.way_drawn_specular.address() : 0}});
+    lighting.seed = path_seed_;
+    m.gather_shading.reflected_light(to, stage(), met, paths, lighting,
+                                     {{m.path_diffuse.address()},
+                                      {m.path_specular.address()},
+                                      {apart ? m.path_drawn.address() : 0},
+                                      {apart ? m.path_drawn_squares.address() : 0},
+                                      {apart ? m.path_drawn_specular.address() : 0}});
     if (keeps_behind) {
       to.barrier();
-      keep_behind(to, ways, from);
+      keep_behind(to, paths, from);
     }
   });
   if (has_field) {
-    look_up(way_pass_, *request_->sources.field, m.way_queries, 2 * ways, CorrectionUse::smooth,
-            m.way_answers);
+    look_up(path_pass_, *request_->sources.field, m.path_queries, 2 * paths, CorrectionUse::smooth,
+            m.path_answers);
   }
-  if (forks_ways_) fork_ways(from, ways, bounce, first_index, salt);
-  add(way_pass_, [=, this, &m, &from, &next](Recorder& to) {
-    if (!has_field) to.fill(m.way_answers, 0u);
+  if (splits_paths_) split_paths(from, paths, bounce, first_index, salt);
+  add(path_pass_, [=, this, &m, &from, &next](Recorder& to) {
+    if (!has_field) to.fill(m.path_answers, 0u);
     to.fill(next.count, 0u);
     to.barrier();
-    const CoatLightArguments lit = {{m.way_points.address()},
-                                    {m.way_surfaces.address()},
-                                    {m.way_diffuse.address()},
-                                    {m.way_specular.address()},
-                                    {m.way_answers.address()},
+    const CoatLightArguments lit = {{m.path_points.address()},
+                                    {m.path_surfaces.address()},
+                                    {m.path_diffuse.address()},
+                                    {m.path_specular.address()},
+                                    {m.path_answers.address()},
                                     {from.paths.address()},
                                     {from.pixels.address()},
                                     next.list(),
                                     {m.coat_rays.address()},
-                                    ways,
+                                    paths,
                                     first_index,
                                     salt,
-                                    way_seed_,
+                                    path_seed_,
                                     bounce,
                                     0u};
-    to.run(kernels_.coat_light, lit, ways);
+    to.run(kernels_.coat_light, lit, paths);
   });
 }
 

@@ -9,52 +9,53 @@ namespace lambent {
 void FramePassesVulkan::transmission() {
   // The recorded passes read the lists that are reused below
   run_steps();
-  reserve_ways(pixels_);
+  reserve_paths(pixels_);
   reserve<float>(pixels_, "distances of coats behind glass", memory_.coat_distances);
   const uint salt = sample_ ^ kThroughSalt;
   reserve_list(pixels_, memory_.forks);
   add("transmission", [=, this](Recorder& to) {
     FrameMemory& m = memory_;
-    to.fill(m.ways[0].count, 0u);
+    to.fill(m.path_lists[0].count, 0u);
     to.fill(m.forks.count, 0u);
     to.barrier();
     const ThroughRaysArguments drawn = {
-        {m.points.address()}, {m.surfaces.address()},       {m.coat_rays.address()},
-        m.ways[0].list(),     {m.coat_distances.address()}, pixels_,
-        first_pixel_,         coat_salt(salt, 0u),          request_->settings.seed};
+        {m.points.address()},   {m.surfaces.address()},       {m.coat_rays.address()},
+        m.path_lists[0].list(), {m.coat_distances.address()}, pixels_,
+        first_pixel_,           coat_salt(salt, 0u),          request_->settings.seed};
     to.run(kernels_.through_rays, drawn, pixels_);
   });
   keeps_behind_ = filters_through(*request_);
   if (keeps_behind_) start_through();
-  way_pass_ = "transmission";
-  way_seed_ = request_->settings.seed;
-  forks_ways_ = true;
-  if (follow_all(1, first_pixel_, salt)) rays_bring_ |= kHasTransmission;
-  forks_ways_ = false;
+  path_pass_ = "transmission";
+  path_seed_ = request_->settings.seed;
+  splits_paths_ = true;
+  if (follow_all(1, first_pixel_, salt)) ray_light_flags_ |= kHasTransmission;
+  splits_paths_ = false;
   run_steps();
-  std::swap(memory_.forks, memory_.ways[1]);
+  std::swap(memory_.forks, memory_.path_lists[1]);
   static_assert(kFirstBounceOfForks == 2);  // bounce 2 reads list 1
   follow_all(kFirstBounceOfForks, first_pixel_, salt);
   keeps_behind_ = false;
 }
 
 /// Appends the reflected branches of paths of a list that split at glass.
-void FramePassesVulkan::fork_ways(const WayBuffers& ways, std::uint32_t count, std::uint32_t bounce,
-                                  std::uint32_t first_index, std::uint32_t salt) {
-  add(way_pass_, [=, this, &ways](Recorder& to) {
+void FramePassesVulkan::split_paths(const PathBuffers& from, std::uint32_t count,
+                                    std::uint32_t bounce, std::uint32_t first_index,
+                                    std::uint32_t salt) {
+  add(path_pass_, [=, this, &from](Recorder& to) {
     const FrameMemory& m = memory_;
-    const ForkWaysArguments arguments = {{m.way_points.address()},
-                                         {m.way_surfaces.address()},
-                                         {ways.paths.address()},
-                                         {ways.pixels.address()},
-                                         m.forks.list(),
-                                         count,
-                                         first_index,
-                                         salt,
-                                         way_seed_,
-                                         bounce,
-                                         0u};
-    to.run(kernels_.fork_ways, arguments, count);
+    const SplitPathsArguments arguments = {{m.path_points.address()},
+                                           {m.path_surfaces.address()},
+                                           {from.paths.address()},
+                                           {from.pixels.address()},
+                                           m.forks.list(),
+                                           count,
+                                           first_index,
+                                           salt,
+                                           path_seed_,
+                                           bounce,
+                                           0u};
+    to.run(kernels_.split_paths, arguments, count);
   });
 }
 
@@ -104,24 +105,24 @@ void FramePassesVulkan::start_through() {
 }
 
 /// Stores the light of the first opaque surfaces behind glass apart, for paths in the list `from`.
-void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t ways, const WayBuffers& from) {
+void FramePassesVulkan::keep_behind(Recorder& to, std::uint32_t paths, const PathBuffers& from) {
   FrameMemory& m = memory_;
   const KeepBehindArguments arguments = {{world_.scene().address()},
-                                         {m.way_points.address()},
-                                         {m.way_surfaces.address()},
+                                         {m.path_points.address()},
+                                         {m.path_surfaces.address()},
                                          {from.paths.address()},
                                          {from.pixels.address()},
-                                         {m.way_diffuse.address()},
-                                         {m.way_drawn.address()},
-                                         {m.way_drawn_specular.address()},
-                                         {m.way_drawn_squares.address()},
+                                         {m.path_diffuse.address()},
+                                         {m.path_drawn.address()},
+                                         {m.path_drawn_specular.address()},
+                                         {m.path_drawn_squares.address()},
                                          {m.coat_rays.address()},
                                          {m.through.addresses.address()},
                                          vec3(request_->camera.world_from_view[3]),
                                          first_traced_pixel(),
-                                         ways,
+                                         paths,
                                          draws_behind_glass()};
-  to.run(kernels_.keep_behind, arguments, ways);
+  to.run(kernels_.keep_behind, arguments, paths);
 }
 
 /// Stores the light transmitted through the surfaces of the band's pixels.

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cassert>
 
-#include "compose/glossy/way_rays.h"
+#include "compose/glossy/path_rays.h"
 #include "core/parallel.h"
 #include "raytracing/world_access.h"
 #include "scene/environment_sampling.h"
@@ -40,7 +40,7 @@ void Glossy::start(const GlossySettings& settings, int first_row, std::size_t pi
   first_row_ = first_row;
   salt_ = static_cast<uint>(settings.sample) ^ salt;
   rays_.assign(pixels, {vec3(0.0f, 0.0f, 1.0f), infinity(), vec3(0.0f), 0.0f, vec3(0.0f)});
-  ways_.start(pixels);
+  paths_.start(pixels);
   coat_distances_.assign(pixels, -1.0f);
 }
 
@@ -76,10 +76,10 @@ std::uint64_t Glossy::send_rays(const GlossySettings& settings,
         }
         rays_[first + i].direction_ws = drawn.direction_ws;
         rays_[first + i].pdf = drawn.pdf;
-        ways_.paths[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
-                                  kForksNowhere};
-        ways_.next[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
-        ways_.cones[first + i] =
+        paths_.paths[first + i] = {vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
+                                   kForksNowhere};
+        paths_.next[first + i] = ray_from(surface, {drawn.direction_ws, 1.0f});
+        paths_.cones[first + i] =
             reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), drawn.pdf);
         ++count;
       }
@@ -104,8 +104,8 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
     std::vector<std::size_t> pixels;
     for (std::size_t i = begin; i < end; ++i) {
       met_.hit[i] = 0;
-      if (ways_.paths[i].pdf <= 0.0f) continue;
-      rays.push_back(ways_.next[i]);
+      if (paths_.paths[i].pdf <= 0.0f) continue;
+      rays.push_back(paths_.next[i]);
       pixels.push_back(i);
     }
     std::vector<Hit> hits(rays.size());
@@ -114,30 +114,30 @@ std::uint64_t Glossy::follow_rays(const GlossySettings& settings, std::uint32_t 
     traced += rays.size();
     for (std::size_t k = 0; k < rays.size(); ++k) {
       const std::size_t i = pixels[k];
-      CoatPath& path = ways_.paths[i];
+      CoatPath& path = paths_.paths[i];
       met_.to_viewer_ws[i] = -rays[k].direction;
       rays_[i].distance = distance_met(path, bounce, rays_[i].distance, hits[k].distance);
       if (path.stage == kStageCoatBehindGlass) {
         coat_distances_[i] = farther_seen(path, coat_distances_[i], hits[k].distance);
       }
       if (hits[k].missed()) {
-        bring_light(path, sky_radiance(scene.environment, rays[k].direction), rays_[i]);
+        add_radiance(path, sky_radiance(scene.environment, rays[k].direction), rays_[i]);
         path.pdf = 0.0f;
         continue;
       }
-      ways_.cones[i].width = width_at(ways_.cones[i], hits[k].distance);
-      const Surface surface = seen_surface_at(scene, rays[k], hits[k], ways_.cones[i].width);
-      if (path.stage == kStageCoatBehindGlass && !lets_light_through(surface.transmission)) {
+      paths_.cones[i].width = width_at(paths_.cones[i], hits[k].distance);
+      const Surface surface = seen_surface_at(scene, rays[k], hits[k], paths_.cones[i].width);
+      if (path.stage == kStageCoatBehindGlass && !is_transmissive(surface.transmission)) {
         path.stage = kStageBeyondCoat;
       }
-      path.throughput *= left_of_light(surface.transmission, hits[k].distance);
+      path.throughput *= volume_transmittance(surface.transmission, hits[k].distance);
       met_.hit[i] = 1;
       met_.surfaces[i] = surface;
       meet_emitter(path, surface.emission,
                    static_cast<uint>(settings.frame.reflected_emissive_samples), rays_[i]);
-      met_.coat_shares[i] = meet_coat(dot(surface.normal_ws, met_.to_viewer_ws[i]),
-                                      settings.field != nullptr ? surface.gi_share : 0.0f, bounce,
-                                      met_.surfaces[i].reflectance, path);
+      met_.coat_shares[i] = regularize_lobe(dot(surface.normal_ws, met_.to_viewer_ws[i]),
+                                            settings.field != nullptr ? surface.gi_share : 0.0f,
+                                            bounce, met_.surfaces[i].reflectance, path);
     }
   });
   return traced;
@@ -150,7 +150,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
   queries_.clear();
   asked_.clear();
   const auto ask = [&](std::size_t i, const vec3& direction_ws) {
-    queries_.push_back(query_of(ways_.next[i], met_.surfaces[i], direction_ws));
+    queries_.push_back(query_of(paths_.next[i], met_.surfaces[i], direction_ws));
     asked_.push_back(i);
   };
   const auto asks_for_base = [&](const Surface& surface) {
@@ -180,7 +180,7 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
                                                          surface.gi_share * answers_[k])
                                     : coats_light(surface.reflectance, n_dot_v, surface.gi_share,
                                                   met_.coat_shares[i], answers_[k]);
-    bring_light(ways_.paths[i], light, rays_[i]);
+    add_radiance(paths_.paths[i], light, rays_[i]);
   }
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   std::atomic<std::uint64_t> going_on = 0;
@@ -189,16 +189,16 @@ std::uint64_t Glossy::light_hits(const GlossySettings& settings, std::uint32_t b
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
-      CoatPath& path = ways_.paths[i];
-      bring_light(path, direct_.diffuse[i] + direct_.specular[i], rays_[i]);
+      CoatPath& path = paths_.paths[i];
+      add_radiance(path, direct_.diffuse[i] + direct_.specular[i], rays_[i]);
       const RandomStream random = make_random_stream(
           first_index + static_cast<uint>(i), coat_salt(salt_, bounce), ~settings.frame.seed);
       const NextRay next =
           go_on(surface.transmission, surface.reflectance, met_.coat_shares[i], surface.normal_ws,
                 surface.geometric_normal_ws, met_.to_viewer_ws[i], bounce, random, path);
       if (path.pdf <= 0.0f) continue;
-      ways_.next[i] = ray_from(surface, next);
-      ways_.cones[i] = reflected_cone(ways_.cones[i], path.pdf);
+      paths_.next[i] = ray_from(surface, next);
+      paths_.cones[i] = reflected_cone(paths_.cones[i], path.pdf);
       ++going;
     }
     going_on += going;
@@ -214,12 +214,12 @@ std::uint64_t Glossy::follow_all(const GlossySettings& settings, std::uint64_t g
   lighting.denoise = kept.seen != nullptr;
   lighting.emissive_samples = settings.frame.reflected_emissive_samples;
   std::uint64_t traced = 0;
-  for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxWays; ++bounce) {
+  for (std::uint32_t bounce = first_bounce; going > 0 && bounce <= kMaxPathVertices; ++bounce) {
     traced += follow_rays(settings, bounce);
     traced += shade_direct(settings.world, met_, lighting, {first_row_, 0},
                            static_cast<int>(coat_salt(salt_, bounce)), false, direct_);
     if (kept.seen != nullptr) keep_behind(settings, kept);
-    if (!forks_.paths.empty()) fork_ways(settings, bounce);
+    if (!forks_.paths.empty()) split_paths(settings, bounce);
     going = light_hits(settings, bounce);
   }
   return traced;

@@ -14,7 +14,7 @@
 #include "compose/gbuffer.h"
 #include "compose/glossy/ray_reuse.h"
 #include "compose/glossy/seen_through.h"
-#include "glossy/way_math.h"
+#include "glossy/path_math.h"
 #include "lambent/field.h"
 
 namespace lambent {
@@ -28,7 +28,7 @@ inline int glossy_halo(int rows) {
 void find_coat_shares(GBuffer& pixels);
 
 /// The paths of the rays of pixels, one entry a pixel.
-struct Ways {
+struct Paths {
   std::vector<CoatPath> paths;
   std::vector<Ray> next;       ///< Valid where the path has not ended.
   std::vector<RayCone> cones;  ///< Valid where the path has not ended.
@@ -59,7 +59,7 @@ class Glossy {
   std::uint64_t send_through(const GlossySettings& settings, const GBuffer& seen);
   std::uint64_t follow_all(const GlossySettings& settings, std::uint64_t going,
                            std::uint32_t first_bounce, const KeptBehind& kept);
-  void fork_ways(const GlossySettings& settings, std::uint32_t bounce);
+  void split_paths(const GlossySettings& settings, std::uint32_t bounce);
   void keep_behind(const GlossySettings& settings, const KeptBehind& kept);
   std::uint64_t send_rays(const GlossySettings& settings, std::span<const GlossyRows> around);
   std::uint64_t follow_rays(const GlossySettings& settings, std::uint32_t bounce);
@@ -69,7 +69,7 @@ class Glossy {
   // One entry for each pixel of the rows around the band
   int first_row_ = 0;
   std::vector<CoatRay> rays_;
-  Ways ways_, forks_;  // the paths being traced, and the reflected branches to be traced later
+  Paths paths_, forks_;  // the paths being traced, and the reflected branches to be traced later
   std::vector<float> coat_distances_;  // TransmittedLight::coat_distances
   GBuffer met_;                        // the paths' hits
   ReflectedLight direct_;

@@ -6,7 +6,7 @@
 
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
-#include "glossy/way_math.h"
+#include "glossy/path_math.h"
 #include "scene/transmission.h"
 
 namespace lambent {
@@ -107,7 +107,7 @@ bool shows_rough_glass(const FrameRequest& request) {
   if (!filters_through(request)) return false;
   const std::vector<Material>& materials = request.world.scene().materials;
   return std::any_of(materials.begin(), materials.end(), [](const Material& material) {
-    return lets_light_through(material) && material.roughness * material.roughness > kStraightAlpha;
+    return is_transmissive(material) && material.roughness * material.roughness > kStraightAlpha;
   });
 }
 
@@ -117,7 +117,7 @@ void keep_through(const BandSeenThrough& band, SeenThrough& seen) {
     for (std::size_t i = begin; i < end; ++i) {
       if (gbuffer.hit[i] == 0) continue;
       const Surface& surface = gbuffer.surfaces[i];
-      if (!lets_light_through(surface.transmission)) continue;
+      if (!is_transmissive(surface.transmission)) continue;
       const std::size_t pixel = band.first + i;
       const vec3 tint = filtered_tint(surface.transmission);
       seen.light[pixel] = band.transmitted.light[i] / tint;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "compose/glossy/glossy_frame.h"
-#include "compose/glossy/way_rays.h"
+#include "compose/glossy/path_rays.h"
 #include "compose/pixel_math.h"
 #include "core/parallel.h"
 
@@ -23,16 +23,17 @@ std::uint64_t Glossy::send_through(const GlossySettings& settings, const GBuffer
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Surface& surface = seen.surfaces[i];
     rays_[i].distance = -1.0f;
-    if (seen.hit[i] == 0 || !lets_light_through(surface.transmission)) continue;
+    if (seen.hit[i] == 0 || !is_transmissive(surface.transmission)) continue;
     RandomStream random = make_random_stream(first_index + static_cast<uint>(i),
                                              coat_salt(salt_, 0u), ~settings.frame.seed);
-    CoatPath& path = ways_.paths[i];
-    path = {vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther, kForksNext};
+    CoatPath& path = paths_.paths[i];
+    path = {vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageOther, kForksNext};
     const vec2 u = next_uniform2(random);
-    const NextRay next = go_on_through(surface.transmission, surface.reflectance, surface.normal_ws,
-                                       seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
-    ways_.next[i] = ray_from(surface, next);
-    ways_.cones[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
+    const NextRay next =
+        extend_through_glass(surface.transmission, surface.reflectance, surface.normal_ws,
+                             seen.to_viewer_ws[i], vec3(u, next_uniform(random)), path);
+    paths_.next[i] = ray_from(surface, next);
+    paths_.cones[i] = reflected_cone(pixel_cone(settings, surface, seen.to_viewer_ws[i]), path.pdf);
     sent += path.pdf > 0.0f ? 1 : 0;
   }
   return sent;
@@ -46,8 +47,8 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
-      CoatPath& path = ways_.paths[i];
-      if (!comes_behind_glass(path, surface.transmission)) {
+      CoatPath& path = paths_.paths[i];
+      if (!reaches_opaque_surface(path, surface.transmission)) {
         if (has_emitters) direct_.diffuse[i] += direct_.emitters[i] + direct_.emitter_specular[i];
         continue;
       }
@@ -75,14 +76,14 @@ void Glossy::keep_behind(const GlossySettings& settings, const KeptBehind& kept)
 }
 
 /// Stores the reflected branches of paths that split at glass.
-void Glossy::fork_ways(const GlossySettings& settings, std::uint32_t bounce) {
+void Glossy::split_paths(const GlossySettings& settings, std::uint32_t bounce) {
   const uint first_index = static_cast<uint>(first_row_) * static_cast<uint>(settings.frame.width);
   parallel_chunks(met_.size(), kPixelsPerTask, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (met_.hit[i] == 0) continue;
       const Surface& surface = met_.surfaces[i];
       const float n_dot_v = dot(surface.normal_ws, met_.to_viewer_ws[i]);
-      if (!forks(ways_.paths[i], surface.transmission, surface.reflectance, met_.coat_shares[i],
+      if (!forks(paths_.paths[i], surface.transmission, surface.reflectance, met_.coat_shares[i],
                  n_dot_v, bounce)) {
         continue;
       }
@@ -91,9 +92,9 @@ void Glossy::fork_ways(const GlossySettings& settings, std::uint32_t bounce) {
       const NextRay next =
           go_on_reflected(surface.transmission, surface.reflectance, met_.coat_shares[i],
                           surface.normal_ws, surface.geometric_normal_ws, met_.to_viewer_ws[i],
-                          random, ways_.paths[i], forks_.paths[i]);
+                          random, paths_.paths[i], forks_.paths[i]);
       forks_.next[i] = ray_from(surface, next);
-      forks_.cones[i] = reflected_cone(ways_.cones[i], forks_.paths[i].pdf);
+      forks_.cones[i] = reflected_cone(paths_.cones[i], forks_.paths[i].pdf);
     }
   });
 }
@@ -105,7 +106,7 @@ std::uint64_t Glossy::look_through(const GlossySettings& settings, const GlossyR
   std::uint64_t traced = follow_all(settings, send_through(settings, band.pixels), 1, kept);
   const auto goes_on = [](const CoatPath& path) { return path.pdf > 0.0f; };
   const auto going = std::count_if(forks_.paths.begin(), forks_.paths.end(), goes_on);
-  std::swap(ways_, forks_);
+  std::swap(paths_, forks_);
   forks_.start(0);
   traced += follow_all(settings, static_cast<std::uint64_t>(going), kFirstBounceOfForks, kept);
   light.light.resize(rays_.size());

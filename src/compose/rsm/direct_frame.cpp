@@ -59,7 +59,7 @@ class RowShading {
   /// Returns the number of shadow rays traced.
   std::uint64_t shade(int sub_map) {
     if (view_.lights.shared()) find_brightest();
-    for (const DealtLight& dealt : view_.lights.of(sub_map)) {
+    for (const AssignedLight& dealt : view_.lights.of(sub_map)) {
       for (const RowPixel& pixel : pixels_) ask(pixel, dealt);
     }
     trace();
@@ -104,7 +104,7 @@ class RowShading {
     }
   }
 
-  void ask(const RowPixel& pixel, const DealtLight& dealt) {
+  void ask(const RowPixel& pixel, const AssignedLight& dealt) {
     if (dealt.light == pixel.brightest.light) return;
     const LightCandidate candidate = punctual_candidate(record_of(dealt.light), pixel.point);
     ReflectedPair pair = sent(pixel, candidate);

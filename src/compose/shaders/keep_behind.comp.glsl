@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"
 #include "compose/pixel_math.h"
-#include "glossy/way_math.h"
+#include "glossy/path_math.h"
 #include "raytracing/shaders/unoccluded_light.glsl"
 #include "shared/variance.h"
 
@@ -34,7 +34,7 @@ void main() {
   PixelSurfaceRecord surface = args.surfaces.at[k];
   if ((surface.flags & kSurfaceMissed) != 0u) return;
   CoatPath path = args.paths.at[k];
-  if (!comes_behind_glass(path, surface.transmission)) {
+  if (!reaches_opaque_surface(path, surface.transmission)) {
     if (args.draws > 0u) args.diffuse.at[k] += args.drawn.at[k] + args.drawn_specular.at[k];
     return;
   }

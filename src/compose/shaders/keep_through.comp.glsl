@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "compose/glossy/seen_through_records.h"
 #include "compose/pixel_math.h"
-#include "glossy/way_math.h"
+#include "glossy/path_math.h"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -16,7 +16,7 @@ void main() {
   if (i >= args.count) return;
   PixelSurfaceRecord surface = args.surfaces.at[i];
   if ((surface.flags & kSurfaceMissed) != 0u) return;
-  if (!lets_light_through(surface.transmission)) return;
+  if (!is_transmissive(surface.transmission)) return;
   uint pixel = args.first + i;
   CoatRay ray = args.coat_rays.at[i];
   vec3 tint = filtered_tint(surface.transmission);

@@ -25,7 +25,7 @@ mat4 transform_before(SceneBeforeArray before, uint instance, InstanceRecord now
 vec3 fetch_position_before(SceneBeforeArray before, uint instance, MeshRecord now, uint vertex) {
   if (before.at[0].at_rest == 0u) {
     InstanceBeforeRecord record = before.at[0].instances.at[instance];
-    if ((record.flags & kBeforeBent) != 0u) return record.positions.at[vertex];
+    if ((record.flags & kPreviouslyDeformed) != 0u) return record.positions.at[vertex];
   }
   return now.positions.at[vertex];
 }

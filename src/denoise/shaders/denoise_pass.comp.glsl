@@ -55,7 +55,7 @@ float fetch_lobe(int plane, int x, int y) {
   uint i;
   if (!pixel_at(x, y, i)) return 0.0f;
   if (plane == kLobeSharpnessPlane) return args.lobes.at[i].sharpness;
-  if (plane == kSeenDistancePlane) return args.lobes.at[i].inverse_distance;
+  if (plane == kInverseHitDistancePlane) return args.lobes.at[i].inverse_distance;
   return plane < kAcrossPlane ? args.lobes.at[i].mirror_ws[plane - kMirrorPlane]
                               : args.lobes.at[i].across_ws[plane - kAcrossPlane];
 }

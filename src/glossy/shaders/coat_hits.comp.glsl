@@ -28,19 +28,19 @@ void main() {
         farther_seen(path, args.coat_distances.at[i], args.hits.at[k].distance);
   }
   if ((surface.flags & kSurfaceMissed) != 0u) {
-    bring_light(path, surface.emission, ray);
+    add_radiance(path, surface.emission, ray);
     args.coat_rays.at[i] = ray;
     return;
   }
-  if (path.stage == kStageCoatBehindGlass && !lets_light_through(surface.transmission)) {
+  if (path.stage == kStageCoatBehindGlass && !is_transmissive(surface.transmission)) {
     path.stage = kStageBeyondCoat;
   }
-  path.throughput *= left_of_light(surface.transmission, args.hits.at[k].distance);
+  path.throughput *= volume_transmittance(surface.transmission, args.hits.at[k].distance);
   meet_emitter(path, surface.emission, args.emitter_samples, ray);
   args.coat_rays.at[i] = ray;
   float n_dot_v = dot(point.normal_ws, surface.to_viewer_ws);
   float gi_share = args.has_field != 0u ? surface.gi_share : 0.0f;
-  surface.coat_share = meet_coat(n_dot_v, gi_share, args.bounce, surface.reflectance, path);
+  surface.coat_share = regularize_lobe(n_dot_v, gi_share, args.bounce, surface.reflectance, path);
   surface.clearcoat_share = 0.0f;
   args.paths.at[k] = path;
   args.surfaces.at[k] = surface;

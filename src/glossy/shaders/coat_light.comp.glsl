@@ -2,7 +2,7 @@
 // Adds the light that the hits of specular rays reflect, and appends the paths that go on.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/shaders/append_way.glsl"
+#include "glossy/shaders/append_path.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -24,12 +24,12 @@ void main() {
                            args.field.at[2u * k + 1u]) +
                args.diffuse.at[k] + args.specular.at[k];
   CoatRay ray = args.coat_rays.at[i];
-  bring_light(path, light, ray);
+  add_radiance(path, light, ray);
   args.coat_rays.at[i] = ray;
 
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
   NextRay next = go_on(surface.transmission, surface.reflectance, surface.coat_share,
                        point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
                        args.bounce, random, path);
-  if (path.pdf > 0.0f) append_way(args.next, i, path, surface.cone, point, next);
+  if (path.pdf > 0.0f) append_path(args.next, i, path, surface.cone, point, next);
 }

@@ -2,7 +2,7 @@
 // Draws a direction from the specular lobe of each pixel that traces a ray.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/shaders/append_way.glsl"
+#include "glossy/shaders/append_path.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -31,5 +31,5 @@ void main() {
   args.coat_rays.at[i].pdf = drawn.pdf;
   CoatPath path = CoatPath(vec3(1.0f), drawn.pdf, surface.reflectance.alpha, kStageOwnCoat,
                            kForksNowhere);
-  append_way(args.ways, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
+  append_path(args.list, i, path, surface.cone, point, NextRay(drawn.direction_ws, 1.0f));
 }

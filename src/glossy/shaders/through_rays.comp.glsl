@@ -2,7 +2,7 @@
 // Draws a ray through the surface of each pixel whose surface transmits light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/shaders/append_way.glsl"
+#include "glossy/shaders/append_path.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
@@ -15,13 +15,13 @@ void main() {
   args.coat_rays.at[i] = CoatRay(vec3(0.0f, 0.0f, 1.0f), -1.0f, vec3(0.0f), 0.0f, vec3(0.0f));
   args.coat_distances.at[i] = -1.0f;
   PixelSurfaceRecord surface = args.surfaces.at[i];
-  if ((surface.flags & kSurfaceMissed) != 0u || !lets_light_through(surface.transmission)) return;
+  if ((surface.flags & kSurfaceMissed) != 0u || !is_transmissive(surface.transmission)) return;
   LitPointRecord point = args.points.at[i];
   RandomStream random = make_random_stream(args.first_index + i, args.salt, ~args.seed);
-  CoatPath path = CoatPath(vec3(1.0f), kFoundByNobodyElse, surface.transmission.alpha, kStageOther,
+  CoatPath path = CoatPath(vec3(1.0f), kNoLightSampling, surface.transmission.alpha, kStageOther,
                            kForksNext);
   vec2 u = next_uniform2(random);
-  NextRay next = go_on_through(surface.transmission, surface.reflectance, point.normal_ws,
+  NextRay next = extend_through_glass(surface.transmission, surface.reflectance, point.normal_ws,
                                surface.to_viewer_ws, vec3(u, next_uniform(random)), path);
-  if (path.pdf > 0.0f) append_way(args.ways, i, path, surface.cone, point, next);
+  if (path.pdf > 0.0f) append_path(args.list, i, path, surface.cone, point, next);
 }

@@ -124,7 +124,7 @@ void EmbreeRayTracer::finish(double* ms, Stopwatch& watch) {
   check_masks();
   const Scene& scene = *slots_.scene;
   has_glass_ = std::any_of(scene.materials.begin(), scene.materials.end(),
-                           [](const Material& material) { return lets_light_through(material); });
+                           [](const Material& material) { return is_transmissive(material); });
   statistics_.triangles = triangle_count(scene);
   statistics_.instances = scene.instances.size();
   statistics_.bytes = static_cast<std::size_t>(std::max<std::int64_t>(bytes_, 0));

@@ -46,7 +46,7 @@ void filter_see_through(const RTCFilterFunctionNArguments* args) {
     bool stops = stops_ray_at(scene, instance, hit.primID, {hit.u, hit.v}, distance,
                               RTCRayN_mask(args->ray, args->N, lane));
     const Instance& placed = scene.instances[instance];
-    if (stops && lets_light_through(scene.materials[scene.meshes[placed.mesh].material])) {
+    if (stops && is_transmissive(scene.materials[scene.meshes[placed.mesh].material])) {
       const vec3 normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
       const vec3 direction(RTCRayN_dir_x(args->ray, args->N, lane),
                            RTCRayN_dir_y(args->ray, args->N, lane),

@@ -12,7 +12,7 @@ LAMBENT_BEGIN
 const float kFarthestMotion = 65536.0f;
 
 // Value of PixelMotion::known where the point moved in the world, not by the camera alone.
-const uint kMotionOfItself = 2u;
+const uint kObjectMotion = 2u;
 // Least motion in the world that counts as such [pixels]. Less is rounding, or invisible.
 const float kLeastOwnMotion = 0.02f;
 
@@ -23,7 +23,7 @@ struct PixelMotion {
   vec2 offset;         ///< Previous minus present place [pixels], +x right, +y down; 0: unknown.
   float depth;         ///< From the camera's plane [m]; infinite: the sky.
   float depth_before;  ///< In the previous frame [m]; infinite: the sky; 0: unknown.
-  uint known;          ///< Not 0: the offset is known; kMotionOfItself: the point moved in the
+  uint known;          ///< Not 0: the offset is known; kObjectMotion: the point moved in the
                        ///< world, too. 0: there was no previous frame, or no such point in it.
 };
 LAMBENT_DEVICE_ARRAY(PixelMotionArray, PixelMotion, 4)

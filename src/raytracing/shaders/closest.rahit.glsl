@@ -19,7 +19,7 @@ void main() {
     ignoreIntersectionEXT;
   }
   if (!crosses_glass(hit.front_face)) return;
-  if (!lets_light_through(material_of(args.scene, instance))) return;
+  if (!is_transmissive(material_of(args.scene, instance))) return;
   bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
   vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,
                                  gl_WorldRayDirectionEXT);

@@ -34,10 +34,10 @@ void group_importances(SceneArray scene, uint group, vec3 position_ws, vec3 norm
 bool emitters_alone(LightDrawsArguments draws) {
   return draws.emitters_alone != 0u;
 }
-uint asked_lights(LightDrawsArguments draws) {
+uint enumerated_lights(LightDrawsArguments draws) {
   return emitters_alone(draws) ? 0u : draws.scene.at[0].asked_count;
 }
-uint fetch_asked(LightDrawsArguments draws, uint slot) {
+uint fetch_enumerated(LightDrawsArguments draws, uint slot) {
   return draws.scene.at[0].asked.at[slot];
 }
 LightRecord fetch_light(LightDrawsArguments draws, uint light) {

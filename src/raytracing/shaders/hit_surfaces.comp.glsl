@@ -24,7 +24,7 @@ void main() {
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
-      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u,
+      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kNoDirectLight, 0u,
                      -ray.direction_ws);
   if (missed(hit)) {
     args.points.at[i] = point;
@@ -49,7 +49,7 @@ void main() {
   if (args.has_glass != 0u) {
     // Rays that a pane stopped also stand for those that it let pass
     float weight = 1.0f;
-    if (lets_light_through(surface.transmission) && crosses_glass(ray.mask)) {
+    if (is_transmissive(surface.transmission) && crosses_glass(ray.mask)) {
       weight = weight_of_stopped(straight_share_at(args.scene, hit.instance, hit.triangle,
                                                    hit.barycentrics, hit.front_face != 0u,
                                                    ray.direction_ws));

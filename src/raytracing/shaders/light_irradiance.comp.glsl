@@ -28,7 +28,7 @@ void main() {
   uint i = gl_GlobalInvocationID.x;
   if (i >= args.count) return;
   LitPointRecord point = args.points.at[args.first + i];
-  bool asks = point.random_index != kAsksForNoLight;
+  bool asks = point.random_index != kNoDirectLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
   LightPicks picks;

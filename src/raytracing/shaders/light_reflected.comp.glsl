@@ -59,7 +59,7 @@ void main() {
   ReflectingReceiver receiver =
       ReflectingReceiver(point, surface.reflectance, frame, to_local(frame, surface.to_viewer_ws),
                          vec2(surface.coat_share, surface.clearcoat_share), args.tree_samples);
-  bool asks = point.random_index != kAsksForNoLight;
+  bool asks = point.random_index != kNoDirectLight;
   RandomStream random = make_random_stream(point.random_index, args.salt, args.seed);
   uint slots = slot_count(args);
   LightPicks picks;

@@ -18,7 +18,7 @@ void main() {
   if (!stops_ray_at(args.scene, instance, triangle, barycentrics, gl_HitTEXT, kRayMeetsAll)) {
     ignoreIntersectionEXT;
   }
-  if (!lets_light_through(material_of(args.scene, instance))) return;
+  if (!is_transmissive(material_of(args.scene, instance))) return;
   bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
   vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,
                                  gl_WorldRayDirectionEXT);

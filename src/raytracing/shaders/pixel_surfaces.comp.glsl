@@ -18,7 +18,7 @@ void main() {
   RayRecord ray = args.rays.at[i];
   HitRecord hit = args.hits.at[i];
   LitPointRecord point =
-      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kAsksForNoLight, 0u,
+      LitPointRecord(ray.origin_ws, -ray.direction_ws, -ray.direction_ws, kNoDirectLight, 0u,
                      vec3(0.0f));
   PixelSurfaceRecord pixel = PixelSurfaceRecord(lambert_reflectance(vec3(0.0f)), vec3(0.0f),
                                                 -ray.direction_ws, no_transmission(),

@@ -20,7 +20,7 @@ bool has_tangents(MeshRecord mesh) {
 bool is_lambert(MaterialRecord material) {
   return (material.flags & kMaterialLambert) != 0u;
 }
-bool lets_light_through(MaterialRecord material) {
+bool is_transmissive(MaterialRecord material) {
   return (material.flags & kMaterialLetsThrough) != 0u;
 }
 bool bounds_volume(MaterialRecord material) {

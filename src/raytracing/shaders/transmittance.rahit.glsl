@@ -10,7 +10,7 @@
 layout(push_constant, scalar) uniform Push {
   TraceArguments args;
 };
-layout(location = 0) rayPayloadInEXT LightOnItsWay light;
+layout(location = 0) rayPayloadInEXT TransmittancePayload light;
 hitAttributeEXT vec2 barycentrics;
 
 void main() {
@@ -20,7 +20,7 @@ void main() {
     ignoreIntersectionEXT;
   }
   MaterialRecord material = material_of(args.scene, instance);
-  if (!lets_light_through(material)) return;
+  if (!is_transmissive(material)) return;
   bool from_front = gl_HitKindEXT == gl_HitKindFrontFacingTriangleEXT;
   vec3 share = straight_share_at(args.scene, instance, triangle, barycentrics, from_front,
                                  gl_WorldRayDirectionEXT);

@@ -9,14 +9,14 @@
 layout(push_constant, scalar) uniform Push {
   TraceArguments args;
 };
-layout(location = 0) rayPayloadEXT LightOnItsWay light;
+layout(location = 0) rayPayloadEXT TransmittancePayload light;
 
 void main() {
   uint i = gl_LaunchIDEXT.y * gl_LaunchSizeEXT.x + gl_LaunchIDEXT.x;
   if (i >= args.count) return;
   RayRecord ray = args.rays.at[i];
   if (args.to_hits != 0u) ray.t_max = before_hit(args.hits.at[i].distance);
-  light = LightOnItsWay(vec3(1.0f), vec3(0.0f), crosses_glass(ray.mask) ? 1u : 0u, 0u);
+  light = TransmittancePayload(vec3(1.0f), vec3(0.0f), crosses_glass(ray.mask) ? 1u : 0u, 0u);
   uint mask = device_mask(ray.mask);
   if (mask != 0u && ray.t_min <= ray.t_max) {
     // A ray counts as stopped unless the miss shader runs, as no shader runs at hits

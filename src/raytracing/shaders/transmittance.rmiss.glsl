@@ -4,7 +4,7 @@
 #extension GL_EXT_ray_tracing : require
 #include "raytracing/vulkan/trace_arguments.h"
 
-layout(location = 0) rayPayloadInEXT LightOnItsWay light;
+layout(location = 0) rayPayloadInEXT TransmittancePayload light;
 
 void main() {
   light.stopped = 0u;

@@ -46,7 +46,7 @@ MaterialRecord record_of(const Scene& scene, const Material& m) {
   record.flags = (m.double_sided ? kMaterialDoubleSided : 0) | (m.unlit ? kMaterialUnlit : 0) |
                  (m.lambert ? kMaterialLambert : 0) | (may_emit(m) ? kMaterialMayEmit : 0) |
                  (m.bounds_volume ? kMaterialBoundsVolume : 0) |
-                 (lets_light_through(m) ? kMaterialLetsThrough : 0) |
+                 (is_transmissive(m) ? kMaterialLetsThrough : 0) |
                  (has_layers(m) ? kMaterialHasLayers : 0);
   record.base_color_texture = record_of(scene, m.base_color_texture);
   record.metallic_roughness_texture = record_of(scene, m.metallic_roughness_texture);

@@ -72,7 +72,7 @@ class DeviceScene {
   const MeshRecord& mesh(std::size_t index) const { return mesh_records_[index]; }
 
   /// Number of lights that every point samples.
-  std::uint32_t asked_lights() const { return asked_lights_; }
+  std::uint32_t enumerated_lights() const { return asked_lights_; }
   /// Number of nodes of the light tree, which holds all others.
   std::uint32_t light_tree_size() const { return tree_size_; }
   bool has_light_tree() const { return tree_size_ > 0; }

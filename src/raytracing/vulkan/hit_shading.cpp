@@ -43,7 +43,7 @@ void HitShading::for_each_chunk(const DeviceScene& scene, std::uint32_t count,
   Chunk chunk{};
   const bool draws = settings.emitters_alone ? scene.has_emitters() : scene.has_light_tree();
   chunk.samples = draws ? static_cast<std::uint32_t>(settings.emissive_samples) : 0;
-  chunk.slots = (settings.emitters_alone ? 0 : scene.asked_lights()) + chunk.samples;
+  chunk.slots = (settings.emitters_alone ? 0 : scene.enumerated_lights()) + chunk.samples;
   const std::uint32_t most = std::clamp(kMaxSlots / std::max(chunk.slots, 1u), 1u, kMaxInvocations);
   chunk.count = std::min(most, count);
   reserve(chunk);

@@ -43,7 +43,7 @@ const uint kMaterialUnlit = 2u;
 const uint kMaterialLambert = 4u;
 const uint kMaterialMayEmit = 8u;  ///< Some point of it may emit light.
 const uint kMaterialBoundsVolume = 16u;
-const uint kMaterialLetsThrough = 32u;  ///< Transmits light; see lets_light_through().
+const uint kMaterialLetsThrough = 32u;  ///< Transmits light; see is_transmissive().
 const uint kMaterialHasLayers = 64u;    ///< See has_layers().
 
 /// See Material in scene.h.

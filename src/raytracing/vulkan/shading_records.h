@@ -12,7 +12,7 @@
 LAMBENT_BEGIN
 
 /// LitPointRecord::random_index of points that receive no direct light.
-const uint kAsksForNoLight = 0xFFFFFFFFu;
+const uint kNoDirectLight = 0xFFFFFFFFu;
 
 /// A point that receives direct light; see LitPoint in direct_light.h. For a ray that left the
 /// scene: its origin, with normals against its direction.
@@ -20,7 +20,7 @@ struct LitPointRecord {
   vec3 position_ws;          ///< [m]
   vec3 normal_ws;            ///< Unit, on the lit side.
   vec3 geometric_normal_ws;  ///< Unit, on the lit side.
-  uint random_index;         ///< Seeds its random numbers; kAsksForNoLight: receives no light.
+  uint random_index;         ///< Seeds its random numbers; kNoDirectLight: receives no light.
   uint albedo_shape;         ///< See LitPoint.
   vec3 to_viewer_ws;         ///< Unit; read where there is a shape.
 };

@@ -20,7 +20,7 @@ struct TraceArguments {
 };
 
 /// The light along a ray, as far as the ray has been traced.
-struct LightOnItsWay {
+struct TransmittancePayload {
   vec3 through;        ///< Share that passes the surfaces so far.
   vec3 optical_depth;  ///< Sum over the volumes on the path.
   uint crosses;        ///< 1: see crosses_glass().

@@ -182,10 +182,10 @@ RsmLights deal_lights(std::span<const ChosenOfMap> maps, const RsmSettings& sett
   // A gather sums the vectors to every few texels of a sub-map. Rotate these, so that blurs combine
   // the vectors to different texels in each sub-map
   for (std::size_t s = 0; s < dealt.size(); ++s) {
-    for (std::size_t k = 0; k + kTexelsPerWay <= longest; k += kTexelsPerWay) {
+    for (std::size_t k = 0; k + kTexelsPerDirection <= longest; k += kTexelsPerDirection) {
       const auto begin = dealt[s].begin() + static_cast<std::ptrdiff_t>(k);
-      std::rotate(begin, begin + static_cast<std::ptrdiff_t>(s % kTexelsPerWay),
-                  begin + kTexelsPerWay);
+      std::rotate(begin, begin + static_cast<std::ptrdiff_t>(s % kTexelsPerDirection),
+                  begin + kTexelsPerDirection);
     }
   }
 

@@ -48,7 +48,7 @@ bool find_pixel(ivec2 at, out AskingPixel pixel) {
   if (at.x >= args.width || at.y >= args.rows) return false;
   int i = at.y * args.width + at.x;
   pixel.point = args.points.at[i];
-  if (pixel.point.random_index == kAsksForNoLight) return false;
+  if (pixel.point.random_index == kNoDirectLight) return false;
   PixelSurfaceRecord surface = args.surfaces.at[i];
   pixel.reflectance = surface.reflectance;
   pixel.frame = make_frame(pixel.point.normal_ws);

@@ -17,7 +17,7 @@ void main() {
   for (int slot = 0; slot < args.slots; ++slot) {
     RayRecord ray = no_ray();
     ReflectedPair pair = ReflectedPair(vec3(0.0f), vec3(0.0f));
-    DealtLight dealt = args.dealt.at[first + slot];
+    AssignedLight dealt = args.dealt.at[first + slot];
     if (asks && dealt.light != brightest) {
       LightCandidate candidate;
       pair = sent_light(pixel, dealt.light, candidate);

@@ -62,7 +62,7 @@ void main() {
       for (int i = 0; i < kGatherPixels; ++i) {
         TexelSight sight = see_texel(pixels[i].position_ws, pixels[i].normal_ws, texel);
         gather_texel(sums[i], pixels[i].normal_ws, sight, texel);
-        if (ways && k % kTexelsPerWay == 0) gather_way(sums[i], sight, texel);
+        if (ways && k % kTexelsPerDirection == 0) gather_way(sums[i], sight, texel);
       }
     }
   }

@@ -31,7 +31,7 @@ void gather_map(inout GatheredLight sum, DiskMap map, Pixel pixel) {
     texel = weigh_disk_texel(texel, disk.weight * float(n * n), n, args.softening);
     TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
     gather_texel(sum, pixel.normal_ws, sight, texel);
-    bool way = (args.flags & kGatherBlurred) != 0u && k % kTexelsPerWay == 0;
+    bool way = (args.flags & kGatherBlurred) != 0u && k % kTexelsPerDirection == 0;
     if (way) gather_way(sum, sight, texel);
   }
 }

@@ -23,7 +23,7 @@ void main() {
     texel.flux *= kInvPi;
     TexelSight sight = see_texel(pixel.position_ws, pixel.normal_ws, texel);
     gather_texel(sum, pixel.normal_ws, sight, texel);
-    if (ways && k % kTexelsPerWay == 0) gather_way(sum, sight, texel);
+    if (ways && k % kTexelsPerDirection == 0) gather_way(sum, sight, texel);
   }
   finish_pixel(args.view, args.target, size, args.flags, pixel, sum);
 }

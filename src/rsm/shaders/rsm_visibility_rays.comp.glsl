@@ -27,7 +27,7 @@ RsmTexelRecord texel_at(int start, int k) {
 }
 
 float worth(Pixel pixel, RsmTexelRecord texel) {
-  return texel_worth(pixel.position_ws, pixel.normal_ws, texel);
+  return texel_target(pixel.position_ws, pixel.normal_ws, texel);
 }
 
 void main() {

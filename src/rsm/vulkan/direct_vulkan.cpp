@@ -69,8 +69,8 @@ void RsmDirectVulkan::start(std::size_t lights, const RsmSettings& settings, int
   width_ = width;
   height_ = height;
   lights_ = deal_direct_lights(lights, settings);
-  dealt_.reserve(device_, lights_.dealt.size() * sizeof(DealtLight), "rsm.dealt_lights");
-  vulkan::write(device_, std::span<const DealtLight>(lights_.dealt), dealt_);
+  dealt_.reserve(device_, lights_.dealt.size() * sizeof(AssignedLight), "rsm.dealt_lights");
+  vulkan::write(device_, std::span<const AssignedLight>(lights_.dealt), dealt_);
   const std::size_t pixels = static_cast<std::size_t>(width) * height;
   const std::size_t shared = lights_.shared() ? pixels : 0;
   const std::size_t blurred = share_period(lights_, settings) > 1 ? shared : 0;

@@ -3,11 +3,11 @@
 // end.
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#include "glossy/shaders/append_way.glsl"
+#include "glossy/shaders/append_path.glsl"
 
 layout(local_size_x = 64) in;
 layout(push_constant, scalar) uniform Push {
-  ForkWaysArguments args;
+  SplitPathsArguments args;
 };
 
 void main() {
@@ -28,5 +28,5 @@ void main() {
                                  point.normal_ws, point.geometric_normal_ws, surface.to_viewer_ws,
                                  random, path, branch);
   args.paths.at[k].fork = path.fork;
-  if (branch.pdf > 0.0f) append_way(args.reflected, i, branch, surface.cone, point, next);
+  if (branch.pdf > 0.0f) append_path(args.reflected, i, branch, surface.cone, point, next);
 }

@@ -5,13 +5,13 @@
 
 /// Appends the path of pixel `i` with a ray that starts at the surface `from`, which the path hit
 /// with this cone.
-void append_way(WayList ways, uint i, CoatPath path, RayCone cone, LitPointRecord from,
+void append_path(PathList list, uint i, CoatPath path, RayCone cone, LitPointRecord from,
                 NextRay next) {
-  uint at = atomicAdd(ways.count.at[0], 1u);
-  ways.paths.at[at] = path;
-  ways.cones.at[at] = reflected_cone(cone, path.pdf);
-  ways.pixels.at[at] = i;
-  ways.rays.at[at] =
+  uint at = atomicAdd(list.count.at[0], 1u);
+  list.paths.at[at] = path;
+  list.cones.at[at] = reflected_cone(cone, path.pdf);
+  list.pixels.at[at] = i;
+  list.rays.at[at] =
       RayRecord(offset_ray_origin(from.position_ws, next.side * from.geometric_normal_ws), 0.0f,
                 next.direction_ws, infinity(), kRayMeetsAll);
 }

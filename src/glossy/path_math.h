@@ -26,8 +26,8 @@ LAMBENT_FN float further_coat_share(Reflectance surface, float n_dot_v, vec3 thr
 /// clearcoat's. Narrower lobes would be hit by hardly any ray, and would then be a bright speck.
 /// Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light Transport",
 /// Eurographics 2013.
-LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
-                           LAMBENT_INOUT(Reflectance) coat, CoatPath path) {
+LAMBENT_FN float regularize_lobe(float n_dot_v, float gi_share, uint bounce,
+                                 LAMBENT_INOUT(Reflectance) coat, CoatPath path) {
   coat.alpha = max(coat.alpha, path.alpha);
   float share = gi_share > 0.0f ? further_coat_share(coat, n_dot_v, path.throughput, bounce) : 0.0f;
   if (share <= 0.0f) coat.alpha = max(coat.alpha, kLeastEndAlpha);
@@ -40,7 +40,7 @@ LAMBENT_FN float meet_coat(float n_dot_v, float gi_share, uint bounce,
 LAMBENT_FN float distance_met(CoatPath path, uint bounce, float so_far, float further) {
   if (bounce == 1u) return further;
   if (path.fork == kForkReflected) return so_far;
-  bool crossed_all = path.pdf == kFoundByNobodyElse && path.stage == kStageOther;
+  bool crossed_all = path.pdf == kNoLightSampling && path.stage == kStageOther;
   return crossed_all ? so_far + further : so_far;
 }
 
@@ -54,8 +54,8 @@ LAMBENT_FN float farther_seen(CoatPath path, float so_far, float further) {
 
 /// Whether a path has reached the first opaque surface behind glass, whose light is stored apart to
 /// be filtered.
-LAMBENT_FN bool comes_behind_glass(CoatPath path, Transmission through) {
-  return path.stage == kStageOther && path.fork != kForkReflected && !lets_light_through(through);
+LAMBENT_FN bool reaches_opaque_surface(CoatPath path, Transmission through) {
+  return path.stage == kStageOther && path.fork != kForkReflected && !is_transmissive(through);
 }
 
 /// Bounce from which reflected branches count: distances are found on bounce 1, which none has.
@@ -65,7 +65,7 @@ const uint kFirstBounceOfForks = 2u;
 const float kAlwaysReflected = -1.0f, kNeverReflected = 1.0f;
 
 /// Adds light at a path's hit, without its emission, to the light of its pixel's ray.
-LAMBENT_FN void bring_light(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
+LAMBENT_FN void add_radiance(CoatPath path, vec3 light, LAMBENT_INOUT(CoatRay) ray) {
   if (path.stage >= kStageCoatBehindGlass) {
     ray.apart += path.throughput * light;
   } else {
@@ -82,7 +82,7 @@ LAMBENT_FN void meet_emitter(CoatPath path, vec3 emission, uint emitter_samples,
   if (path.stage == kStageOwnCoat) {
     ray.apart += path.throughput * emission;
   } else {
-    bring_light(path, found_emitter_weight(path.pdf, emitter_samples) * emission, ray);
+    add_radiance(path, found_emitter_weight(path.pdf, emitter_samples) * emission, ray);
   }
 }
 
@@ -118,9 +118,9 @@ struct NextRay {
 
 /// Continues a path by reflection from a coat, where further rays supply the share `coat_share` of
 /// its light. Sets the path's pdf to 0 where it ends.
-LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 normal_ws,
-                                   vec3 geometric_normal_ws, vec3 to_viewer_ws, vec2 u,
-                                   LAMBENT_INOUT(CoatPath) path) {
+LAMBENT_FN NextRay extend_by_reflection(Reflectance coat, float coat_share, vec3 normal_ws,
+                                        vec3 geometric_normal_ws, vec3 to_viewer_ws, vec2 u,
+                                        LAMBENT_INOUT(CoatPath) path) {
   NextRay next = {normal_ws, 1.0f};
   path.pdf = 0.0f;
   if (coat_share <= 0.0f) return next;
@@ -136,8 +136,8 @@ LAMBENT_FN NextRay go_on_from_coat(Reflectance coat, float coat_share, vec3 norm
 }
 
 /// Continues a path through a surface, or from the inside of its volume, where it may be reflected.
-LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 normal_ws,
-                                 vec3 to_viewer_ws, vec3 u, LAMBENT_INOUT(CoatPath) path) {
+LAMBENT_FN NextRay extend_through_glass(Transmission through, Reflectance coat, vec3 normal_ws,
+                                        vec3 to_viewer_ws, vec3 u, LAMBENT_INOUT(CoatPath) path) {
   ThroughDraw drawn = draw_through(through, coat, normal_ws, to_viewer_ws, u);
   path.throughput *= drawn.weight;
   path.alpha = max(path.alpha, through.alpha);
@@ -147,10 +147,10 @@ LAMBENT_FN NextRay go_on_through(Transmission through, Reflectance coat, vec3 no
 }
 
 /// Probability with which a path goes on through the surface that it hit on bounce `bounce`. From
-/// the inside of a volume it is 1: go_on_through() decides on inner reflection.
+/// the inside of a volume it is 1: extend_through_glass() decides on inner reflection.
 LAMBENT_FN float crossing_chance(Transmission through, Reflectance coat, float coat_share,
                                  float n_dot_v, uint bounce) {
-  if (bounce >= kMaxWays || !lets_light_through(through)) return 0.0f;
+  if (bounce >= kMaxPathVertices || !is_transmissive(through)) return 0.0f;
   return crossing_probability(passing_share(through, coat, n_dot_v),
                               coat_share * specular_albedo(coat, n_dot_v));
 }
@@ -176,17 +176,19 @@ LAMBENT_FN NextRay go_on(Transmission through, Reflectance coat, float coat_shar
     if (through.kind == kLeavesVolume) {
       path.throughput *= 1.0f - inner_reflection(n_dot_v, through.eta);
     }
-    return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, kNeverReflected), path);
+    return extend_through_glass(through, coat, normal_ws, to_viewer_ws, vec3(u, kNeverReflected),
+                                path);
   }
   float crossing = crossing_chance(through, coat, coat_share, n_dot_v, bounce);
   // Draw no further number where the surface transmits nothing
   if (crossing > 0.0f && (crossing >= 1.0f || next_uniform(random) < crossing)) {
     path.throughput /= crossing;
-    return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, next_uniform(random)),
-                         path);
+    return extend_through_glass(through, coat, normal_ws, to_viewer_ws,
+                                vec3(u, next_uniform(random)), path);
   }
   if (crossing > 0.0f) path.throughput /= 1.0f - crossing;
-  return go_on_from_coat(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u, path);
+  return extend_by_reflection(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u,
+                              path);
 }
 
 /// Splits a path: returns the ray of the reflected branch, and marks `path` as the transmitted one.
@@ -199,11 +201,12 @@ LAMBENT_FN NextRay go_on_reflected(Transmission through, Reflectance coat, float
   branch.fork = kForkReflected;
   path.fork = kForkCrosses;
   if (through.kind != kLeavesVolume) {
-    return go_on_from_coat(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u,
-                           branch);
+    return extend_by_reflection(coat, coat_share, normal_ws, geometric_normal_ws, to_viewer_ws, u,
+                                branch);
   }
   branch.throughput *= inner_reflection(dot(normal_ws, to_viewer_ws), through.eta);
-  return go_on_through(through, coat, normal_ws, to_viewer_ws, vec3(u, kAlwaysReflected), branch);
+  return extend_through_glass(through, coat, normal_ws, to_viewer_ws, vec3(u, kAlwaysReflected),
+                              branch);
 }
 
 LAMBENT_END

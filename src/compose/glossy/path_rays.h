@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compose/glossy/ray_reuse.h"
-#include "glossy/way_math.h"
+#include "glossy/path_math.h"
 #include "raytracing/camera_rays.h"
 #include "shared/rays.h"
 
