@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Double-float numbers with twice a float's precision, for sums and small linear systems on devices
-// without doubles. Based on: Dekker, "A Floating-Point Technique for Extending the Available
-// Precision", Numerische Mathematik 18, 1971; Knuth, "The Art of Computer Programming", vol. 2,
-// sec. 4.2.2.
+// without doubles.
+// Based on: Dekker, "A Floating-Point Technique for Extending the Available Precision", Numerische
+// Mathematik 18, 1971; Knuth, "The Art of Computer Programming", vol. 2, sec. 4.2.2.
 #ifndef LAMBENT_SHARED_WIDE_H
 #define LAMBENT_SHARED_WIDE_H
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The importance of a cluster of lights for a point: the weights by which a light tree is
-// traversed. Based on: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive
-// Tree Splitting", PACMCGIT 1(2), 2018.
+// traversed.
+// Based on: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+// Splitting", PACMCGIT 1(2), 2018.
 #ifndef LAMBENT_SCENE_LIGHT_TREE_MATH_H
 #define LAMBENT_SCENE_LIGHT_TREE_MATH_H
 
