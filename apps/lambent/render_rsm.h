@@ -21,8 +21,8 @@ struct RsmOptions {
   std::string pattern = "whole";
   std::string layout = "restructured";
   bool no_final_blur = false, no_shuffle = false, no_view_importance = false;
-  std::vector<const CLI::Option*> options;  // what means nothing to other methods
-  const CLI::Option* radius = nullptr;      // which means nothing to the other pattern
+  std::vector<const CLI::Option*> options;  // options only for methods with maps
+  const CLI::Option* radius = nullptr;      // only for RsmPattern::disk
 };
 
 void add_rsm_options(CLI::App& command, RsmOptions& options);
