@@ -4,7 +4,7 @@
 const TURN = 0.005; // per dragged pixel [rad]
 const KEY_TURN = 1.2; // [rad/s]
 const KEYS_TO_CROSS = 4; // seconds to cross the scene
-const WHEEL_STEP = 0.02; // of the scene's size
+const WHEEL_STEP = 0.02; // as a share of the scene's size
 const STEEPEST = 1.5; // [rad]
 
 export class CameraControls {
