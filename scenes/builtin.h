@@ -19,10 +19,10 @@
 //
 // Why the furnace is 1: every surface emits radiance e and reflects albedo a of what arrives. If
 // radiance L arrives from everywhere, every surface sends out e + a L; the room is closed, so L = e
-// + a L and L = e / (1 - a) = 0.5 / (1 - 0.5) = 1, whatever stands in the room. The sky furnace: a
+// + a L and L = e / (1 - a) = 0.5 / (1 - 0.5) = 1, whatever the room contains. The sky furnace: a
 // convex body sees sky alone, so its irradiance is pi * 1 and the radiance it reflects 0.5 / pi *
-// pi = 0.5. Materials of all scenes but the atrium, the spheres and what is of glass are exact
-// Lambert (Material::lambert).
+// pi = 0.5. Materials of all scenes, except the atrium, the spheres and glass, are exact Lambert
+// (Material::lambert).
 #pragma once
 
 #include <string>

@@ -158,7 +158,7 @@ Expected<void> FrameRenderer::split_bounces(const Camera& camera, Json& stats) {
   return {};
 }
 
-/// Brings the fields that the method looks up up to date with the world.
+/// Updates the fields of the method to the current world.
 Expected<void> FrameRenderer::light(const Camera& camera, Json& stats) {
   if (!uses_field(options_)) return {};
   begin_step("updating the field");

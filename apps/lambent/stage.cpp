@@ -143,6 +143,7 @@ std::string describe(const View& view) {
   }
   const glm::vec3 eye(view.camera.world_from_view[3]);
   // The printed options give the same view: the target is far enough away to preserve the direction
+  // in rounded numbers
   const glm::vec3 target =
       eye - std::max(glm::length(eye), 1.0f) * glm::vec3(view.camera.world_from_view[2]);
   char text[256];

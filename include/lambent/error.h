@@ -23,7 +23,7 @@ struct Error {
   std::string message() const;
 };
 
-/// A value of type T, or the Error that kept it from existing.
+/// A value of type T, or the Error because of which there is none.
 template <class T, class E = Error>
 using Expected = tl::expected<T, E>;
 

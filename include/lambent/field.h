@@ -66,8 +66,8 @@ struct FieldSettings {
   /// square root.
   int rays_per_probe = 144;
   /// Share of the old value that an update keeps once enough updates have been averaged, 0 to
-  /// 0.999. Higher is smoother. Edits that the world tells of do not wait for it, so that it need
-  /// not be low.
+  /// 0.999. Higher is smoother. Edits of the world take effect without regard to it, so that it
+  /// need not be low.
   float hysteresis = 0.99f;
 
   /// Texels of a probe's irradiance tile along an edge, without gutter, even, 2 to 16. Bytes
@@ -186,7 +186,7 @@ struct UpdateStatistics {
   /// date with edits of the world. "schedule": choosing the probes to trace. "trace": closest hits
   /// of their rays. "shade": surfaces, and direct light with shadow rays. "blend_distances":
   /// distances into the store. "visibility": which probes see each other, with hybrid visibility.
-  /// "corrections": gathers that tell how far lookups are off. "lookups": lookup weights of
+  /// "corrections": gathers that measure the errors of lookups. "lookups": lookup weights of
   /// surfels. "solve": multi-bounce solve, of edits too.
   /// "variability": how much the light changed. "store": irradiance into the store.
   std::vector<PassTime> passes;

@@ -13,7 +13,7 @@ LAMBENT_FN float sign_not_zero(float value) {
   return value >= 0.0f ? 1.0f : -1.0f;
 }
 
-/// The point of the square [-1, 1]^2 that stands for a direction (need not be unit, must not be
+/// The point of the square [-1, 1]^2 that represents a direction (need not be unit, must not be
 /// zero). The upper half (z >= 0) maps to the inner diamond.
 LAMBENT_FN vec2 octahedral_encode(vec3 direction) {
   float l1_norm = abs(direction.x) + abs(direction.y) + abs(direction.z);

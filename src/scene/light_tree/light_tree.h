@@ -86,7 +86,7 @@ class LightTree {
   std::vector<LightTreeNode> nodes_;
   std::vector<std::uint32_t> parents_;  // by node
   std::vector<std::uint32_t> leaves_;   // by light of the tree
-  std::vector<LightKey> keys_;          // what is in the tree
+  std::vector<LightKey> keys_;          // the lights of the tree
   double cost_when_built_ = 0.0;
   int builds_ = 0;
   LightGroups groups_;
